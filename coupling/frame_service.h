@@ -1,0 +1,68 @@
+#pragma once
+
+#include "coupling/reduced_frame.h"
+#include "fem/frame_matrices.h"
+#include "fem/frame_specification.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+struct ReductionOptions
+{
+  int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
+  double      tolerance = 0.01; ///< relative error of the frequencies up to `frequency` (automatic number)
+  double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: 3.5 times the lowest twelve modes' range
+  std::string place;            ///< "press.toml:60: reduction", heads messages
+};
+
+/// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
+using Progress = std::function<void(const std::string &phase, double share)>;
+
+struct SurfaceReport
+{
+  int                   tag;
+  std::string           name, type;
+  double                area; ///< [m^2]
+  std::array<double, 3> min, max, centre;
+};
+
+struct MeshReport
+{
+  int                        n_points = 0, n_cells = 0, n_coordinates = 0;
+  double                     volume = 0., mass = 0., worst_quality = 0.;
+  std::vector<std::string>   solids;
+  std::vector<SurfaceReport> surfaces;
+};
+
+/// CPU and wall seconds a phase took.
+struct PhaseTime
+{
+  std::string phase;
+  double      wall, cpu;
+};
+
+/**
+ * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame
+ * must be made.  Throws std::invalid_argument for wrong input, ConvergenceFailure for failed methods.
+ */
+class FrameService
+{
+public:
+  virtual ~FrameService() = default;
+  virtual MeshReport         mesh(const fem::FrameSpecification &frame, const Progress &progress)     = 0;
+  virtual fem::FrameMatrices assemble(const fem::FrameSpecification &frame, const Progress &progress) = 0;
+  /// Craig-Bampton (5.5.3/14-23), modal damping included.
+  virtual ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                              const Progress &progress) = 0;
+  /// Fills frame.modal_damping with the lowest n_modes modes of the supported frame with free interface.
+  virtual void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) = 0;
+};
+
+} // namespace gestell::coupling
+
+/// The one symbol of the plugin.
+extern "C" gestell::coupling::FrameService *gestell_frame_service();

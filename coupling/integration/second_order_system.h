@@ -1,0 +1,118 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <complex>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Solves  (w_M M + w_B B + w_C C) x = f  for fixed weights; made by SecondOrderSystem::factorise().
+class LinearSolver
+{
+public:
+  virtual ~LinearSolver()                                              = default;
+  virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
+};
+
+/// Motion of all local measures u = W^T q at one instant.
+struct LocalState
+{
+  double          t = 0.;
+  Eigen::VectorXd u, v, a; // [n_u]
+};
+
+enum class GuardCrossing
+{
+  rising,
+  falling
+};
+
+/// A switching function that is active now: whose it is, and which transition its zero means.
+struct ActiveGuard
+{
+  std::string   name; ///< of the element in the scene
+  std::string   kind; ///< of the transition
+  GuardCrossing crossing;
+};
+
+/// One mode of the linear base system: s = -zeta omega +- i omega sqrt(1 - zeta^2).
+struct SpectrumLine
+{
+  double omega; ///< [rad/s]
+  double zeta;  ///< [1]
+};
+
+/**
+ * The machine as every integrator and every search for steady states sees it (5.5.2/1):
+ *
+ *     M q'' + B q' + C q + G(q)^T lambda = f_t(t) + W p(t, u, u', u'', history),     u = W^T q,     g(t, q) = 0.
+ *
+ * M, B, C [n x n] and W [n x n_u] are constant; p is nonlinear and block diagonal, a few measures per element.  The
+ * system alone knows how its matrices are stored and solved with: dense, reduced or sparse.
+ */
+class SecondOrderSystem
+{
+public:
+  virtual ~SecondOrderSystem() = default;
+
+  // --- linear base system
+  virtual int  size() const                                                                         = 0;
+  virtual void mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                        = 0;
+  virtual void damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                     = 0;
+  virtual void stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                   = 0;
+  virtual std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const          = 0;
+  virtual std::vector<SpectrumLine>     spectrum() const                                             = 0;
+  /// f_t(t) [n].
+  virtual void excitation(double t, Eigen::VectorXd &f) const = 0;
+  /// True if f_t does not depend on time: integrators then evaluate it once.
+  virtual bool excitation_is_constant() const = 0;
+
+  // --- local nonlinear forces
+  /// W [n x n_u].
+  virtual const Eigen::SparseMatrix<double> &directions() const                                      = 0;
+  virtual void local_force(const LocalState &state, Eigen::VectorXd &p) const                        = 0;
+  /// p [n_u] and  w_u dp/du + w_v dp/dv + w_a dp/da  [n_u x n_u], block diagonal by element.
+  virtual void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                             Eigen::MatrixXd &dp) const                                              = 0;
+
+  // --- history of the elements: changes on accept() and transition() only
+  virtual Eigen::VectorXd save_history() const                         = 0;
+  virtual void            restore_history(const Eigen::VectorXd &saved) = 0;
+  virtual void            start(const LocalState &state)               = 0;
+  virtual void            accept(const LocalState &state)              = 0;
+
+  // --- events
+  virtual int         n_guards() const                                                  = 0;
+  virtual void        guard_values(const LocalState &state, Eigen::VectorXd &g) const   = 0;
+  virtual ActiveGuard guard(int i) const                                                = 0;
+  virtual void        transition(int i, const LocalState &state)                        = 0;
+
+  // --- ideal joints; most machines have none
+  virtual int  n_constraints() const { return 0; }
+  virtual void constraints(double t, const Eigen::VectorXd &q, Eigen::VectorXd &g) const;
+  virtual void constraint_jacobian(double t, const Eigen::VectorXd &q, Eigen::MatrixXd &G) const;
+
+  // --- energy
+  /// Energy [J] stored in the elements.
+  virtual double local_stored_energy(const LocalState &state) const = 0;
+  /// Power p . u' [W] of the elements that drive (input) and of all others.
+  virtual void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const = 0;
+
+  /// Name of coordinate i, for messages.
+  virtual std::string coordinate_name(int i) const = 0;
+};
+
+/// A numerical method failed: where, and by how much.
+class ConvergenceFailure : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// The six motions of an interface node, in this order.
+enum Motion
+{
+  ux,
+  uy,
+  uz,
+  rx,
+  ry,
+  rz
+};
+
+/// Where the motions of one interface node stand in q: motion i is sign[i] * q[coordinate[i]], or held if -1.
+struct Interface
+{
+  std::string           name;
+  std::array<double, 3> position{}; ///< [m]
+  std::array<int, 6>    coordinate{-1, -1, -1, -1, -1, -1};
+  std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
+};
+
+/// A force read off the frame:  on_q . q + on_v . q'.
+struct FrameOutput
+{
+  std::string     name; ///< "cut.columns", "support.feet"
+  std::string     unit; ///< "N"
+  Eigen::VectorXd on_q; // [n]
+  Eigen::VectorXd on_v; // [n]
+};
+
+/// Skin of the frame for pictures: displacement of point i, direction d is row 3 i + d of `displacement` times q.
+struct Picture
+{
+  std::vector<std::array<double, 3>> points;    ///< [m]
+  std::vector<std::array<int, 3>>    triangles; // into points
+  Eigen::SparseMatrix<double, Eigen::RowMajor> displacement; // [3 points x n]
+};
+
+/// Modal damping as an operator of low rank: B = Z diag(d) Z^T with Z = M Phi [n x p], d = 2 zeta omega [p].
+struct ModalDamping
+{
+  Eigen::MatrixXd Z;
+  Eigen::VectorXd d;
+};
+
+/**
+ * A linear frame M q'' + B q' + C q = f, the one value that fem hands to coupling.
+ *
+ * Held coordinates are already removed and coupled surfaces eliminated: M is positive (semi)definite, B and C are
+ * symmetric and positive semidefinite; both triangles are stored.
+ */
+struct FrameMatrices
+{
+  Eigen::SparseMatrix<double> M, B, C; // [n x n] kg, N s/m, N/m
+  double                      modal_damping_ratio = 0.; ///< zeta of the modes of the supported frame
+  ModalDamping                modal_damping;            ///< empty until computed
+  std::vector<Interface>      interfaces;
+  Eigen::MatrixXd             translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
+  std::vector<FrameOutput>    outputs;
+  Picture                     picture;
+  double                      mass = 0.; ///< of the frame [kg]
+  int                         n_cells = 0;
+
+  /// Coordinates q1 of all interfaces, ascending.
+  std::vector<int> interface_coordinates() const;
+};
+
+} // namespace gestell::fem

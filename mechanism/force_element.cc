@@ -1,0 +1,25 @@
+#include "mechanism/force_element.h"
+
+#include <algorithm>
+
+namespace gestell::mechanism
+{
+
+void ForceElement::engaged(const double *, double *K, double *D) const
+{
+  const int k = n_measures();
+  std::fill_n(K, k * k, 0.);
+  std::fill_n(D, k * k, 0.);
+}
+
+bool ForceElement::closure(const double *, const double *, double &, double *, double &) const { return false; }
+
+double ForceElement::stored_energy(const LocalMotion &, const double *) const { return 0.; }
+
+std::vector<Guard> ForceElement::guards(const double *) const { return {}; }
+
+void ForceElement::guard_values(const LocalMotion &, const double *, double *) const {}
+
+void ForceElement::transition(int, const LocalMotion &, double *) const {}
+
+} // namespace gestell::mechanism

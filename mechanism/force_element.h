@@ -1,0 +1,106 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/// Motion of the k measures of one element at one instant: u [k] in m or rad, its rates v = u' and a = u''.
+struct LocalMotion
+{
+  double        t;
+  const double *u;
+  const double *v;
+  const double *a;
+};
+
+/// The tangent asked for is  w.u dp/du + w.v dp/dv + w.a dp/da.  An implicit integrator, in which v and a depend
+/// linearly on u, needs just this one combination (BDF: w = (1, 1/h_beta, 1/h_beta^2)).
+struct TangentWeights
+{
+  double u, v, a;
+};
+
+/// Where the work of an element goes that it does not store: a drive feeds the machine, all else dissipates.
+enum class Work
+{
+  dissipated,
+  input
+};
+
+enum class Crossing
+{
+  rising,
+  falling
+};
+
+/// A switching function of the branch an element is in; the transition happens where it crosses zero in `crossing`.
+struct Guard
+{
+  std::string kind; ///< name of the transition, e.g. "tool_contact"
+  Crossing    crossing;
+};
+
+/// A scalar an element can tell about itself.
+struct Quantity
+{
+  std::string name; ///< e.g. "force"
+  std::string unit; ///< e.g. "N"
+};
+
+/**
+ * A nonlinear force of the machine, written in k scalar measures u = W^T q of its motion.
+ *
+ * The element returns the generalised force p [k] (N or N m) conjugate to its measures; on the coordinates of the
+ * machine acts W p, so that its power is p . u'.  W is constant and belongs to whoever places the element.
+ *
+ * Memory (largest penetration, active branch, sliding state) lies outside, in n_history() numbers per element that the
+ * system owns, saves and restores as one vector.  force() and tangent() never change it; accept() and transition()
+ * do, and are called for accepted motion only.
+ */
+class ForceElement
+{
+public:
+  virtual ~ForceElement() = default;
+
+  virtual int n_measures() const = 0;
+  virtual int n_history() const { return 0; }
+
+  /// Sets the history for a motion that begins here.
+  virtual void start(const LocalMotion &, double *history) const { (void)history; }
+
+  /// p [k] for the given motion.
+  virtual void force(const LocalMotion &motion, const double *history, double *p) const = 0;
+
+  /// p [k] and its tangent dp [k x k, column major] for the weights w.
+  virtual void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
+                       double *dp) const = 0;
+
+  /// Stiffness K = -dp/du and damping D = -dp/dv [k x k, column major] the element has as part of the structure when
+  /// it is engaged (play closed) at the configuration u; geometric stiffness is left out.  Used for natural
+  /// frequencies.  Technological forces and drives are no structure: zero, the default.
+  virtual void engaged(const double *u, double *K, double *D) const;
+
+  /// Position function the element closes when it is engaged, g(u) = 0 (compression of a rod, twist of a coupling):
+  /// returns false if there is none; else g, its gradient [k] and its second derivative along v, v^T g'' v.
+  virtual bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const;
+
+  virtual void accept(const LocalMotion &, double *history) const { (void)history; }
+
+  /// Energy [J] stored in the element; what it takes up beyond it is work() .
+  virtual double stored_energy(const LocalMotion &, const double *history) const;
+  virtual Work   work() const { return Work::dissipated; }
+
+  /// Switching functions of the branch that `history` says is active.
+  virtual std::vector<Guard> guards(const double *history) const;
+  virtual int                n_guards(const double *history) const { return (void)history, 0; }
+  virtual void guard_values(const LocalMotion &motion, const double *history, double *g) const;
+  /// Takes the transition of guard i at the motion where it crossed zero.
+  virtual void transition(int i, const LocalMotion &motion, double *history) const;
+
+  virtual std::vector<Quantity> quantities() const = 0;
+  virtual double quantity(int i, const LocalMotion &motion, const double *history) const = 0;
+};
+
+} // namespace gestell::mechanism
