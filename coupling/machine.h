@@ -1,0 +1,163 @@
+#pragma once
+
+#include "coupling/integration/second_order_system.h"
+#include "coupling/marker.h"
+#include "coupling/reduced_frame.h"
+#include "mechanism/force_element.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+class LinearBase;
+
+/// A scalar the user asks for: scale * (on_q . q + on_v . q' + quantity of an element) + offset.
+struct Signal
+{
+  std::string name; ///< the user's, e.g. "F_P"
+  std::string unit; ///< "N"
+  Measure     on_q, on_v;
+  int         element  = -1;
+  int         quantity = -1;
+  double      scale    = 1.;
+  double      offset   = 0.;
+};
+
+enum class BodyKind
+{
+  rotor, ///< one angle [rad] about `axis`
+  slider ///< one displacement [m] along `axis`
+};
+
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`.
+struct Body
+{
+  std::string name;
+  BodyKind    kind       = BodyKind::rotor;
+  int         coordinate = -1;
+  Vector3     axis{};
+  Vector3     position{}; ///< [m] at zero displacement
+  double      radius = 0.;
+  Vector3     size{};
+  Marker      marker;
+};
+
+/// Bar drawn between the pin of a rotor and a slider.
+struct DrawnRod
+{
+  std::string name, crank, slider;
+  double      crank_radius = 0., length = 0.;
+};
+
+struct ElementPlacement
+{
+  std::string                              name;
+  std::shared_ptr<mechanism::ForceElement> element;
+  std::vector<Measure>                     measures; ///< one per measure of the element
+};
+
+/**
+ * The coupled machine: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
+ * couplings that join the base system, and nonlinear elements.
+ *
+ * Coordinates: those of the frame first (q1, then modes), then one per rotor or slider in the order they were added.
+ * Call set_frame() first, finish() last; then it is a SecondOrderSystem.
+ */
+class Machine : public SecondOrderSystem
+{
+public:
+  Machine();
+  ~Machine() override;
+  Machine(Machine &&) noexcept;
+  Machine &operator=(Machine &&) noexcept;
+
+  // --- building
+  void set_frame(ReducedFrame frame);       ///< dense
+  void set_frame(fem::FrameMatrices frame); ///< unreduced: every coordinate of the frame is one of the machine's
+  void set_gravity(const Vector3 &g);       ///< [m/s^2], acts on the frame and on bodies added afterwards
+
+  /// A rotor of inertia J [kg m^2] about `axis`, carried by `carrier` ("ground", "frame.crown"), with mass [kg] at the
+  /// carrier.
+  int add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass, const std::string &carrier);
+  /// A slider of mass m [kg] that moves along `axis`; sideways it moves with `guide`, where its mass counts.
+  int add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide);
+  /// Point mass m [kg] with inertia about x, y, z [kg m^2] on a marker, at `offset` [m] from it.
+  void add_point_mass(const std::string &name, const std::string &marker, double mass, const Vector3 &inertia,
+                      const Vector3 &offset);
+  /// How a body is drawn.
+  void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
+  void draw_rod(const DrawnRod &rod);
+
+  /// Linear spring, damper and constant force on a measure u, joining the base system: acts with
+  /// -(c (u - u0) + b u' + F0) on u.  Signal quantities "force", "displacement", "rate".
+  void add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
+                  double rest, const std::string &force_unit);
+
+  /// Nonlinear element acting on its measures.
+  void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
+              const std::vector<Measure> &measures);
+
+  /// Ends building: assembles the base system and W.
+  void finish();
+
+  // --- looking up, valid while building; all throw std::invalid_argument with the nearest name
+  const Marker &marker(const std::string &name) const; ///< "ground", "crank", "frame.crown"
+  const Body   &body(const std::string &name) const;
+  int           coordinate(const std::string &name) const; ///< of a body, or "frame.crown.uz"
+  /// "crank.angle", "crank.speed", "slide.displacement", "slide.velocity", "frame.crown.uz", "frame.crown.uz_rate",
+  /// "frame.cut.columns", "frame.support.feet", "rod.force" ...; a leading minus turns the sign.
+  Signal                          signal(const std::string &name, const std::string &path) const;
+  std::vector<std::string>        signal_paths() const;
+  const std::vector<Body>        &bodies() const;
+  const std::vector<DrawnRod>    &rods() const;
+  const std::vector<ElementPlacement> &elements() const;
+  const ReducedFrame             *reduced_frame() const; ///< null if there is none
+  const fem::FrameMatrices       *full_frame() const;    ///< null if there is none
+  const LinearBase               &base() const;
+  int                             n_frame() const;       ///< coordinates of the frame
+  int                             n_interface() const;
+  /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
+  Eigen::MatrixXd                 translation_loads() const;
+
+  double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                  const LocalState &local) const;
+  /// u, v, a of all elements for q, q', q''.
+  void gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
+              LocalState &local) const;
+
+  // --- SecondOrderSystem
+  int  size() const override;
+  void mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  std::unique_ptr<LinearSolver>      factorise(double w_M, double w_B, double w_C) const override;
+  std::vector<SpectrumLine>          spectrum() const override;
+  void                               excitation(double t, Eigen::VectorXd &f) const override;
+  bool                               excitation_is_constant() const override;
+  const Eigen::SparseMatrix<double> &directions() const override;
+  void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
+  void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                     Eigen::MatrixXd &dp) const override;
+  Eigen::VectorXd save_history() const override;
+  void            restore_history(const Eigen::VectorXd &saved) override;
+  void            start(const LocalState &state) override;
+  void            accept(const LocalState &state) override;
+  int             n_guards() const override;
+  void            guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
+  ActiveGuard     guard(int i) const override;
+  void            transition(int i, const LocalState &state) override;
+  double          local_stored_energy(const LocalState &state) const override;
+  void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const override;
+  std::string coordinate_name(int i) const override;
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace gestell::coupling
