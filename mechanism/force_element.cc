@@ -12,11 +12,20 @@ void ForceElement::engaged(const double *, double *K, double *D) const
   std::fill_n(D, k * k, 0.);
 }
 
-bool ForceElement::closure(const double *, const double *, double &, double *, double &) const { return false; }
+bool ForceElement::closure(const double *, const double *, double &, double *, double &) const
+{
+  return false;
+}
 
-double ForceElement::stored_energy(const LocalMotion &, const double *) const { return 0.; }
+double ForceElement::stored_energy(const LocalMotion &, const double *) const
+{
+  return 0.;
+}
 
-std::vector<Guard> ForceElement::guards(const double *) const { return {}; }
+std::vector<Guard> ForceElement::guards(const double *) const
+{
+  return {};
+}
 
 void ForceElement::guard_values(const LocalMotion &, const double *, double *) const {}
 

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "mechanism/differentiable_element.h"
+
+namespace gestell::mechanism
+{
+
+/**
+ * Blanking (shearing through) of a sheet, with its history.
+ *
+ * Measure u [m]: displacement of the punch against the die in feed direction; penetration z = u - x_T.  The force
+ * F >= 0 [N] resists: p = -F.  With F_max = k_s L_s h, z_m = eps_m h, z_d = z_m + eps_d h the virgin curve is
+ *
+ *     0 < z < z_m     F_v = F_max [1 - (1 - z/z_m)^n]                                                     rise
+ *     z_m <= z < z_d  F_v = F_max [1 - (1 - rho)(3 xi^2 - 2 xi^3)],   xi = (z - z_m)/(z_d - z_m)          fracture
+ *     z_d <= z < h    F_v = rho F_max [1 - (3 xi^2 - 2 xi^3)],        xi = (z - z_d)/(h - z_d)            slug friction
+ *     else            F_v = 0
+ *
+ * and with the largest penetration z_max so far
+ *
+ *     F = F_v(z) if z >= z_max, else max(0, F_v(z_max) - c_el (z_max - z));      0 for good once z reached h.
+ *
+ * Its work counts as dissipated.  Source: reference model of the crank press, section 3; docs/theory/elements.md.
+ */
+class BlankingForce : public DifferentiableElement<BlankingForce, 1>
+{
+public:
+  struct Parameters
+  {
+    double thickness            = 0.;   ///< h [m], > 0
+    double cut_length           = 0.;   ///< L_s [m], > 0
+    double shear_resistance     = 0.;   ///< k_s [Pa], > 0
+    double peak_penetration     = 0.35; ///< eps_m, z_m / h, in (0, 1)
+    double rise_exponent        = 8.;   ///< n, >= 1
+    double fracture_penetration = 0.25; ///< eps_d, (z_d - z_m)/h, > 0, eps_m + eps_d < 1
+    double friction_share       = 0.08; ///< rho, in [0, 1]
+    double elastic_stiffness    = 0.;   ///< c_el [N/m], above the initial slope n F_max/z_m
+    double contact_at           = 0.;   ///< x_T [m], u at which the punch touches
+  };
+
+  explicit BlankingForce(const Parameters &parameters);
+
+  template <typename Number>
+  void law(double, const Number *u, const Number *, const Number *, const double *history, Number *p) const
+  {
+    const double z_max = history[0];
+    const Number z     = u[0] - parameters_.contact_at;
+    if (z_max >= parameters_.thickness)
+      p[0] = Number(0.);
+    else if (z >= z_max)
+      p[0] = -virgin(z);
+    else
+    {
+      const Number unloading = virgin(z_max) - parameters_.elastic_stiffness * (z_max - z);
+      p[0]                   = unloading > 0. ? Number(-unloading) : Number(0.);
+    }
+  }
+
+  /// history: z_max [m], active branch.
+  int n_history() const override { return 2; }
+  void start(const LocalMotion &motion, double *history) const override;
+  void accept(const LocalMotion &motion, double *history) const override;
+
+  int n_guards(const double *history) const override;
+  std::vector<Guard> guards(const double *history) const override;
+  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void transition(int i, const LocalMotion &motion, double *history) const override;
+
+  std::vector<Quantity> quantities() const override;
+  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+  double peak_force() const { return F_max_; } ///< F_max [N]
+
+private:
+  template <typename Number>
+  Number virgin(const Number &z) const
+  {
+    using std::pow;
+    const double h = parameters_.thickness, rho = parameters_.friction_share;
+    if (!(z > 0.) || z >= h)
+      return Number(0.);
+    if (z < z_m_)
+      return F_max_ * (1. - pow(Number(1. - z / z_m_), parameters_.rise_exponent));
+    if (z < z_d_)
+    {
+      const Number xi = (z - z_m_) / (z_d_ - z_m_);
+      return F_max_ * (1. - (1. - rho) * xi * xi * (3. - 2. * xi));
+    }
+    const Number xi = (z - z_d_) / (h - z_d_);
+    return rho * F_max_ * (1. - xi * xi * (3. - 2. * xi));
+  }
+
+  double lift_off(double z_max) const; ///< z_e, penetration at which the unloading line reaches zero
+
+  Parameters parameters_;
+  double F_max_, z_m_, z_d_;
+};
+
+} // namespace gestell::mechanism

@@ -1,0 +1,104 @@
+#pragma once
+
+#include "mechanism/differentiable_element.h"
+
+namespace gestell::mechanism
+{
+
+/**
+ * Elastic connecting rod with play between a crank pin and a slide, along the slide's axis e.
+ *
+ * Measures (phi, s, y): crank angle from top dead centre [rad]; s = e . (x_crank - x_slide) [m]; y, the same
+ * difference across e in the crank's plane [m].  The position function of the slide is
+ *
+ *     u(phi, y) = -r cos phi + w - (l - r),     w = sqrt(l^2 - c^2),   c = r sin phi + y,       u(0, 0) = 0,
+ *
+ * the compression of the chain delta = u(phi, y) + s, its rate delta' = u_phi phi' + u_y y' + s'.
+ * Force along e, compression positive, three branches, continuous (kinks at delta = 0 and delta = -s_cl):
+ *
+ *     delta > 0               F = b_O delta' + c delta + b [1 - exp(-delta/p0)] delta'
+ *     -s_cl <= delta <= 0     F = b_O delta'
+ *     delta < -s_cl           F = b_O delta' - c e + b [1 - exp(-e/p0)] delta',     e = -(delta + s_cl)
+ *
+ * Generalised forces by virtual work: p = -F grad delta; the part on y is F tan(psi), the sideways push of the rod on
+ * crank and slide.  The force along the rod is F / cos(psi), sin(psi) = c/l.
+ *
+ * Source: reference model of the crank press, sections 2 and 3; docs/theory/elements.md.
+ */
+class ConnectingRod : public DifferentiableElement<ConnectingRod, 3>
+{
+public:
+  struct Parameters
+  {
+    double crank_radius   = 0.;   ///< r [m], > 0
+    double length         = 0.;   ///< l [m], > r
+    double stiffness      = 0.;   ///< c [N/m], > 0, of the closed chain
+    double damping        = 0.;   ///< b [N s/m], >= 0, of the closed chain
+    double closing_length = 1e-4; ///< p0 [m], > 0, over which b fades in
+    double clearance      = 0.;   ///< s_cl [m], >= 0, total play
+    double oil_damping    = 0.;   ///< b_O [N s/m], >= 0, acts always
+  };
+
+  explicit ConnectingRod(const Parameters &parameters);
+
+  template <typename Number>
+  void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
+  {
+    Number delta, gradient[3];
+    const double r = parameters_.crank_radius, l = parameters_.length;
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    const Number sine = sin(u[0]), cosine = cos(u[0]);
+    const Number c    = r * sine + u[2];
+    const Number w    = sqrt(Number(l * l - c * c));
+    delta             = -r * cosine + w - (l - r) + u[1];
+    gradient[0]       = r * sine - r * c * cosine / w;
+    gradient[1]       = Number(1.);
+    gradient[2]       = -c / w;
+    const Number rate = gradient[0] * v[0] + gradient[1] * v[1] + gradient[2] * v[2];
+    const Number push = chain_force(delta, rate);
+    for (int i = 0; i < 3; ++i)
+      p[i] = -push * gradient[i];
+  }
+
+  int n_history() const override { return 1; }
+  void start(const LocalMotion &motion, double *history) const override;
+  void engaged(const double *u, double *K, double *D) const override;
+  bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+  double stored_energy(const LocalMotion &motion, const double *history) const override;
+
+  int n_guards(const double *history) const override;
+  std::vector<Guard> guards(const double *history) const override;
+  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void transition(int i, const LocalMotion &motion, double *history) const override;
+
+  std::vector<Quantity> quantities() const override;
+  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+  const Parameters &parameters() const { return parameters_; }
+
+private:
+  /// F(delta, delta').
+  template <typename Number>
+  Number chain_force(const Number &delta, const Number &rate) const
+  {
+    using std::exp;
+    const auto &[r, l, c, b, p0, s_cl, b_O] = parameters_;
+    if (delta > 0.)
+      return b_O * rate + c * delta + b * (1. - exp(-delta / p0)) * rate;
+    if (delta < -s_cl)
+    {
+      const Number e = -(delta + s_cl);
+      return b_O * rate - c * e + b * (1. - exp(-e / p0)) * rate;
+    }
+    return b_O * rate;
+  }
+
+  double compression(const double *u, double *gradient) const;
+  double rate(const LocalMotion &motion) const;
+
+  Parameters parameters_;
+};
+
+} // namespace gestell::mechanism

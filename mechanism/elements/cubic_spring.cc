@@ -1,0 +1,42 @@
+#include "mechanism/elements/cubic_spring.h"
+
+#include "mechanism/require.h"
+
+#include <cmath>
+
+namespace gestell::mechanism
+{
+
+CubicSpring::CubicSpring(const Parameters &parameters) : parameters_(parameters)
+{
+  require(std::isfinite(parameters.stiffness), "cubic spring", "stiffness [N/m]", parameters.stiffness, "finite");
+  require(std::isfinite(parameters.cubic), "cubic spring", "cubic [N/m^3]", parameters.cubic, "finite");
+}
+
+void CubicSpring::engaged(const double *u, double *K, double *D) const
+{
+  K[0] = parameters_.stiffness + 3. * parameters_.cubic * u[0] * u[0];
+  D[0] = 0.;
+}
+
+double CubicSpring::stored_energy(const LocalMotion &motion, const double *) const
+{
+  const double square = motion.u[0] * motion.u[0];
+  return (0.5 * parameters_.stiffness + 0.25 * parameters_.cubic * square) * square;
+}
+
+std::vector<Quantity> CubicSpring::quantities() const
+{
+  return {{"force", "N"}, {"displacement", "m"}};
+}
+
+double CubicSpring::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  if (i == 1)
+    return motion.u[0];
+  double p;
+  force(motion, history, &p);
+  return -p;
+}
+
+} // namespace gestell::mechanism

@@ -1,0 +1,54 @@
+#include "mechanism/elements/cutting_force.h"
+
+#include "mechanism/require.h"
+
+namespace gestell::mechanism
+{
+
+CuttingForce::CuttingForce(const Parameters &parameters) : parameters_(parameters)
+{
+  const auto &[F, z_p, x_T, v0] = parameters_;
+  const std::string name        = "cutting force";
+  require(F >= 0., name, "peak_force [N]", F, "zero or positive");
+  require(z_p > 0., name, "peak_penetration [m]", z_p, "positive");
+  require(v0 > 0., name, "speed [m/s]", v0, "positive");
+}
+
+// History: 1 in contact, 0 apart.
+void CuttingForce::start(const LocalMotion &motion, double *history) const
+{
+  history[0] = motion.u[0] > parameters_.contact_at ? 1. : 0.;
+}
+
+std::vector<Guard> CuttingForce::guards(const double *history) const
+{
+  if (history[0] == 0.)
+    return {{"tool_contact", Crossing::rising}};
+  return {{"tool_release", Crossing::falling}};
+}
+
+void CuttingForce::guard_values(const LocalMotion &motion, const double *, double *g) const
+{
+  g[0] = motion.u[0] - parameters_.contact_at;
+}
+
+void CuttingForce::transition(int, const LocalMotion &, double *history) const
+{
+  history[0] = 1. - history[0];
+}
+
+std::vector<Quantity> CuttingForce::quantities() const
+{
+  return {{"force", "N"}, {"penetration", "m"}};
+}
+
+double CuttingForce::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  if (i == 1)
+    return motion.u[0] - parameters_.contact_at;
+  double p;
+  force(motion, history, &p);
+  return -p;
+}
+
+} // namespace gestell::mechanism

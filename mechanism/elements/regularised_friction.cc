@@ -1,0 +1,30 @@
+#include "mechanism/elements/regularised_friction.h"
+
+#include "mechanism/require.h"
+
+#include <cmath>
+
+namespace gestell::mechanism
+{
+
+RegularisedFriction::RegularisedFriction(const Parameters &parameters) : parameters_(parameters)
+{
+  require(parameters.force >= 0., "friction", "force [N]", parameters.force, "zero or positive");
+  require(parameters.speed > 0., "friction", "speed [m/s]", parameters.speed, "positive");
+}
+
+std::vector<Quantity> RegularisedFriction::quantities() const
+{
+  return {{"force", "N"}, {"rate", "m/s"}};
+}
+
+double RegularisedFriction::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  if (i == 1)
+    return motion.v[0];
+  double p;
+  force(motion, history, &p);
+  return -p;
+}
+
+} // namespace gestell::mechanism
