@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// Appends the shortest decimal text that reads back as exactly x; "nan", "inf", "-inf" where there is none.
+void append_exact(std::string &text, double x);
+
+/// The same as a string of its own.
+std::string exact_text(double x);
+
+/// x with few significant digits for a reader, without an exponent between 1e-3 and 1e6; "-0" is written "0".
+std::string short_text(double x, int digits = 4);
+
+/// A unit as shown: value in SI times `factor` is the number in `unit`.
+struct DisplayUnit
+{
+  double factor = 1.;
+  std::string unit;
+};
+
+/// The decimal multiple of an SI unit in which values up to `magnitude` read well: 1.06e6 "N" becomes 1060 "kN",
+/// 6e-4 "m" becomes 600 "µm".  Units that take no prefix (rad, Hz, 1/min, ...) stay.
+DisplayUnit display_unit(const std::string &si_unit, double magnitude);
+
+} // namespace gestell::apps

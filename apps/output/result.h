@@ -1,0 +1,53 @@
+#pragma once
+
+#include "apps/output/scenery.h"
+#include "coupling/modes.h"
+#include "coupling/simulation.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// What is known about the size and the accuracy of the model.  Counts below zero and nan mean: does not apply.
+struct ModelFacts
+{
+  int dofs       = -1; ///< coordinates the integrator works with
+  int interface  = -1; ///< coordinates q1 of the frame that stay physical
+  int modes      = -1; ///< kept internal modes of the frame
+  int nonlinear  = -1; ///< measures of the nonlinear elements, the size of a Newton step
+  int frame_dofs = -1; ///< coordinates of the unreduced frame
+  int cells      = -1; ///< finite elements
+
+  double frame_mass      = std::numeric_limits<double>::quiet_NaN(); ///< [kg]
+  double frequency_error = std::numeric_limits<double>::quiet_NaN(); ///< largest estimated relative error by reduction
+  double static_residual = std::numeric_limits<double>::quiet_NaN(); ///< see coupling::ReducedFrame
+};
+
+/// All that is written about one computation: plain values, gathered by whoever computed them.
+struct Result
+{
+  std::string scene;       ///< name of the scene
+  std::string description; ///< what the scene says about itself, may be empty
+  std::string version;     ///< of the program
+  std::string command;     ///< "run", "modes"
+  std::string settings;    ///< how it was computed, plain text for the report, may be empty
+
+  ModelFacts model;
+  std::vector<std::pair<std::string, double>> wall_s; ///< phase, seconds; in the order of the work
+  std::optional<coupling::RunResult> run;             ///< absent where only modes were computed
+  std::vector<coupling::Mode> frame_modes;
+  std::vector<coupling::Mode> coupled_modes;
+  std::vector<std::string> coordinate_names; ///< of the machine, for mode shapes without a picture
+  std::vector<std::string> warnings;         ///< beyond those of the run
+  Scenery scenery;
+};
+
+/// Warnings of the result and of its run, each once, in this order; an early end of the run comes first.
+std::vector<std::string> all_warnings(const Result &result);
+
+} // namespace gestell::apps

@@ -1,0 +1,117 @@
+#include "apps/output/result_folder.h"
+
+#include "apps/output/paraview.h"
+#include "apps/output/report.h"
+#include "apps/output/tables.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace fs = std::filesystem;
+namespace
+{
+
+[[noreturn]] void refuse(const fs::path &folder, const std::string &reason)
+{
+  throw std::invalid_argument("result folder " + folder.string() + ": " + reason +
+                              "; nothing was computed. Name a folder that can be written with -o DIR.");
+}
+
+/// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
+const char *const own_files[]                             = {"summary.json",    "history.csv", "modes.csv",
+                                                             "frame_modes.pvd", "motion.pvd",  "report.html"};
+const std::pair<const char *, const char *> own_folders[] = {
+    {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}};
+
+void remove_earlier_results(const fs::path &folder)
+{
+  for (const char *name : own_files)
+    fs::remove(folder / name);
+  for (const auto &[name, ending] : own_folders)
+    if (fs::is_directory(folder / name))
+    {
+      std::vector<fs::path> old;
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder / name))
+        if (entry.path().extension() == ending)
+          old.push_back(entry.path());
+      for (const fs::path &path : old)
+        fs::remove(path);
+      if (fs::is_empty(folder / name))
+        fs::remove(folder / name);
+    }
+}
+
+} // namespace
+
+void write_file(const fs::path &path, const std::string &content)
+{
+  fs::create_directories(path.parent_path());
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file)
+    throw std::runtime_error("cannot write " + path.string() + ": " +
+                             (errno != 0 ? std::strerror(errno) : "unknown reason") +
+                             "; free some space or name another folder with -o DIR.");
+}
+
+void prepare_folder(const fs::path &folder)
+{
+  if (folder.empty())
+    refuse(folder, "the name is empty");
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    refuse(folder, "this is a file, not a folder");
+  fs::create_directories(folder, error);
+  if (error)
+    refuse(folder, "it cannot be created (" + error.message() + ")");
+
+  const fs::path probe = folder / ".gestell-probe";
+  errno                = 0;
+  const bool written   = static_cast<bool>(std::ofstream(probe) << "probe" << std::flush);
+  const int reason     = errno;
+  fs::remove(probe, error);
+  if (!written)
+    refuse(folder, std::string("it cannot be written (") + std::strerror(reason) + ")");
+
+  try
+  {
+    remove_earlier_results(folder);
+  }
+  catch (const fs::filesystem_error &problem)
+  {
+    refuse(folder, "results of an earlier run cannot be removed (" + std::string(problem.what()) + ")");
+  }
+}
+
+std::vector<std::string> write_results(const fs::path &folder, const Result &result)
+{
+  std::vector<std::string> names;
+  const auto write = [&](const std::string &name, const std::string &content)
+  {
+    write_file(folder / name, content);
+    names.push_back(name);
+  };
+
+  Result told = result;
+  for (const std::string &warning : write_paraview(folder, result, names))
+    told.warnings.push_back(warning);
+
+  if (result.run && !result.run->columns.empty())
+    write("history.csv", history_csv(*result.run));
+  if (!result.frame_modes.empty() || !result.coupled_modes.empty())
+    write("modes.csv", modes_csv(result));
+  const Report report = make_report(told);
+  for (const auto &[name, svg] : report.charts)
+    write("charts/" + name + ".svg", svg);
+  write("summary.json", summary_json(told));
+  write("report.html", report.html);
+  return names;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "apps/output/result.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/**
+ * Makes sure, before anything is computed, that results can be written into `folder`: creates it with its parents,
+ * writes and removes a file in it, and removes what an earlier run of ours left there (nothing else), so that no old
+ * result survives beside a new one.
+ *
+ * @throws std::invalid_argument with path, reason and remedy.
+ */
+void prepare_folder(const std::filesystem::path &folder);
+
+/**
+ * Writes every file of docs/results.md that `result` has the values for.  The ParaView files are written before the
+ * report, which tells what they could not show.
+ *
+ * @return names of the files written, relative to the folder; report.html last.
+ * @throws std::runtime_error if a file cannot be written to its end (disk full).
+ */
+std::vector<std::string> write_results(const std::filesystem::path &folder, const Result &result);
+
+/// Writes a whole file.  @throws std::runtime_error with path and reason.
+void write_file(const std::filesystem::path &path, const std::string &content);
+
+} // namespace gestell::apps

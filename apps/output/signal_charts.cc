@@ -1,0 +1,206 @@
+#include "apps/output/signal_charts.h"
+
+#include "apps/output/chart.h"
+#include "apps/output/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double readable_ratio       = 15.;
+constexpr std::size_t most_per_chart  = 7;
+constexpr std::size_t fewest_for_zoom = 200; ///< rows
+
+std::vector<double> column(const coupling::RunResult &run, std::size_t j)
+{
+  const std::size_t width = run.columns.size(), n = run.rows.size() / width;
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = run.rows[i * width + j];
+  return values;
+}
+
+struct Range
+{
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+  double span() const { return high >= low ? high - low : 0.; }
+  double size() const { return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.; }
+};
+
+Range range_of(const coupling::RunResult &run, std::size_t j)
+{
+  Range range;
+  const std::size_t width = run.columns.size();
+  for (std::size_t i = j; i < run.rows.size(); i += width)
+    if (std::isfinite(run.rows[i]))
+    {
+      range.low  = std::min(range.low, run.rows[i]);
+      range.high = std::max(range.high, run.rows[i]);
+    }
+  return range;
+}
+
+ChartTopic topic_of(const std::string &unit)
+{
+  if (unit == "N" || unit == "N m")
+    return ChartTopic::force;
+  if (unit == "J")
+    return ChartTopic::energy;
+  const std::string base = unit.substr(0, unit.find('/'));
+  return base == "m" || base == "rad" ? ChartTopic::motion : ChartTopic::other;
+}
+
+std::string quantity_of(const std::string &unit)
+{
+  static const std::map<std::string, std::string> names = {{"N", "Forces"},
+                                                           {"N m", "Moments"},
+                                                           {"m", "Displacements"},
+                                                           {"m/s", "Velocities"},
+                                                           {"m/s^2", "Accelerations"},
+                                                           {"rad", "Angles"},
+                                                           {"rad/s", "Angular speeds"},
+                                                           {"J", "Energy"},
+                                                           {"W", "Power"}};
+  const auto name                                       = names.find(unit);
+  return name != names.end() ? name->second : "Signals";
+}
+
+std::string joined_names(const coupling::RunResult &run, const SignalGroup &group)
+{
+  std::string names;
+  for (const std::size_t j : group.columns)
+    names += (names.empty() ? "" : ", ") + run.columns[j];
+  return names;
+}
+
+LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
+{
+  double size = 0.;
+  for (const std::size_t j : group.columns)
+    size = std::max(size, range_of(run, j).size());
+  const DisplayUnit shown = display_unit(group.unit, size);
+
+  LineChart chart;
+  chart.title   = quantity_of(group.unit) + " " + joined_names(run, group);
+  chart.x_label = "t [s]";
+  chart.y_label = "[" + shown.unit + "]";
+  chart.x       = column(run, 0);
+  for (const std::size_t j : group.columns)
+  {
+    Series series{run.columns[j], column(run, j)};
+    for (double &y : series.y)
+      y *= shown.factor;
+    chart.series.push_back(std::move(series));
+  }
+  int number = 0;
+  for (const coupling::EventRecord &event : run.events)
+    chart.marks.push_back({event.t, ++number, short_text(event.t, 6) + " s  " + event.name + ": " + event.kind});
+  return chart;
+}
+
+/// A file name: what is not a letter or a digit becomes a dash.
+std::string file_name(const std::string &text)
+{
+  std::string name;
+  for (const char c : text)
+  {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += plain ? static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) : '-';
+  }
+  return name;
+}
+
+} // namespace
+
+std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
+{
+  std::vector<std::string> units; // in the order of their first column
+  std::map<std::string, std::vector<std::size_t>> of_unit;
+  for (std::size_t j = 1; j < run.columns.size(); ++j)
+  {
+    if (of_unit.count(run.units[j]) == 0)
+      units.push_back(run.units[j]);
+    of_unit[run.units[j]].push_back(j);
+  }
+
+  std::vector<SignalGroup> groups;
+  for (const std::string &unit : units)
+  {
+    std::vector<std::pair<double, std::size_t>> by_span;
+    for (const std::size_t j : of_unit[unit])
+      by_span.emplace_back(range_of(run, j).span(), j);
+    std::stable_sort(by_span.begin(), by_span.end(), [](auto &a, auto &b) { return a.first > b.first; });
+
+    double widest = -1.;
+    for (const auto &[span, j] : by_span)
+    {
+      if (widest < 0. || span * readable_ratio < widest || groups.back().columns.size() == most_per_chart)
+      {
+        groups.push_back({unit, {}});
+        widest = span;
+      }
+      groups.back().columns.push_back(j);
+    }
+  }
+  for (SignalGroup &group : groups)
+    std::sort(group.columns.begin(), group.columns.end());
+  return groups;
+}
+
+std::pair<double, double> main_shock(const coupling::RunResult &run)
+{
+  const std::size_t width = run.columns.size(), n = width > 0 ? run.rows.size() / width : 0;
+  if (n < fewest_for_zoom || width < 2)
+    return {0., 0.};
+
+  std::size_t chosen = 1;
+  double span        = -1.;
+  for (std::size_t j = 1; j < width; ++j)
+    if (run.units[j] == "N" && range_of(run, j).span() > span)
+    {
+      chosen = j;
+      span   = range_of(run, j).span();
+    }
+  const std::vector<double> t = column(run, 0), y = column(run, chosen);
+  const std::size_t reach = n / 60;
+  double hardest = -1., at = t.front();
+  for (std::size_t i = 0; i + reach < n; ++i)
+    if (std::abs(y[i + reach] - y[i]) > hardest)
+    {
+      hardest = std::abs(y[i + reach] - y[i]);
+      at      = t[i];
+    }
+  const double duration = t.back() - t.front(), zoom = duration / 8.;
+  const double begin = std::clamp(at - 0.25 * zoom, t.front(), t.back() - zoom);
+  return {begin, begin + zoom};
+}
+
+std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
+{
+  std::vector<SignalChart> charts;
+  if (run.columns.size() < 2 || run.rows.size() < 2 * run.columns.size())
+    return charts;
+
+  const auto shock = main_shock(run);
+  for (const SignalGroup &group : group_signals(run))
+  {
+    LineChart chart         = chart_of(run, group);
+    const std::string title = chart.title;
+    const std::string base  = std::to_string(charts.size() + 1) + "-" + file_name(quantity_of(group.unit));
+    charts.push_back({base, title, line_chart_svg(chart), topic_of(group.unit)});
+    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first))
+      continue;
+    chart.title += ", around the main shock";
+    std::tie(chart.x_begin, chart.x_end) = shock;
+    charts.push_back({base + "-shock", chart.title, line_chart_svg(chart), ChartTopic::force});
+  }
+  return charts;
+}
+
+} // namespace gestell::apps

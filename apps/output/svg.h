@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// Text made safe inside XML and HTML, in elements and in quoted attributes.
+std::string escape_xml(const std::string &text);
+
+/// Appends a coordinate of a picture with at most `decimals` (0, 1 or 2) digits after the point.
+void append_coordinate(std::string &svg, double x, int decimals = 1);
+
+/// Opening of a picture of width x height units: name space, title for readers, style, paper.  Its colours follow the
+/// reader's choice of light or dark and print on white; the classes s0..s6 are the colour-blind safe line colours
+/// (after Okabe & Ito), c0..c15 the scale of displacements.
+std::string svg_head(double width, double height, const std::string &title);
+
+/// Text at (x, y); `anchor` start, middle or end; `style` a class of the style sheet: "title", "tick", "label".
+std::string svg_text(double x, double y, const std::string &text, const std::string &style,
+                     const std::string &anchor = "start", double turn_degrees = 0.);
+
+constexpr int n_series_colours = 7;
+constexpr int n_scale_colours  = 16;
+
+} // namespace gestell::apps

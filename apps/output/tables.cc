@@ -1,0 +1,198 @@
+#include "apps/output/tables.h"
+
+#include "apps/output/json.h"
+#include "apps/output/number_text.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// A field of a CSV row (RFC 4180): quoted where it holds a separator, a quote or a line end.
+std::string csv_field(const std::string &text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+void write_model(JsonWriter &json, const ModelFacts &model)
+{
+  const auto count = [&](const char *name, int n)
+  {
+    if (n >= 0)
+      json.integer(name, n);
+  };
+  json.begin_object("model");
+  count("dofs", model.dofs);
+  count("interface", model.interface);
+  count("modes", model.modes);
+  count("nonlinear", model.nonlinear);
+  count("frame_dofs", model.frame_dofs);
+  count("cells", model.cells);
+  json.number("frame_mass", model.frame_mass);
+  json.number("frequency_error", model.frequency_error);
+  json.number("static_residual", model.static_residual);
+  json.end_object();
+}
+
+void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes)
+{
+  json.begin_array(name);
+  for (const coupling::Mode &mode : modes)
+    json.number("", mode.frequency_hz);
+  json.end_array();
+}
+
+void write_signals(JsonWriter &json, const std::vector<coupling::SignalSummary> &signals)
+{
+  json.begin_object("signals");
+  for (const coupling::SignalSummary &signal : signals)
+  {
+    json.begin_object(signal.name);
+    json.text("unit", signal.unit);
+    json.number("min", signal.min);
+    json.number("t_min", signal.t_min);
+    json.number("max", signal.max);
+    json.number("t_max", signal.t_max);
+    json.number("final", signal.final);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void write_events(JsonWriter &json, const std::vector<coupling::EventRecord> &events)
+{
+  json.begin_array("events");
+  for (const coupling::EventRecord &event : events)
+  {
+    json.begin_object();
+    json.number("t", event.t);
+    json.text("name", event.name);
+    json.text("kind", event.kind);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_work(JsonWriter &json, const coupling::WorkCounts &work)
+{
+  json.begin_object("work");
+  json.integer("steps", work.steps);
+  json.integer("rejected", work.rejected);
+  json.integer("newton", work.newton);
+  json.integer("factorisations", work.factorisations);
+  json.integer("solves", work.solves);
+  json.end_object();
+}
+
+void write_energy(JsonWriter &json, const coupling::EnergySummary &energy)
+{
+  json.begin_object("energy");
+  json.number("input", energy.input);
+  json.number("stored", energy.stored);
+  json.number("dissipated", energy.dissipated);
+  json.number("residual", energy.residual);
+  json.end_object();
+}
+
+void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
+{
+  int number = 0;
+  for (const coupling::Mode &mode : modes)
+  {
+    csv += std::to_string(++number);
+    for (const double x : {mode.frequency_hz, mode.damped_frequency_hz, mode.damping_ratio, mode.effective_mass[0],
+                           mode.effective_mass[1], mode.effective_mass[2]})
+      append_exact(csv += ',', x);
+    csv += std::string(",") + kind + '\n';
+  }
+}
+
+} // namespace
+
+std::vector<std::string> all_warnings(const Result &result)
+{
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::string &warning)
+  {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
+  };
+  if (result.run && !result.run->failure.empty())
+    add("The computation stopped early: " + result.run->failure);
+  if (result.run && result.run->interrupted)
+    add("The computation was interrupted; the results end where it stopped.");
+  for (const std::string &warning : result.warnings)
+    add(warning);
+  if (result.run)
+    for (const std::string &warning : result.run->warnings)
+      add(warning);
+  return warnings;
+}
+
+std::string summary_json(const Result &result)
+{
+  // A result without a run has no signals, but all members, so that readers need not ask.
+  const coupling::RunResult run = result.run.value_or(coupling::RunResult());
+
+  JsonWriter json;
+  json.begin_object();
+  json.text("scene", result.scene);
+  json.text("version", result.version);
+  json.text("command", result.command);
+  write_model(json, result.model);
+  write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
+  write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
+  write_signals(json, run.signals);
+  write_events(json, run.events);
+  write_work(json, run.work);
+  json.begin_object("wall_s");
+  for (const auto &[phase, seconds] : result.wall_s)
+    json.number(phase, seconds);
+  json.end_object();
+  write_energy(json, run.energy);
+  json.begin_array("warnings");
+  for (const std::string &warning : all_warnings(result))
+    json.text("", warning);
+  json.end_array();
+  json.end_object();
+  return json.document();
+}
+
+std::string history_csv(const coupling::RunResult &run)
+{
+  const std::size_t width = run.columns.size();
+  std::string csv;
+  csv.reserve(20 * (run.rows.size() + width));
+  for (std::size_t j = 0; j < width; ++j)
+    csv += (j > 0 ? "," : "") + csv_field(run.columns[j] + " [" + run.units[j] + "]");
+  csv += '\n';
+  for (std::size_t i = 0; i + width <= run.rows.size(); i += width)
+  {
+    for (std::size_t j = 0; j < width; ++j)
+    {
+      if (j > 0)
+        csv += ',';
+      append_exact(csv, run.rows[i + j]);
+    }
+    csv += '\n';
+  }
+  return csv;
+}
+
+std::string modes_csv(const Result &result)
+{
+  std::string csv = "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
+                    "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind\n";
+  append_modes(csv, result.frame_modes, "frame");
+  append_modes(csv, result.coupled_modes, "coupled");
+  return csv;
+}
+
+} // namespace gestell::apps
