@@ -67,6 +67,12 @@ struct FrameMatrices
   ModalDamping                modal_damping;            ///< empty until computed
   std::vector<Interface>      interfaces;
   Eigen::MatrixXd             translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
+  /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
+  /// Empty in frames given by matrices: then M * translations.
+  Eigen::MatrixXd acceleration_load;
+  /// [n x 6] q of the rigid motions ux uy uz rx ry rz about `centre`, or empty if not known.
+  Eigen::MatrixXd             rigid_motions;
+  std::array<double, 3>       centre{}; ///< of mass [m]
   std::vector<FrameOutput>    outputs;
   Picture                     picture;
   double                      mass = 0.; ///< of the frame [kg]
