@@ -1,0 +1,94 @@
+#include "fem/cut_force.h"
+
+#include "fem/elasticity.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+std::string head(const CutSpecification &cut)
+{
+  const std::string owner = "cut \"" + cut.name + "\"";
+  return cut.place.empty() ? owner : cut.place + ": " + owner;
+}
+
+Eigen::Vector3d unit_normal(const CutSpecification &cut)
+{
+  const Eigen::Vector3d normal(cut.normal[0], cut.normal[1], cut.normal[2]);
+  if (!(normal.norm() > 0.) || !normal.allFinite())
+    throw std::invalid_argument(head(cut) + ": the normal has no direction; give three numbers such as [0, 0, 1].");
+  return normal.normalized();
+}
+
+/// Distance of the centroid of every cell from the plane, positive where the normal points.
+std::vector<double> heights(const CutSpecification &cut, const Eigen::Vector3d &normal, const QuadraticMesh &mesh)
+{
+  const Eigen::Vector3d through(cut.through[0], cut.through[1], cut.through[2]);
+  std::vector<double>   result;
+  result.reserve(mesh.cells.size());
+  for (const auto &cell : mesh.cells)
+  {
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 4; ++k)
+      centroid += 0.25 * Eigen::Map<const Eigen::Vector3d>(mesh.points[cell[k]].data());
+    result.push_back(normal.dot(centroid - through));
+  }
+  return result;
+}
+
+/// Nodes of cells below; their share with the cells above is the cut.
+std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<double> &height)
+{
+  std::vector<char> below(mesh.n_nodes(), 0);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    if (height[cell] <= 0.)
+      for (const int node : mesh.cells[cell])
+        below[node] = 1;
+  return below;
+}
+
+[[noreturn]] void refuse(const CutSpecification &cut, const std::vector<double> &height)
+{
+  const auto [low, high] = std::minmax_element(height.begin(), height.end());
+  std::ostringstream message;
+  message << head(cut) << ": the plane does not cut the frame, which reaches from " << *low << " m to " << *high
+          << " m along the normal as seen from the point (" << cut.through[0] << ", " << cut.through[1] << ", "
+          << cut.through[2] << ") m; move the point into the frame.";
+  throw std::invalid_argument(message.str());
+}
+
+} // namespace
+
+FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const Material &material,
+                      const Kinematics &kinematics)
+{
+  const Eigen::Vector3d     normal = unit_normal(cut);
+  const std::vector<double> height = heights(cut, normal, mesh);
+  const std::vector<char>   below  = nodes_below(mesh, height);
+
+  bool            divides = false;
+  Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+  {
+    const auto &nodes = mesh.cells[cell];
+    if (height[cell] <= 0. || std::none_of(nodes.begin(), nodes.end(), [&](int node) { return below[node]; }))
+      continue;
+    divides               = true;
+    const CellStiffness C = cell_stiffness(mesh, static_cast<int>(cell), material);
+    for (int a = 0; a < 10; ++a)
+      if (below[nodes[a]])
+        for (int b = 0; b < 10; ++b)
+          row.segment<3>(3 * nodes[b]) -= C.block<3, 3>(3 * a, 3 * b).transpose() * normal;
+  }
+  if (!divides)
+    refuse(cut, height);
+  return {"cut." + cut.name, "N", kinematics.gather(row), Eigen::VectorXd::Zero(kinematics.n_coordinates())};
+}
+
+} // namespace gestell::fem

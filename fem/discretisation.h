@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fem/frame_matrices.h"
+#include "fem/frame_specification.h"
+#include "fem/mesh.h"
+
+namespace gestell::fem
+{
+
+/**
+ * M, B, C of an elastic frame in quadratic straight-sided tetrahedra (P2), with supports, interfaces, cuts and picture.
+ *
+ *     M q'' + B q' + C q = f,    u = G q,    M = G^T M_full G  and so on
+ *
+ * q holds the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
+ * surfaces, then six coordinates (ux uy uz rx ry rz) for each interface in the order of the specification.  B holds the
+ * dampers of the foundations; modal damping stays a ratio.  Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see
+ * support_forces() and cut_force().
+ *
+ * Uses mesh, material, supports, interfaces, cuts and modal_damping_ratio of the specification.  Initialises PETSc
+ * (petsc_session()).
+ *
+ * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
+ */
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
+
+} // namespace gestell::fem

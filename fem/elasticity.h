@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fem/block_matrix.h"
+#include "fem/frame_specification.h"
+#include "fem/quadratic_mesh.h"
+
+#include <Eigen/Core>
+
+namespace gestell::fem
+{
+
+/// Integrals over the reference tetrahedron (volume 1/6) and triangle (area 1/2) of quadratic shape functions N_a.
+struct ReferenceIntegrals
+{
+  Eigen::Matrix<double, 10, 10> mass;              ///< int N_a N_b dV
+  Eigen::Matrix3d               gradients[10][10]; ///< int (dN_a/dxi) (dN_b/dxi)^T dV
+  Eigen::Matrix<double, 6, 6>   triangle_mass;     ///< int N_a N_b dA
+};
+
+/// Made once by the finite elements and quadratures of deal.II, exact for these polynomials (degree 4).
+const ReferenceIntegrals &reference_integrals();
+
+using CellStiffness = Eigen::Matrix<double, 30, 30, Eigen::RowMajor>;
+using CellMass      = Eigen::Matrix<double, 10, 10, Eigen::RowMajor>;
+
+/**
+ * Stiffness of one straight quadratic tetrahedron of isotropic elastic material,
+ *
+ *     C_(a i)(b j) = int lambda N_a,i N_b,j + mu (N_a,j N_b,i + delta_ij grad N_a . grad N_b) dV     [N/m]
+ *
+ * with Lame's lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)); exact, since the Jacobian is constant.
+ */
+CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material);
+
+/// Consistent mass rho int N_a N_b dV [kg], the same for all three directions.
+CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material);
+
+/// @throws std::invalid_argument unless E > 0, -1 < nu < 0.5, rho > 0, all finite.
+void require_valid(const Material &material);
+
+/// C of the free frame, blocks of 3 x 3 between nodes.
+BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const Material &material);
+
+/// M of the free frame for one direction: M_full = M (x) I_3.
+BlockMatrix assemble_mass(const QuadraticMesh &mesh, const Material &material);
+
+} // namespace gestell::fem

@@ -1,0 +1,124 @@
+#include "fem/rigid_motions.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <sstream>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+const char *const axis_names[3] = {"x", "y", "z"};
+
+// A motion is free when its energy is rounding: this share of the energies that cancel in it.
+constexpr double free_share = 1e-13;
+// Directions closer than this to an axis bear the name of the axis.
+constexpr double alike = 1e-3;
+
+std::string triple(const Eigen::Vector3d &v)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << "(";
+  for (int d = 0; d < 3; ++d)
+    text << (std::abs(v[d]) < 1e-9 ? 0. : v[d]) << (d < 2 ? ", " : ")");
+  return text.str();
+}
+
+std::string direction_name(const Eigen::Vector3d &direction)
+{
+  for (int d = 0; d < 3; ++d)
+    if (std::abs(std::abs(direction[d]) - 1.) < alike)
+      return axis_names[d];
+  return triple(direction);
+}
+
+/// Free motions as columns (u0, theta L), orthonormal [6 x k].
+Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &held, double length)
+{
+  Eigen::MatrixXd Z = frame.rigid_motions;
+  Z.rightCols(3) /= length;
+  for (const int i : held)
+    Z.row(i).setZero();
+  const Eigen::MatrixXd energy = Z.transpose() * (frame.C * Z);
+  Eigen::MatrixXd       size   = Z.transpose() * Z;
+  size.diagonal().array() += 1e-12 * size.trace(); // a motion of held coordinates only has no size
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> motions(energy, size);
+
+  const Eigen::SparseMatrix<double> magnitude = frame.C.cwiseAbs();
+  Eigen::MatrixXd                   result(6, 0);
+  for (int k = 0; k < 6; ++k)
+  {
+    const Eigen::VectorXd z     = Z * motions.eigenvectors().col(k);
+    const double          scale = z.cwiseAbs().dot(magnitude * z.cwiseAbs());
+    if (scale > 0. && z.dot(frame.C * z) > free_share * scale)
+      continue;
+    result.conservativeResize(6, result.cols() + 1);
+    result.rightCols(1) = motions.eigenvectors().col(k);
+  }
+  if (result.cols() == 0)
+    return result;
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(result).householderQ() * Eigen::MatrixXd::Identity(6, result.cols());
+}
+
+/// Takes the unit motion e_i out of the space if it lies in it.
+bool take_out(Eigen::MatrixXd &space, int i)
+{
+  const Eigen::VectorXd along = space.row(i).transpose();
+  if ((space * along - Eigen::VectorXd::Unit(6, i)).norm() > alike)
+    return false;
+  const Eigen::MatrixXd full = Eigen::HouseholderQR<Eigen::MatrixXd>(along).householderQ();
+  space                      = (space * full).rightCols(space.cols() - 1).eval();
+  return true;
+}
+
+std::string rotation_name(const Eigen::VectorXd &motion, const Eigen::Vector3d &centre, double length)
+{
+  const Eigen::Vector3d u0 = motion.head<3>(), theta = motion.tail<3>() / length;
+  const Eigen::Vector3d axis  = theta.normalized();
+  const Eigen::Vector3d point = centre + theta.cross(u0) / theta.squaredNorm();
+  std::string           text  = "rotation about " + direction_name(axis) + " through " + triple(point) + " m";
+  if (std::abs(axis.dot(u0)) > alike * length * theta.norm())
+    text += " with a screw along it";
+  return text;
+}
+
+} // namespace
+
+std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vector<int> &held)
+{
+  if (frame.rigid_motions.cols() != 6)
+    return {};
+  const double    length = std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
+                                     std::max(frame.rigid_motions.leftCols(3).squaredNorm(), 1e-300));
+  Eigen::MatrixXd space  = free_space(frame, held, length);
+
+  std::vector<std::string> names;
+  for (int i = 0; i < 6 && space.cols() > 0; ++i)
+    if (take_out(space, i))
+      names.push_back((i < 3 ? "translation along " : "rotation about ") + std::string(axis_names[i % 3]));
+  if (space.cols() == 0)
+    return names;
+
+  // What remains is oblique: motions without rotation first.
+  const Eigen::MatrixXd rotations = space.bottomRows(3);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotations, Eigen::ComputeFullV);
+  for (int k = static_cast<int>(space.cols()) - 1; k >= 0; --k)
+  {
+    const Eigen::VectorXd motion = space * svd.matrixV().col(k);
+    if (motion.tail<3>().norm() < alike)
+      names.push_back("translation along " + direction_name(motion.head<3>().normalized()));
+    else
+      names.push_back(rotation_name(motion, Eigen::Map<const Eigen::Vector3d>(frame.centre.data()), length));
+  }
+  return names;
+}
+
+} // namespace gestell::fem

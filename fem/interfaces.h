@@ -1,0 +1,56 @@
+#pragma once
+
+#include "fem/frame_matrices.h"
+#include "fem/frame_specification.h"
+#include "fem/kinematics.h"
+#include "fem/surface_patch.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// A surface patch and the node with six coordinates it is coupled to.
+struct CoupledPatch
+{
+  InterfaceSpecification specification;
+  SurfacePatch           patch;
+  Eigen::Vector3d        position; ///< x0 of the node [m]
+};
+
+/// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
+std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                         const std::vector<InterfaceSpecification> &interfaces,
+                                         Constraints &constraints);
+
+/**
+ * Rigid coupling (RBE2): every node at x of the patch moves as  u = u0 + theta x (x - x0).
+ *
+ * @param first value number of the node's ux; ux uy uz rx ry rz follow.
+ */
+void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints);
+
+/**
+ * Averaging coupling (RBE3): the node takes the rigid motion p = (u0, theta) that fits the surface best,
+ *
+ *     int |u(x) - u0 - theta x (x - x0)|^2 dA -> min,     p = (R^T S R)^-1 R^T S u = W u,
+ *
+ * with the rigid motions R of the surface's nodes and S = int N N^T dA, both exact for quadratic triangles.  u0 is thus
+ * the area-weighted mean (carried to x0), and a force on the node spreads as a traction linear over the surface; the
+ * surface keeps its flexibility.  Six displacements are eliminated, chosen by pivoting.
+ *
+ * A large surface would make one dense block of all its displacements.  It is therefore cut into groups g of nodes, each
+ * with six inner coordinates  m_g = W_pg^-1 W_g u_g  (p: six pivots of the group) in place of u_pg; the average becomes
+ * p = sum_g W_pg m_g, which eliminates six of the m_g.  Nothing is approximated.
+ */
+void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints);
+
+/**
+ * Ties all interfaces.
+ *
+ * @throws std::invalid_argument where two interfaces, or an interface and a clamped support, share nodes, and for
+ *         surfaces whose points lie on one line.
+ */
+void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh, Constraints &constraints);
+
+} // namespace gestell::fem

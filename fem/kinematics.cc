@@ -1,0 +1,179 @@
+#include "fem/kinematics.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gestell::fem
+{
+
+Constraints::Constraints(int n_nodes)
+  : held(3 * n_nodes, 0)
+  , tie_of(3 * n_nodes, -1)
+{
+}
+
+void Constraints::tie(int displacement, Combination combination)
+{
+  assert(tie_of[displacement] < 0 && !held[displacement]);
+  tie_of[displacement] = static_cast<int>(ties.size());
+  ties.push_back(std::move(combination));
+}
+
+Kinematics::Kinematics(const Constraints &constraints)
+  : column_(constraints.held.size(), -1)
+  , new_column_(constraints.measures.size(), -1)
+  , tied_row_(constraints.tie_of)
+  , tied_(constraints.ties.size())
+{
+  for (std::size_t i = 0; i < column_.size(); ++i)
+    if (tied_row_[i] >= 0)
+      tied_[tied_row_[i]] = static_cast<int>(i);
+    else if (!constraints.held[i])
+      column_[i] = n_coordinates_++;
+  n_free_ = n_coordinates_;
+
+  const int n_new = static_cast<int>(new_column_.size());
+  for (int k = constraints.n_interface_coordinates; k < n_new; ++k)
+    new_column_[k] = n_coordinates_++;
+  for (int k = 0; k < constraints.n_interface_coordinates; ++k)
+    new_column_[k] = n_coordinates_++;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t row = 0; row < constraints.ties.size(); ++row)
+    for (const auto &[value, weight] : constraints.ties[row])
+    {
+      assert(coordinate(value) >= 0);
+      entries.emplace_back(row, coordinate(value), weight);
+    }
+  G_t_.resize(tied_.size(), n_coordinates_);
+  G_t_.setFromTriplets(entries.begin(), entries.end());
+}
+
+int Kinematics::coordinate(int value) const
+{
+  const int n = n_displacements();
+  return value < n ? column_[value] : new_column_[value - n];
+}
+
+Combination Kinematics::row(int displacement) const
+{
+  if (column_[displacement] >= 0)
+    return {{column_[displacement], 1.}};
+  Combination result;
+  if (tied_row_[displacement] >= 0)
+    for (decltype(G_t_)::InnerIterator entry(G_t_, tied_row_[displacement]); entry; ++entry)
+      result.emplace_back(static_cast<int>(entry.col()), entry.value());
+  return result;
+}
+
+Eigen::VectorXd Kinematics::expand(const Eigen::VectorXd &q) const
+{
+  const Eigen::VectorXd tied = G_t_ * q;
+  Eigen::VectorXd       u    = Eigen::VectorXd::Zero(n_displacements());
+  for (int i = 0; i < n_displacements(); ++i)
+    if (column_[i] >= 0)
+      u[i] = q[column_[i]];
+    else if (tied_row_[i] >= 0)
+      u[i] = tied[tied_row_[i]];
+  return u;
+}
+
+Eigen::VectorXd Kinematics::gather(const Eigen::VectorXd &f) const
+{
+  Eigen::VectorXd tied = Eigen::VectorXd::Zero(G_t_.rows());
+  Eigen::VectorXd free = Eigen::VectorXd::Zero(n_coordinates_);
+  for (int i = 0; i < n_displacements(); ++i)
+    if (column_[i] >= 0)
+      free[column_[i]] = f[i];
+    else if (tied_row_[i] >= 0)
+      tied[tied_row_[i]] = f[i];
+  return free + G_t_.transpose() * tied;
+}
+
+namespace
+{
+
+/// Calls visit(displacement of the column, value) along row 3 node + d of A.
+template <typename Visit>
+void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, int d, const Visit &visit)
+{
+  for (int k = rows.begin[node]; k < rows.begin[node + 1]; ++k)
+    if (A.block_size() == 1)
+      visit(3 * rows.columns[k] + d, rows.values[k]);
+    else
+      for (int e = 0; e < 3; ++e)
+        visit(3 * rows.columns[k] + e, rows.values[9 * k + 3 * e + d]);
+}
+
+} // namespace
+
+Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix &A) const
+{
+  // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
+  const BlockMatrix::Rows rows = A.rows();
+  const auto              visit_free = [&](int i, const auto &visit)
+  {
+    along_row(A, rows, i / 3, i % 3,
+              [&](int j, double value)
+              {
+                if (column_[j] >= 0)
+                  visit(column_[j], value);
+              });
+  };
+
+  Eigen::SparseMatrix<double> free(n_coordinates_, n_coordinates_);
+  int                         count = 0;
+  for (int i = 0; i < n_displacements(); ++i)
+    if (column_[i] >= 0)
+    {
+      visit_free(i, [&](int, double) { ++count; });
+      free.outerIndexPtr()[column_[i] + 1] = count;
+    }
+  std::fill(free.outerIndexPtr() + n_free_ + 1, free.outerIndexPtr() + n_coordinates_ + 1, count);
+
+  free.resizeNonZeros(count);
+  int k = 0;
+  for (int i = 0; i < n_displacements(); ++i)
+    if (column_[i] >= 0)
+      visit_free(i,
+                 [&](int j, double value)
+                 {
+                   free.innerIndexPtr()[k] = j;
+                   free.valuePtr()[k++]    = value;
+                 });
+  return free;
+}
+
+Eigen::SparseMatrix<double> Kinematics::project(const BlockMatrix &A) const
+{
+  assert(3 * A.n_nodes() == n_displacements());
+  Eigen::SparseMatrix<double> free = project_free(A);
+  if (tied_.empty())
+    return free;
+
+  const BlockMatrix::Rows rows = A.rows();
+
+  // Tied displacements, rows G_t:  G^T A G = A_ff + Y G_t + (Y G_t)^T  with  Y = A_ft + 1/2 G_t^T A_tt.
+  std::vector<Eigen::Triplet<double>> of_free, of_tied;
+  for (std::size_t t = 0; t < tied_.size(); ++t)
+    along_row(A, rows, tied_[t] / 3, tied_[t] % 3,
+              [&](int j, double value)
+              {
+                if (column_[j] >= 0)
+                  of_free.emplace_back(column_[j], t, value);
+                else if (tied_row_[j] >= 0)
+                  of_tied.emplace_back(tied_row_[j], t, 0.5 * value);
+              });
+  const int                   n_tied = static_cast<int>(tied_.size());
+  Eigen::SparseMatrix<double> Y(n_coordinates_, n_tied), A_tt(n_tied, n_tied);
+  Y.setFromTriplets(of_free.begin(), of_free.end());
+  A_tt.setFromTriplets(of_tied.begin(), of_tied.end());
+  const Eigen::SparseMatrix<double> G_t = G_t_;
+  Y += Eigen::SparseMatrix<double>(G_t.transpose() * A_tt);
+  const Eigen::SparseMatrix<double> X  = Y * G_t;
+  const Eigen::SparseMatrix<double> XT = X.transpose();
+  free += Eigen::SparseMatrix<double>(X + XT);
+  return free;
+}
+
+} // namespace gestell::fem

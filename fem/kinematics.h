@@ -1,0 +1,72 @@
+#pragma once
+
+#include "fem/block_matrix.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <utility>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Linear combination  sum weight * value(index).
+using Combination = std::vector<std::pair<int, double>>;
+
+/**
+ * Nodal displacements u [3 n_nodes] that follow from others.
+ *
+ * Values are numbered: first the displacements themselves, 3 node + direction; then new coordinates from 3 n_nodes on.
+ */
+struct Constraints
+{
+  explicit Constraints(int n_nodes);
+
+  std::vector<char>        held;   ///< [3 n_nodes] displacement is zero
+  std::vector<int>         tie_of; ///< [3 n_nodes] index into ties, or -1
+  std::vector<Combination> ties;   ///< tied displacement as a combination of values that are neither tied nor held
+  std::vector<Combination> measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
+  int n_interface_coordinates = 0;   ///< the first of the new coordinates; they end up last in q
+
+  int  first_new() const { return static_cast<int>(held.size()); }
+  void tie(int displacement, Combination combination);
+};
+
+/**
+ * The transformation  u = G q  to the coordinates q of the constrained frame.
+ *
+ * q holds the displacements that are neither held nor tied, in the order of u; then inner coordinates of averaged
+ * surfaces; then six coordinates for every interface.  G has a one in most rows, so only the others are stored.
+ */
+class Kinematics
+{
+public:
+  explicit Kinematics(const Constraints &constraints);
+
+  int n_coordinates() const { return n_coordinates_; }
+  int n_displacements() const { return static_cast<int>(column_.size()); }
+
+  /// Index in q of a value as numbered in Constraints, or -1 if it is held or tied.
+  int coordinate(int value) const;
+  /// Row of G as pairs (coordinate, weight).
+  Combination row(int displacement) const;
+
+  Eigen::VectorXd expand(const Eigen::VectorXd &q) const; ///< u = G q
+  Eigen::VectorXd gather(const Eigen::VectorXd &f) const; ///< G^T f: forces on nodes to forces on coordinates
+
+  /// G^T A G; a matrix with blocks of one stands for A (x) I_3.
+  Eigen::SparseMatrix<double> project(const BlockMatrix &A) const;
+
+private:
+  Eigen::SparseMatrix<double> project_free(const BlockMatrix &A) const;
+
+  std::vector<int>            column_;     // [3 n_nodes] coordinate or -1
+  std::vector<int>            new_column_; // coordinates of the new values
+  std::vector<int>            tied_row_;   // [3 n_nodes] row of G_t or -1
+  std::vector<int>            tied_;       // displacement of every row of G_t
+  Eigen::SparseMatrix<double, Eigen::RowMajor> G_t_; // rows of the tied displacements
+  int                         n_free_ = 0, n_coordinates_ = 0;
+};
+
+} // namespace gestell::fem

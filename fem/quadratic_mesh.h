@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fem/mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/**
+ * Nodes of quadratic tetrahedra: the corners of a mesh and the middles of its straight edges.
+ *
+ * Displacement d of node i is number 3 i + d of the nodal vector u [3 n_nodes].  Within a cell or triangle the nodes
+ * stand in the order of the reference elements: corners first, then edges.
+ */
+struct QuadraticMesh
+{
+  std::vector<Point3>              points;  ///< [m]
+  std::vector<std::array<int, 10>> cells;   ///< into points; same order as Mesh::cells
+  std::vector<std::array<int, 6>>  skin;    ///< corners a b c, then the middles of ab, bc, ca; same order as Mesh::skin
+  std::vector<int>                 node_of; ///< node at point i of the mesh, or -1 where no cell uses it
+
+  int n_nodes() const { return static_cast<int>(points.size()); }
+};
+
+/**
+ * Numbers the nodes by a DoFHandler of deal.II with FE_SimplexP<3>(2).
+ *
+ * @throws std::invalid_argument for a mesh without cells, a cell without volume or a skin triangle that is no face.
+ */
+QuadraticMesh quadratic_mesh(const Mesh &mesh);
+
+} // namespace gestell::fem

@@ -1,0 +1,147 @@
+#include "fem/supports.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+std::string head(const Support &support)
+{
+  const std::string owner = "support \"" + support.name + "\"";
+  return support.place.empty() ? owner : support.place + ": " + owner;
+}
+
+void require_valid(const Support &support)
+{
+  const char *const axes[3]     = {"x", "y", "z"};
+  bool              does_hold   = false;
+  const auto        require_one = [&](const char *quantity, const char *unit, double value, int d)
+  {
+    if (std::isfinite(value) && value >= 0.)
+      return;
+    std::ostringstream message;
+    message << head(support) << ": " << quantity << " in " << axes[d] << " is " << value << " " << unit
+            << ", but it must be finite and not negative.";
+    throw std::invalid_argument(message.str());
+  };
+  for (int d = 0; d < 3; ++d)
+    if (support.kind == SupportKind::clamped)
+      does_hold = does_hold || support.held[d];
+    else
+    {
+      require_one("stiffness", "N/m", support.stiffness[d], d);
+      require_one("damping", "N s/m", support.damping[d], d);
+      does_hold = does_hold || support.stiffness[d] > 0. || support.damping[d] > 0.;
+    }
+  if (!does_hold)
+    throw std::invalid_argument(head(support) + " acts in no direction; hold x, y or z, or give a foundation a "
+                                                "stiffness [N/m].");
+}
+
+/// Row of C summed over the nodes a clamped support holds in direction d.
+Eigen::VectorXd clamped_row(const std::vector<char> &counted, const BlockMatrix &C)
+{
+  const BlockMatrix::Rows rows = C.rows();
+  Eigen::VectorXd         row  = Eigen::VectorXd::Zero(counted.size());
+  for (std::size_t i = 0; i < counted.size(); ++i)
+    if (counted[i])
+      for (int k = rows.begin[i / 3]; k < rows.begin[i / 3 + 1]; ++k)
+        for (int e = 0; e < 3; ++e)
+          row[3 * rows.columns[k] + e] += rows.values[9 * k + 3 * e + i % 3];
+  return row;
+}
+
+Eigen::VectorXd foundation_row(const SurfacePatch &patch, int d, double total, int n_displacements)
+{
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(n_displacements);
+  for (std::size_t i = 0; i < patch.nodes.size(); ++i)
+    row[3 * patch.nodes[i] + d] = -total / patch.area * patch.weight[i];
+  return row;
+}
+
+} // namespace
+
+std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                          const std::vector<Support> &supports)
+{
+  std::vector<SupportedPatch> result;
+  for (const Support &support : supports)
+  {
+    require_valid(support);
+    result.push_back({support, surface_patch(mesh, quadratic, support.surfaces, "support \"" + support.name + "\"",
+                                             support.place)});
+  }
+  return result;
+}
+
+void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints)
+{
+  for (const auto &[support, patch] : supports)
+    if (support.kind == SupportKind::clamped)
+      for (const int node : patch.nodes)
+        for (int d = 0; d < 3; ++d)
+          if (support.held[d])
+            constraints.held[3 * node + d] = 1;
+}
+
+void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix)
+{
+  for (const auto &[support, patch] : supports)
+    if (support.kind == SupportKind::foundation)
+      for (int column = 0; column < patch.S.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(patch.S, column); entry; ++entry)
+        {
+          Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+          for (int d = 0; d < 3; ++d)
+            block(d, d) = (support.*totals)[d] / patch.area * entry.value();
+          matrix.add_block(patch.nodes[entry.row()], patch.nodes[column], block.data());
+        }
+  matrix.finish();
+}
+
+BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_nodes)
+{
+  std::vector<std::array<int, 6>> faces;
+  for (const auto &[support, patch] : supports)
+    if (support.kind == SupportKind::foundation)
+      faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
+  BlockMatrix B(3, n_nodes, faces);
+  add_foundations(supports, &Support::damping, B);
+  return B;
+}
+
+std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
+                                        const Kinematics &kinematics)
+{
+  const int                n = kinematics.n_displacements();
+  std::vector<char>        counted_before(n, 0);
+  std::vector<FrameOutput> outputs;
+  for (const auto &[support, patch] : supports)
+    for (int d = 0; d < 3; ++d)
+    {
+      FrameOutput output{"support." + support.name + "." + "xyz"[d], "N", {}, {}};
+      if (support.kind == SupportKind::foundation)
+      {
+        output.on_q = kinematics.gather(foundation_row(patch, d, support.stiffness[d], n));
+        output.on_v = kinematics.gather(foundation_row(patch, d, support.damping[d], n));
+      }
+      else
+      {
+        std::vector<char> counted(n, 0);
+        for (const int node : patch.nodes)
+          if (support.held[d] && !counted_before[3 * node + d])
+            counted[3 * node + d] = counted_before[3 * node + d] = 1;
+        output.on_q = kinematics.gather(clamped_row(counted, C));
+        output.on_v = Eigen::VectorXd::Zero(kinematics.n_coordinates());
+      }
+      outputs.push_back(std::move(output));
+    }
+  return outputs;
+}
+
+} // namespace gestell::fem

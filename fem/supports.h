@@ -1,0 +1,54 @@
+#pragma once
+
+#include "fem/block_matrix.h"
+#include "fem/frame_matrices.h"
+#include "fem/frame_specification.h"
+#include "fem/kinematics.h"
+#include "fem/surface_patch.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// A support with its surfaces found.
+struct SupportedPatch
+{
+  Support      support;
+  SurfacePatch patch;
+};
+
+/**
+ * Finds the surfaces and checks the numbers.
+ *
+ * @throws std::invalid_argument for unknown surfaces, negative stiffness or damping, a foundation with none.
+ */
+std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                          const std::vector<Support> &supports);
+
+/// Holds the displacements of clamped supports.
+void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints);
+
+/**
+ * Adds elastic foundations:  (k_d / A) int N N^T dA  for every direction d, k_d the total stiffness [N/m].
+ *
+ * @param totals Support::stiffness (into C) or Support::damping (into B).
+ */
+void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix);
+
+/// B of the free frame: dampers of the foundations only.
+BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_nodes);
+
+/**
+ * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
+ *
+ * Foundation:  -(k_d / A) int u_d dA - (d_d / A) int u'_d dA.
+ * Clamped:      sum over held nodes of the row of C for direction d; loads and inertia of the held nodes themselves
+ *               are not contained.  A node of several supports counts for the first.
+ *
+ * @param C of the free frame, without foundations.
+ */
+std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
+                                        const Kinematics &kinematics);
+
+} // namespace gestell::fem

@@ -1,0 +1,89 @@
+#include "fem/surface_patch.h"
+
+#include "fem/elasticity.h"
+#include "fem/nearest_name.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+std::string head(const std::string &place, const std::string &owner)
+{
+  return place.empty() ? owner : place + ": " + owner;
+}
+
+std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &surfaces, const std::string &head)
+{
+  if (surfaces.empty())
+    throw std::invalid_argument(head + " names no surface; give at least one.");
+  std::vector<std::string> known;
+  for (const auto &entry : mesh.surfaces)
+    known.push_back(entry.first);
+
+  std::set<int> triangles;
+  for (const std::string &name : surfaces)
+  {
+    const auto surface = mesh.surfaces.find(name);
+    if (surface == mesh.surfaces.end())
+      throw std::invalid_argument(head + " names the surface \"" + name + "\", which the frame does not have; " +
+                                  nearest_names(name, known) + ".");
+    if (surface->second.empty())
+      throw std::invalid_argument(head + ": the surface \"" + name +
+                                  "\" has no triangle; select a face of the skin or mesh finer.");
+    triangles.insert(surface->second.begin(), surface->second.end());
+  }
+  return triangles;
+}
+
+double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  const auto corner = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
+  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+}
+
+} // namespace
+
+SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
+                           const std::string &owner, const std::string &place)
+{
+  SurfacePatch  patch;
+  std::set<int> nodes;
+  for (const int triangle : triangles_of(mesh, surfaces, head(place, owner)))
+  {
+    patch.faces.push_back(quadratic.skin.at(triangle));
+    nodes.insert(patch.faces.back().begin(), patch.faces.back().end());
+  }
+  patch.nodes.assign(nodes.begin(), nodes.end());
+  const auto local = [&](int node)
+  { return static_cast<int>(std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node) - patch.nodes.begin()); };
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const std::array<int, 6> &face : patch.faces)
+  {
+    const double area = triangle_area(quadratic, face);
+    patch.area += area;
+    for (int k = 0; k < 3; ++k)
+      patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(quadratic.points[face[k]].data());
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b)
+        entries.emplace_back(local(face[a]), local(face[b]), 2. * area * reference_integrals().triangle_mass(a, b));
+  }
+  if (!(patch.area > 0.))
+    throw std::invalid_argument(head(place, owner) + ": the surfaces have no area; select faces of a solid.");
+
+  patch.centroid /= patch.area;
+  patch.S.resize(patch.nodes.size(), patch.nodes.size());
+  patch.S.setFromTriplets(entries.begin(), entries.end());
+  patch.weight = patch.S * Eigen::VectorXd::Ones(patch.nodes.size());
+  return patch;
+}
+
+} // namespace gestell::fem
