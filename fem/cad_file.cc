@@ -1,0 +1,82 @@
+#include "fem/cad_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+const std::map<std::string, CadFile> kinds = {{".step", CadFile::step}, {".stp", CadFile::step}, {".brep", CadFile::brep},
+                                              {".geo", CadFile::geo},   {".msh", CadFile::mesh}};
+
+std::string extension(const std::string &path)
+{
+  std::string end = std::filesystem::path(path).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  return end;
+}
+
+/// The bytes [from, from + count) of the file, fewer at its end.
+std::string bytes(const std::string &path, std::uintmax_t from, std::size_t count)
+{
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(from));
+  std::string text(count, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(count));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+} // namespace
+
+bool is_step(const std::string &path)
+{
+  const auto kind = kinds.find(extension(path));
+  return kind != kinds.end() && kind->second == CadFile::step;
+}
+
+CadFile check_cad_file(const FrameSpecification &specification)
+{
+  const std::string &path   = specification.cad;
+  const auto         refuse = [&](const std::string &why) {
+    throw std::invalid_argument(specification.place + ": " + path + " " + why);
+  };
+  std::error_code ignored;
+  if (path.empty())
+    throw std::invalid_argument(specification.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo or "
+                                                      ".msh file.");
+  if (!std::filesystem::exists(path, ignored))
+    refuse("does not exist; a relative path counts from the scene's folder.");
+  if (!std::filesystem::is_regular_file(path, ignored))
+    refuse("is not a file; name the .step, .stp, .brep, .geo or .msh file itself.");
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (size == 0)
+    refuse("is empty; export the model again.");
+  if (bytes(path, 0, 1).empty())
+    refuse("cannot be read; check its permissions.");
+  const auto kind = kinds.find(extension(path));
+  if (kind == kinds.end())
+    refuse("ends in \"" + extension(path) + "\"; .step, .stp, .brep, .geo and .msh are read: export the model as STEP.");
+  if (specification.unit < 0.)
+    throw std::invalid_argument(specification.place + ": unit = " + std::to_string(specification.unit) +
+                                " m; it must be > 0, or be left out.");
+
+  if (kind->second == CadFile::step)
+  {
+    constexpr std::size_t end = 1024;
+    if (bytes(path, 0, end).find("ISO-10303-21") == std::string::npos)
+      refuse("is not a STEP file: it does not begin with \"ISO-10303-21;\"; export the model as STEP (AP203 or AP214).");
+    if (bytes(path, size > end ? size - end : 0, end).find("END-ISO-10303-21") == std::string::npos)
+      refuse("is cut off: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
+  }
+  return kind->second;
+}
+
+} // namespace gestell::fem

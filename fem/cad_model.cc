@@ -1,0 +1,203 @@
+#include "fem/cad_model.h"
+
+#include "fem/cad_file.h"
+#include "fem/gmsh_faces.h"
+#include "fem/vector3.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double smallest_diagonal = 1e-3; // [m]
+constexpr double largest_diagonal  = 200.; // [m]
+
+std::string last_part(const std::string &label) { return label.substr(label.rfind('/') + 1); }
+
+std::string physical_name(int dim, int tag)
+{
+  std::vector<int> groups;
+  gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+  std::string name;
+  if (!groups.empty())
+    gmsh::model::getPhysicalName(dim, groups.front(), name);
+  return name;
+}
+
+Solid solid_of(int tag, double unit, bool meshed)
+{
+  Solid solid;
+  solid.tag = tag;
+  gmsh::model::getEntityName(3, tag, solid.name);
+  solid.name = solid.name.empty() ? physical_name(3, tag) : last_part(solid.name);
+  if (solid.name.empty())
+    solid.name = "solid " + std::to_string(tag);
+
+  auto &[x0, y0, z0] = solid.min;
+  auto &[x1, y1, z1] = solid.max;
+  gmsh::model::getBoundingBox(3, tag, x0, y0, z0, x1, y1, z1);
+  solid.min = unit * solid.min;
+  solid.max = unit * solid.max;
+
+  std::vector<int> above;
+  gmsh::model::getAdjacencies(3, tag, above, solid.faces);
+  if (meshed)
+    return solid;
+  gmsh::model::occ::getMass(3, tag, solid.volume);
+  solid.volume *= unit * unit * unit;
+  return solid;
+}
+
+void check_kernel(const FrameSpecification &specification)
+{
+  gmsh::vectorpair of_model, of_opencascade;
+  gmsh::model::getEntities(of_model, 3);
+  gmsh::model::occ::getEntities(of_opencascade, 3);
+  if (of_model.size() != of_opencascade.size())
+    throw std::invalid_argument(specification.place + ": " + specification.cad +
+                                " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
+                                "it with SetFactory(\"OpenCASCADE\"); or give the mesh made of it as .msh.");
+}
+
+void check_solids(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
+{
+  const std::string head = specification.place + ": " + specification.cad;
+  if (model.solids.empty())
+  {
+    gmsh::vectorpair faces;
+    gmsh::model::getEntities(faces, 2);
+    const std::string said = session.errors();
+    const std::string what = faces.empty() ? "no shape" : "no closed solid, only " + std::to_string(faces.size()) +
+                                                            " faces (shells or surfaces)";
+    throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
+                                (said.empty() ? "" : " (gmsh: " + said + ")") + "; a frame needs at least one " +
+                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
+                                              : "closed solid: sew the faces into a solid and export it as a solid."));
+  }
+  for (const Solid &solid : model.solids)
+    if (!model.meshed && !(solid.volume > 0.))
+      throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has the volume " + text(solid.volume) +
+                                  " m^3; it is open or turned inside out: repair it in the CAD program.");
+}
+
+void check_size(const CadModel &model, const FrameSpecification &specification)
+{
+  const double diagonal = model.diagonal();
+  if (diagonal >= smallest_diagonal && diagonal <= largest_diagonal)
+    return;
+  const double likely = diagonal > largest_diagonal ? 1e-3 : 1e3;
+  throw std::invalid_argument(
+    specification.place + ": " + specification.cad + " is " + text(diagonal) + " m across; frames from " +
+    text(smallest_diagonal) + " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
+    (is_step(specification.cad)
+       ? "Export it again with the right unit, or set unit to the true length of what the file calls a millimetre"
+       : "Set unit to the length of the file's unit, such as \"mm\"") +
+    " (unit = " + text(likely * (is_step(specification.cad) && specification.unit == 0. ? 1e-3 : model.unit)) +
+    " m would make it " + text(diagonal * likely) + " m).");
+}
+
+/// For every solid the lowest index of a solid it hangs together with by common faces.
+std::vector<int> bodies_of(const std::vector<Solid> &solids)
+{
+  std::vector<int> body(solids.size());
+  std::iota(body.begin(), body.end(), 0);
+  std::map<int, int> first_owner; // face tag to index of solid
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (const int face : solids[i].faces)
+    {
+      const auto [owner, is_new] = first_owner.try_emplace(face, static_cast<int>(i));
+      const int a = std::min(body[owner->second], body[i]), b = std::max(body[owner->second], body[i]);
+      if (!is_new)
+        std::replace(body.begin(), body.end(), b, a);
+    }
+  return body;
+}
+
+bool boxes_touch(const Solid &a, const Solid &b, double tolerance)
+{
+  for (int d = 0; d < 3; ++d)
+    if (a.min[d] > b.max[d] + tolerance || b.min[d] > a.max[d] + tolerance)
+      return false;
+  return true;
+}
+
+void check_hanging_together(const CadModel &model, const FrameSpecification &specification)
+{
+  const std::vector<int> body = bodies_of(model.solids);
+  const std::set<int>    bodies(body.begin(), body.end());
+  if (bodies.size() <= 1)
+    return;
+  std::string list;
+  bool        touch = false;
+  for (std::size_t i = 0; i < model.solids.size(); ++i)
+  {
+    const Solid &solid = model.solids[i];
+    list += "\n  body " + std::to_string(std::distance(bodies.begin(), bodies.find(body[i])) + 1) + ": \"" + solid.name +
+            "\", " + text(solid.volume) + " m^3, from " + text(solid.min) + " to " + text(solid.max);
+    for (std::size_t j = 0; j < i; ++j)
+      touch |= body[i] != body[j] && boxes_touch(solid, model.solids[j], 1e-6 * model.diagonal());
+  }
+  throw std::invalid_argument(
+    specification.place + ": " + specification.cad + " holds " + std::to_string(bodies.size()) +
+    " bodies that do not hang together by common faces" +
+    (touch ? " (some touch or overlap, but each has its own copy of the face, so their meshes would not be joined)"
+           : "") +
+    "; unite them to one solid in the CAD program (boolean union), or export the frame alone. Bodies, lengths in m:" +
+    list);
+}
+
+} // namespace
+
+double CadModel::diagonal() const { return norm(max - min); }
+
+double CadModel::volume() const
+{
+  return std::accumulate(solids.begin(), solids.end(), 0.,
+                         [](double sum, const Solid &solid) { return sum + solid.volume; });
+}
+
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
+{
+  const CadFile file = check_cad_file(specification);
+  CadModel      model;
+  model.meshed = file == CadFile::mesh;
+  model.unit   = specification.unit > 0. ? specification.unit : 1.;
+  if (file == CadFile::step && specification.unit > 0.)
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+
+  session.run([&] { gmsh::open(specification.cad); },
+              specification.place + ": gmsh cannot read " + specification.cad + ": ",
+              "; export the model again and see whether gmsh opens it.");
+  if (!model.meshed)
+    check_kernel(specification);
+
+  gmsh::vectorpair solids;
+  gmsh::model::getEntities(solids, 3);
+  for (const auto &[dim, tag] : solids)
+    model.solids.push_back(solid_of(tag, model.unit, model.meshed));
+  check_solids(model, specification, session);
+
+  auto &[x0, y0, z0] = model.min;
+  auto &[x1, y1, z1] = model.max;
+  gmsh::model::getBoundingBox(-1, -1, x0, y0, z0, x1, y1, z1);
+  model.min = model.unit * model.min;
+  model.max = model.unit * model.max;
+  check_size(model, specification);
+  if (!model.meshed) // a mesh is judged by its cells
+  {
+    check_hanging_together(model, specification);
+    model.faces = outer_faces(model.unit, model.diagonal());
+  }
+  return model;
+}
+
+} // namespace gestell::fem

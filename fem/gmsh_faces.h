@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fem/face.h"
+#include "fem/mesh.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/**
+ * The faces of gmsh's geometry that bound exactly one solid, by tag, recognised.
+ *
+ * @param unit      length of gmsh's unit [m]
+ * @param diagonal  of the model [m]
+ */
+std::vector<Face> outer_faces(double unit, double diagonal);
+
+/**
+ * The surfaces of a mesh without geometry, from the skin's triangles: normals are those of the facets.
+ *
+ * @param skin_surface  for each triangle of mesh.skin the tag of its surface in gmsh, 0 if it has none
+ */
+std::vector<Face> faces_of_skin(const Mesh &mesh, const std::vector<int> &skin_surface);
+
+} // namespace gestell::fem

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace gestell::fem
+{
+
+/**
+ * A quiet gmsh from here to the end of the scope: nothing on the terminal, no configuration files, one thread (equal
+ * input, equal mesh), lengths of STEP files in metres.  gmsh is one per process: sessions do not overlap.
+ *
+ * What gmsh and OpenCASCADE have to say is kept and handed out with our own messages.
+ */
+class GmshSession
+{
+public:
+  GmshSession();
+  ~GmshSession();
+  GmshSession(const GmshSession &) = delete;
+  GmshSession &operator=(const GmshSession &) = delete;
+
+  /// Runs `action`; a failure of gmsh becomes std::invalid_argument "<head><gmsh's words><remedy>".
+  void run(const std::function<void()> &action, const std::string &head, const std::string &remedy) const;
+
+  /// gmsh's errors so far in one line, "" if there were none.
+  std::string errors() const;
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,173 @@
+#include "fem/mesher.h"
+
+#include "fem/gmsh_faces.h"
+#include "fem/gmsh_session.h"
+#include "fem/mesh_extraction.h"
+#include "fem/mesh_size.h"
+#include "fem/surface_selection.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double cells_by_default = 25000.;
+
+enum class MissingSize
+{
+  refused,
+  chosen
+};
+
+struct MeshedModel
+{
+  CadModel      model;
+  Selection     selection;
+  ExtractedMesh extracted;
+  double        size = 0.; ///< [m]
+};
+
+std::string head_of(const FrameSpecification &specification) { return specification.place + ": " + specification.cad; }
+
+Selection select_all(const CadModel &model, const FrameSpecification &specification)
+{
+  Selection selection;
+  for (const auto &[name, selector] : specification.surfaces)
+    selection[name] = select_faces(model.faces, selector, model.diagonal());
+  return selection;
+}
+
+/// HXT gives the better cells in half the time, but gives up on some surfaces where Delaunay does not.
+void generate(const FrameSpecification &specification, const GmshSession &session, const MeshProgress &progress)
+{
+  constexpr int delaunay = 1, hxt = 10;
+  const auto    report = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  report("meshing surfaces");
+  session.run([] { gmsh::model::mesh::generate(2); }, head_of(specification) + ": gmsh cannot mesh its surfaces: ",
+              "; choose another mesh.size or repair the faces in the CAD program.");
+  report("meshing volumes");
+  gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
+  try
+  {
+    gmsh::model::mesh::generate(3);
+    return;
+  }
+  catch (...) // whatever gmsh throws: the second try decides
+  {
+    gmsh::option::setNumber("Mesh.Algorithm3D", delaunay);
+  }
+  session.run([] { gmsh::model::mesh::generate(3); }, head_of(specification) + ": gmsh cannot mesh its volume: ",
+              "; choose another mesh.size or repair the faces in the CAD program.");
+}
+
+void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
+                   MissingSize missing, const MeshProgress &progress)
+{
+  MeshOptions options = specification.mesh;
+  if (options.size == 0. && missing == MissingSize::chosen)
+    options.size = size_for_cells(result.model, cells_by_default);
+  result.size      = options.size;
+  result.selection = select_all(result.model, specification);
+  set_mesh_sizes(result.model, options, result.selection);
+  generate(specification, session, progress);
+  result.extracted = extract_mesh(result.model, head_of(specification));
+}
+
+/// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
+void measure_solids(CadModel &model, const Mesh &mesh)
+{
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    model.solids[mesh.cell_solid[c]].volume += six_volumes(mesh, mesh.cells[c]) / 6.;
+}
+
+void read_mesh(MeshedModel &result, const FrameSpecification &specification)
+{
+  const MeshOptions &options = specification.mesh;
+  if (!options.surface_size.empty())
+    throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first +
+                                "\" has a size, but " + specification.cad +
+                                " is a mesh already; remove the size, or give the geometry.");
+  result.extracted = extract_mesh(result.model, head_of(specification));
+  const Mesh &mesh = result.extracted.mesh;
+  if (mesh.cells.size() > options.max_cells)
+    throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.cells.size()) +
+                                " tetrahedra, mesh.max_cells allows " + text(options.max_cells) +
+                                "; raise max_cells or give a coarser mesh.");
+  measure_solids(result.model, mesh);
+  result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface);
+  result.selection   = select_all(result.model, specification);
+}
+
+void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
+{
+  Mesh &mesh = result.extracted.mesh;
+  for (const auto &[name, tags] : result.selection)
+  {
+    std::vector<int> &triangles = mesh.surfaces[name];
+    for (std::size_t t = 0; t < mesh.skin.size(); ++t)
+      if (std::binary_search(tags.begin(), tags.end(), result.extracted.skin_surface[t]))
+        triangles.push_back(static_cast<int>(t));
+    if (triangles.empty())
+      throw std::invalid_argument(specification.surfaces.at(name).place +
+                                  ": no triangle of the mesh lies on the faces of this surface; choose another mesh.size.");
+  }
+}
+
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const MeshProgress &progress)
+{
+  const GmshSession session;
+  MeshedModel       result;
+  if (progress)
+    progress("reading CAD", -1.);
+  result.model = read_cad(specification, session);
+  if (result.model.meshed)
+    read_mesh(result, specification);
+  else
+    mesh_geometry(result, specification, session, missing, progress);
+  name_surfaces(result, specification);
+  return result;
+}
+
+} // namespace
+
+Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress)
+{
+  return mesh_model(specification, MissingSize::refused, progress).extracted.mesh;
+}
+
+GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
+{
+  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, progress);
+  const Mesh    &mesh   = meshed.extracted.mesh;
+  GeometryReport report;
+  report.solids   = meshed.model.solids;
+  report.faces    = meshed.model.faces;
+  report.surfaces = meshed.selection;
+  report.min      = meshed.model.min;
+  report.max      = meshed.model.max;
+  report.size     = meshed.size;
+  for (Face &face : report.faces)
+    face.samples.clear();
+
+  report.n_points      = static_cast<int>(mesh.points.size());
+  report.n_cells       = static_cast<int>(mesh.cells.size());
+  report.n_coordinates = 3 * (report.n_points + number_of_edges(mesh));
+  report.worst_quality = 1.;
+  for (const auto &cell : mesh.cells)
+  {
+    const double q = quality(mesh, cell);
+    report.volume += six_volumes(mesh, cell) / 6.;
+    report.worst_quality = std::min(report.worst_quality, q);
+    report.mean_quality += q / report.n_cells;
+  }
+  return report;
+}
+
+} // namespace gestell::fem

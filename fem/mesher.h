@@ -1,0 +1,49 @@
+#pragma once
+
+#include "fem/cad_model.h"
+#include "fem/frame_specification.h"
+#include "fem/mesh.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
+using MeshProgress = std::function<void(const std::string &phase, double share)>;
+
+/**
+ * Mesh of the frame with its named surfaces.
+ *
+ * STEP, BREP and .geo are meshed with linear tetrahedra (HXT, else Delaunay) of specification.mesh.size, smaller on
+ * surfaces that ask for it.  A .msh file is taken as it is: mesh.size has no meaning then, and selectors act on its
+ * surfaces (of the mesh, with their physical groups) by their triangles.  Equal input gives an equal mesh; no file is
+ * written; gmsh is left finalised.
+ *
+ * @throws std::invalid_argument for bad input, see read_cad, select_faces, set_mesh_sizes, extract_mesh.
+ */
+Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress = {});
+
+/// What `gestell mesh` tells: all that is needed to write selectors, and how good the mesh is.
+struct GeometryReport
+{
+  std::vector<Solid>                      solids;
+  std::vector<Face>                       faces;    ///< outer faces, without samples
+  std::map<std::string, std::vector<int>> surfaces; ///< named in the specification: tags of their faces
+  Vector3                                 min{}, max{};
+  double                                  size          = 0.; ///< of the elements [m]; 0 for a mesh file
+  int                                     n_points      = 0;
+  int                                     n_cells       = 0;
+  int                                     n_coordinates = 0;  ///< displacements with quadratic elements
+  double                                  volume        = 0.; ///< of the mesh [m^3]
+  double                                  worst_quality = 0.; ///< 1 regular, 0 flat; see quality()
+  double                                  mean_quality  = 0.;
+};
+
+/// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.
+GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress = {});
+
+} // namespace gestell::fem
