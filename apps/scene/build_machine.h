@@ -1,0 +1,50 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "coupling/machine.h"
+#include "coupling/simulation.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// How a scene's frame gets into the machine.
+enum class FramePath
+{
+  none,     ///< build_machine(scene)
+  dense,    ///< matrices, small: build_machine(scene) as well
+  sparse,   ///< build_machine(scene, matrices): assembled by the service or given, unreduced
+  reduce,   ///< build_machine(scene, reduced): by the FrameService from geometry or matrices
+  from_file ///< build_machine(scene, reduced): read from scene.frame.reduced_file
+};
+FramePath frame_path(const Scene &scene);
+
+/// The finished machine of a scene.  Throws std::invalid_argument with the place in the scene.
+coupling::Machine build_machine(const Scene &scene); ///< FramePath none or dense
+coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame);
+coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame);
+
+/// A small frame given by matrices, every coordinate kept; those of interfaces first, the others in their order.
+coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame);
+
+/// The signals of the scene; throws std::invalid_argument with place and nearest name for a path that does not exist.
+std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine);
+
+/// State at the beginning of the run by the rule of the scene.
+coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine);
+
+/// q [n] of the configuration that modes are asked for.
+Eigen::VectorXd modes_configuration(const Scene &scene, const coupling::Machine &machine);
+
+/// Builds the machine on a frame that only has the right names, and with it all signals and states: what is wrong in a
+/// scene beyond read_scene() comes up here.  Computes nothing.  Frames from a reduced file are not checked.
+void check_scene(const Scene &scene);
+
+/// Refuses a scene without what `gestell run` needs.
+void require_run(const Scene &scene);
+
+} // namespace gestell::apps

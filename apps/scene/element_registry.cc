@@ -1,0 +1,28 @@
+#include "apps/scene/element_registry.h"
+
+namespace gestell::apps
+{
+
+void read_spring_damper(const SceneTable &, const Names &, Scene &);
+void read_point_mass(const SceneTable &, const Names &, Scene &);
+void read_connecting_rod(const SceneTable &, const Names &, Scene &);
+void read_blanking_force(const SceneTable &, const Names &, Scene &);
+void read_cutting_force(const SceneTable &, const Names &, Scene &);
+void read_asynchronous_motor(const SceneTable &, const Names &, Scene &);
+void read_clearance(const SceneTable &, const Names &, Scene &);
+void read_friction(const SceneTable &, const Names &, Scene &);
+void read_cubic_spring(const SceneTable &, const Names &, Scene &);
+
+const std::vector<ElementType> &element_types()
+{
+  static const std::vector<ElementType> types = {
+      {"spring-damper", read_spring_damper},   {"point mass", read_point_mass},
+      {"connecting rod", read_connecting_rod}, {"blanking force", read_blanking_force},
+      {"cutting force", read_cutting_force},   {"asynchronous motor", read_asynchronous_motor},
+      {"clearance", read_clearance},           {"friction", read_friction},
+      {"cubic spring", read_cubic_spring},
+  };
+  return types;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,77 @@
+#include "apps/scene/names.h"
+
+#include "apps/scene/nearest_name.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+
+Names::Names(const std::vector<std::string> &interfaces, bool any_interface)
+    : interfaces_(interfaces), any_interface_(any_interface)
+{
+}
+
+const BodyRequest *Names::find_body(const std::string &name) const
+{
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto &body) { return body.name == name; });
+  return found == bodies_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Names::body_names() const
+{
+  std::vector<std::string> names;
+  for (const auto &body : bodies_)
+    names.push_back(body.name);
+  return names;
+}
+
+std::string Names::marker(const SceneTable &table, const std::string &key) const
+{
+  const std::string name = table.text(key);
+  if (name == "ground" || find_body(name))
+    return name;
+  auto valid = body_names();
+  valid.push_back("ground");
+  for (const auto &interface : interfaces_)
+    valid.push_back("frame." + interface);
+  if (std::find(valid.begin(), valid.end(), name) != valid.end() || (any_interface_ && name.rfind("frame.", 0) == 0))
+    return name;
+  const bool of_frame = name.rfind("frame.", 0) == 0;
+  throw table.error(key, of_frame ? "the frame has no interface '" + name.substr(6) + "'" +
+                                        (interfaces_.empty()
+                                             ? "; declare [frame.interface." + written_key(name.substr(6)) + "]"
+                                             : suggestion(name.substr(6), interfaces_))
+                                  : "there is no body '" + name + "'" + suggestion(name, valid));
+}
+
+std::string Names::marker(const SceneTable &table, const std::string &key, const std::string &fallback) const
+{
+  return table.has(key) ? marker(table, key) : fallback;
+}
+
+const BodyRequest &Names::body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const
+{
+  const std::string name   = table.text(key);
+  const std::string words  = kind == coupling::BodyKind::rotor ? "rotor" : "slider";
+  const BodyRequest *found = find_body(name);
+  if (found && found->kind == kind)
+    return *found;
+  std::vector<std::string> valid;
+  for (const auto &body : bodies_)
+    if (body.kind == kind)
+      valid.push_back(body.name);
+  throw table.error(key, found ? "'" + name + "' is no " + words + ", but one is needed here" + suggestion(name, valid)
+                               : "there is no " + words + " '" + name + "'" + suggestion(name, valid));
+}
+
+void check_thing_name(const SceneTable &table)
+{
+  const std::string name = table.name();
+  if (name.empty() || name.find('.') != std::string::npos || name[0] == '-')
+    throw table.error("a name must not be empty, contain dots or begin with '-': signals refer to it as NAME.quantity");
+  if (name == "frame" || name == "ground")
+    throw table.error("'" + name + "' has a meaning of its own; choose another name");
+}
+
+} // namespace gestell::apps

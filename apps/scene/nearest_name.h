@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn a into b.
+int edit_distance(const std::string &a, const std::string &b);
+
+/// The name most like `name`, or "" if none is near enough to be meant.
+std::string nearest_name(const std::string &name, const std::vector<std::string> &names);
+
+/// "; did you mean 'stiffness'?" or, if nothing is near, "; valid: a, b, c" (or nothing for no names at all).
+std::string suggestion(const std::string &name, const std::vector<std::string> &names);
+
+/// Names in quotes with commas.
+std::string listed(const std::vector<std::string> &names);
+
+} // namespace gestell::apps

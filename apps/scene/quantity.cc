@@ -1,0 +1,77 @@
+#include "apps/scene/quantity.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string printed(double value)
+{
+  std::ostringstream out;
+  out.precision(6);
+  out << value;
+  return out.str();
+}
+
+} // namespace
+
+bool equal(const Dimension &a, const Dimension &b)
+{
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(a[i] - b[i]) > 1e-9)
+      return false;
+  return true;
+}
+
+std::string describe(const Dimension &dimension)
+{
+  static const std::vector<std::pair<Dimension, std::string>> known = {{{1, 1, -2}, "N"},   {{2, 1, -2}, "N m"},
+                                                                       {{0, 1, -2}, "N/m"}, {{0, 1, -1}, "N s/m"},
+                                                                       {{-1, 1, -2}, "Pa"}, {{2, 1, -1}, "N m s"}};
+  for (const auto &[d, name] : known)
+    if (equal(d, dimension))
+      return name;
+  const std::array<std::string, 3> names{"m", "kg", "s"};
+  std::string above, below;
+  for (const int i : {1, 0, 2}) // kg m/s reads better than m kg/s
+    if (const double e = dimension[i]; std::abs(e) > 1e-9)
+    {
+      const std::string part = names[i] + (std::abs(std::abs(e) - 1.) < 1e-9 ? "" : "^" + printed(std::abs(e)));
+      std::string &side      = e > 0 ? above : below;
+      side += (side.empty() ? "" : " ") + part;
+    }
+  if (above.empty() && below.empty())
+    return "a plain number";
+  if (below.find(' ') != std::string::npos)
+    below = "(" + below + ")";
+  return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
+}
+
+double value_as(const Quantity &q, const Kind &kind, const std::string &text)
+{
+  const std::string needs = "needs a" +
+                            std::string(std::string("aei").find(kind.name[0]) != std::string::npos ? "n " : " ") +
+                            kind.name + " such as \"" + kind.example + "\", got ";
+  bool fits = !q.checked;
+  for (int more = 0; more <= kind.metre_range; ++more)
+    fits = fits || equal(q.dimension, {kind.dimension[0] + more, kind.dimension[1], kind.dimension[2]});
+  if (!fits && q.value == 0. && equal(q.dimension, {}))
+    fits = true; // zero of anything is zero
+  if (!fits && equal(q.dimension, {}))
+    throw std::invalid_argument(needs + "\"" + text +
+                                "\" without a unit; a plain number in SI units stands without quotes");
+  if (!fits)
+    throw std::invalid_argument(needs + "\"" + text + "\", " + printed(q.value) + " " + describe(q.dimension));
+  if (kind.refused != Counts::nothing && q.counts == kind.refused)
+    throw std::invalid_argument(
+        needs + "\"" + text + "\", which counts " +
+        (kind.refused == Counts::turns ? "turns; write 1/min, rpm or rad/s" : "radians; write Hz"));
+  return q.value;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Exponents of metre, kilogram and second.  Angles are numbers: rad = 1.
+using Dimension = std::array<double, 3>;
+
+/// What kind of number per second a value is.  1/s alone does not say whether radians or turns are counted, a factor of
+/// 2 pi that no dimension check sees.
+enum class Counts
+{
+  nothing,
+  radians, ///< rad, deg, rpm, 1/min after a number
+  turns    ///< Hz, number/min
+};
+
+/// A value in SI units.
+struct Quantity
+{
+  double value = 0.;
+  Dimension dimension{};
+  bool checked  = true; ///< false: made from a plain number of [parameters], so of any dimension
+  Counts counts = Counts::nothing;
+};
+
+/// What a key needs, in words and in exponents: {"length", "40 mm", {1, 0, 0}}.
+struct Kind
+{
+  std::string name, example;
+  Dimension dimension;
+  Counts refused  = Counts::nothing; ///< an angular speed refuses turns, a frequency radians
+  int metre_range = 0;               ///< so many more powers of a metre are right as well (matrices)
+};
+
+namespace kind
+{
+inline const Kind number{"number", "0.3", {0, 0, 0}};
+inline const Kind angle{"angle", "20 deg", {0, 0, 0}, Counts::turns};
+inline const Kind length{"length", "40 mm", {1, 0, 0}};
+inline const Kind area{"area", "120 mm^2", {2, 0, 0}};
+inline const Kind mass{"mass", "3 t", {0, 1, 0}};
+inline const Kind inertia{"moment of inertia", "250 kg m^2", {2, 1, 0}};
+inline const Kind time{"time", "10 us", {0, 0, 1}};
+inline const Kind frequency{"frequency", "200 Hz", {0, 0, -1}, Counts::radians};
+inline const Kind speed{"speed", "0.2 m/s", {1, 0, -1}};
+inline const Kind angular_speed{"angular speed", "30 1/min", {0, 0, -1}, Counts::turns};
+inline const Kind acceleration{"acceleration", "9.81 m/s^2", {1, 0, -2}};
+inline const Kind force{"force", "46 kN", {1, 1, -2}};
+inline const Kind torque{"torque", "240 N m", {2, 1, -2}};
+inline const Kind stiffness{"stiffness", "420 kN/mm", {0, 1, -2}};
+inline const Kind damping{"damping", "600 kN s/m", {0, 1, -1}};
+inline const Kind torsional_stiffness{"torsional stiffness", "1300 kN m/rad", {2, 1, -2}};
+inline const Kind torsional_damping{"torsional damping", "3 kN m s/rad", {2, 1, -1}};
+inline const Kind cubic_stiffness{"cubic stiffness", "5 N/mm^3", {-2, 1, -2}};
+inline const Kind torsional_cubic_stiffness{"torsional cubic stiffness", "5 N m/rad^3", {2, 1, -2}};
+inline const Kind pressure{"pressure", "210 GPa", {-1, 1, -2}};
+inline const Kind density{"density", "7850 kg/m^3", {-3, 1, 0}};
+inline const Kind mass_entry{"entry of a mass matrix", "250 kg", {0, 1, 0}, Counts::nothing, 2};
+inline const Kind damping_entry{"entry of a damping matrix", "200 kN s/m", {0, 1, -1}, Counts::nothing, 2};
+inline const Kind stiffness_entry{"entry of a stiffness matrix", "3200 kN/mm", {0, 1, -2}, Counts::nothing, 2};
+} // namespace kind
+
+/// Exponents are equal up to rounding.
+bool equal(const Dimension &a, const Dimension &b);
+
+/// "kg m^2/s^2", or "a plain number".
+std::string describe(const Dimension &dimension);
+
+/// Value of a name in an expression; empty if there is no such parameter.
+using NameLookup = std::function<std::optional<Quantity>(const std::string &name)>;
+
+/**
+ * Reads "40 mm", "2*crank_radius - 8 mm", "600 kN s/m", "1/2 * 3 kg".
+ *
+ *     sum     = product { (+|-) product }
+ *     product = factor { (*|/) factor }
+ *     factor  = (+|-) factor | power
+ *     power   = operand [ ^ factor ]
+ *     operand = number [units] | ( sum ) [units] | function ( sum {, sum} ) | pi | parameter | units
+ *     units   = unit[^n] { unit[^n] | / unit[^n] | 1/unit[^n] }
+ *
+ * The units that follow a number belong to it more tightly than any operator; "N s/m" is (N s)/m and "kg m^2" squares
+ * the metre only.  What reads in two ways is refused: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  Where
+ * an operand is expected a parameter comes before a unit of the same name.  "1/min" after a number means turns per
+ * minute of a shaft, 2 pi/60 rad/s, as on every name plate; a full list of units is in docs/scene.md.
+ *
+ * @throws std::invalid_argument with what was expected and where in the text.
+ */
+Quantity parse_quantity(const std::string &text, const NameLookup &parameters);
+
+/// Value of `quantity` if it is of `kind`; throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
+double value_as(const Quantity &quantity, const Kind &kind, const std::string &text);
+
+/// True for names that parameters cannot have: functions and pi.
+bool is_reserved_name(const std::string &name);
+
+/// True for a letter or underscore followed by letters, digits, underscores.
+bool is_identifier(const std::string &name);
+
+std::vector<std::string> unit_names();
+
+} // namespace gestell::apps

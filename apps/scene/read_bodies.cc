@@ -1,0 +1,96 @@
+#include "apps/scene/read_bodies.h"
+
+#include "apps/scene/element_registry.h"
+#include "apps/scene/nearest_name.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
+BodyRequest read_body(const SceneTable &table)
+{
+  check_thing_name(table);
+  BodyRequest body;
+  body.name        = table.name();
+  body.place       = table.place();
+  const bool rotor = table.choice("type", {"rotor", "slider"}, "") == "rotor";
+  body.kind        = rotor ? coupling::BodyKind::rotor : coupling::BodyKind::slider;
+  body.axis        = table.direction("axis");
+  body.position    = table.vector("position", kind::length, {});
+  if (rotor)
+  {
+    body.inertia = table.positive("inertia", kind::inertia);
+    body.mass    = table.not_negative("mass", kind::mass, 0.);
+    body.radius  = table.not_negative("radius", kind::length, 0.);
+  }
+  else
+  {
+    body.mass = table.positive("mass", kind::mass);
+    body.size = table.vector("size", kind::length, {});
+  }
+  return body;
+}
+
+/// Carriers must be added before what they carry.
+std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
+{
+  std::vector<BodyRequest> sorted;
+  const auto done = [&](const std::string &name)
+  { return std::any_of(sorted.begin(), sorted.end(), [&](const auto &body) { return body.name == name; }); };
+  const auto is_body = [&](const std::string &name)
+  { return std::any_of(bodies.begin(), bodies.end(), [&](const auto &body) { return body.name == name; }); };
+  while (sorted.size() < bodies.size())
+  {
+    const auto before = sorted.size();
+    for (const auto &body : bodies)
+      if (!done(body.name) && (!is_body(body.carrier) || done(body.carrier)))
+        sorted.push_back(body);
+    if (sorted.size() == before)
+      for (const auto &body : bodies)
+        if (!done(body.name))
+          throw std::invalid_argument(body.place + ": is carried by '" + body.carrier +
+                                      "', which it carries itself; let one of "
+                                      "them stand on the frame or the ground");
+  }
+  return sorted;
+}
+
+} // namespace
+
+std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
+{
+  std::vector<BodyRequest> bodies;
+  const auto tables = scene.tables("body");
+  for (const auto &table : tables)
+  {
+    bodies.push_back(read_body(table));
+    names.add_body(bodies.back());
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    bodies[i].carrier = names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
+  return carriers_first(bodies);
+}
+
+void read_elements(const SceneTable &table, const Names &names, Scene &scene)
+{
+  std::vector<std::string> types;
+  for (const auto &type : element_types())
+    types.push_back(type.name);
+  for (const auto &element : table.tables("element"))
+  {
+    check_thing_name(element);
+    if (names.find_body(element.name()))
+      throw element.error("a body has the name '" + element.name() + "' too; signals could not tell them apart");
+    scene.element_places[element.name()] = element.place();
+    const std::string type               = element.choice("type", types, "");
+    for (const auto &known : element_types())
+      if (known.name == type)
+        known.read(element, names, scene);
+  }
+}
+
+} // namespace gestell::apps

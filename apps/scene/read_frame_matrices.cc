@@ -1,0 +1,179 @@
+#include "apps/scene/names.h"
+#include "apps/scene/nearest_name.h"
+#include "apps/scene/read_frame.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr double symmetry_tolerance = 1e-9; // of the largest entry: files written with 10 digits pass
+
+const std::vector<std::string> motion_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+
+Eigen::MatrixXd dense(const std::vector<std::vector<double>> &rows)
+{
+  Eigen::MatrixXd result(rows.size(), rows.front().size());
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      result(i, j) = rows[i][j];
+  return result;
+}
+
+std::string shape(Eigen::Index rows, Eigen::Index columns)
+{
+  return std::to_string(rows) + " x " + std::to_string(columns);
+}
+
+/// Inline rows, or a MatrixMarket file.
+Sparse read_any(const SceneTable &frame, const std::string &key, const Kind &kind)
+{
+  if (!frame.is_text(key))
+    return dense(frame.matrix(key, kind)).sparseView();
+  throw frame.error(key, "matrices from files cannot be read yet; write the rows inline");
+}
+
+void check_symmetry(const SceneTable &frame, const std::string &key, const Sparse &A)
+{
+  double size = 0., skew = 0.;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Sparse::InnerIterator a(A, j); a; ++a)
+    {
+      if (!std::isfinite(a.value()))
+        throw frame.error(key, "has an entry that is not a finite number in row " + std::to_string(a.row() + 1));
+      size = std::max(size, std::abs(a.value()));
+    }
+  const Sparse difference = A - Sparse(A.transpose());
+  for (int j = 0; j < difference.outerSize(); ++j)
+    for (Sparse::InnerIterator a(difference, j); a; ++a)
+      skew = std::max(skew, std::abs(a.value()));
+  if (skew > symmetry_tolerance * size)
+    throw frame.error(key, "is not symmetric; across the diagonal entries differ by up to " +
+                               std::to_string(skew / size) + " of the largest one");
+}
+
+/// n = 0: any size.
+Sparse read_square(const SceneTable &frame, const std::string &key, const Kind &kind, Eigen::Index n)
+{
+  const Sparse A = read_any(frame, key, kind);
+  if (A.rows() != A.cols() || (n > 0 && A.rows() != n))
+    throw frame.error(key, "is " + shape(A.rows(), A.cols()) + ", but must be " +
+                               (n > 0 ? shape(n, n) + " like the mass matrix" : "square"));
+  check_symmetry(frame, key, A);
+  return A;
+}
+
+/// rows = { "-uz" = 1 }: row 1 of q is the displacement against z.
+fem::Interface read_interface(const SceneTable &table, Eigen::Index n, std::map<int, std::string> &owner)
+{
+  check_thing_name(table);
+  fem::Interface interface;
+  interface.name     = table.name();
+  interface.position = table.vector("position", kind::length, {});
+  const auto rows    = table.table("rows");
+  for (const auto &key : rows.keys())
+  {
+    const bool minus = key[0] == '-';
+    const auto found = std::find(motion_names.begin(), motion_names.end(), key.substr(minus));
+    if (found == motion_names.end())
+      throw rows.error(key, "is no motion; valid: " + listed(motion_names) +
+                                ", each with '-' before it if the row counts "
+                                "against the axis");
+    const int motion = found - motion_names.begin(), row = rows.integer(key, 0);
+    if (row < 1 || row > n)
+      throw rows.error(key,
+                       "there is no row " + std::to_string(row) + "; the matrices have rows 1 to " + std::to_string(n));
+    if (interface.coordinate[motion] >= 0)
+      throw rows.error(key, "the motion " + *found + " has a row already");
+    if (const auto [first, is_new] = owner.emplace(row, interface.name + "." + *found); !is_new)
+      throw rows.error(key, "row " + std::to_string(row) + " is " + first->second + " already");
+    interface.coordinate[motion] = row - 1;
+    interface.sign[motion]       = minus ? -1. : 1.;
+  }
+  if (rows.keys().empty())
+    throw rows.error("needs at least one row such as { uz = 1 }");
+  return interface;
+}
+
+/// A force read off the frame: stiffness_row . q + damping_row . q'.
+fem::FrameOutput read_output(const SceneTable &table, const std::string &group, Eigen::Index n)
+{
+  check_thing_name(table);
+  const auto row = [&](const std::string &key, const Kind &kind)
+  {
+    const auto values = table.numbers(key, kind);
+    if (static_cast<Eigen::Index>(values.size()) != n)
+      throw table.error(key, "has " + std::to_string(values.size()) + " entries, but the frame has " +
+                                 std::to_string(n) + " coordinates");
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), n));
+  };
+  fem::FrameOutput output;
+  output.name = group + "." + table.name();
+  output.unit = "N";
+  output.on_q = row("stiffness_row", kind::stiffness_entry);
+  output.on_v = table.has("damping_row") ? row("damping_row", kind::damping_entry) : Eigen::VectorXd::Zero(n);
+  return output;
+}
+
+/// q of a unit translation in x, y, z: given, or read off the interfaces if every row belongs to one.
+Eigen::MatrixXd read_translations(const SceneTable &frame, const fem::FrameMatrices &matrices,
+                                  std::size_t n_interface_rows, bool &known)
+{
+  const Eigen::Index n = matrices.M.rows();
+  known                = true;
+  if (frame.has("translations"))
+  {
+    const Eigen::MatrixXd R = read_any(frame, "translations", kind::number);
+    if (R.rows() != n || R.cols() != 3)
+      throw frame.error("translations", "is " + shape(R.rows(), R.cols()) + ", but must be " + shape(n, 3));
+    return R;
+  }
+  known             = static_cast<Eigen::Index>(n_interface_rows) == n;
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(n, 3);
+  for (const auto &interface : matrices.interfaces)
+    for (int d = 0; d < 3; ++d)
+      if (interface.coordinate[d] >= 0)
+        R(interface.coordinate[d], d) = interface.sign[d];
+  return R;
+}
+
+} // namespace
+
+fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations)
+{
+  fem::FrameMatrices matrices;
+  matrices.M           = read_square(frame, "mass", kind::mass_entry, 0);
+  const Eigen::Index n = matrices.M.rows();
+  matrices.C           = read_square(frame, "stiffness", kind::stiffness_entry, n);
+  matrices.B.resize(n, n);
+  if (const bool ratio = frame.is_table("damping"); ratio)
+    matrices.modal_damping_ratio = frame.table("damping").not_negative("ratio", kind::number);
+  else if (frame.has("damping"))
+    matrices.B = read_square(frame, "damping", kind::damping_entry, n);
+  if (Eigen::SimplicialLLT<Sparse>(matrices.M).info() != Eigen::Success)
+    throw frame.error("mass", "is not positive definite; every coordinate needs a mass");
+
+  std::map<int, std::string> owner;
+  for (const auto &table : frame.tables("interface"))
+    matrices.interfaces.push_back(read_interface(table, n, owner));
+  if (matrices.interfaces.empty())
+    throw frame.error("has no interface; declare at least one [frame.interface.NAME] with rows = { uz = 1 }");
+  for (const std::string group : {"cut", "support"})
+    for (const auto &table : frame.tables(group))
+      matrices.outputs.push_back(read_output(table, group, n));
+
+  matrices.translations      = read_translations(frame, matrices, owner.size(), has_translations);
+  const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
+  matrices.mass              = mass.diagonal().maxCoeff();
+  return matrices;
+}
+
+} // namespace gestell::apps

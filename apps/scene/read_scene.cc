@@ -1,0 +1,220 @@
+#include "apps/scene/nearest_name.h"
+#include "apps/scene/read_bodies.h"
+#include "apps/scene/read_frame.h"
+#include "apps/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace gestell::apps
+{
+namespace
+{
+
+ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
+{
+  const bool reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
+  ReductionRequest request;
+  request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
+  request.options.place = scene.place();
+  const auto table      = scene.optional_table("reduction");
+  if (!table)
+    return request;
+  if (!reducible)
+    throw table->error("there is no frame to reduce; [frame] must give 'cad' or matrices");
+
+  request.options.place     = table->place();
+  request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
+                                  ? ReductionMethod::none
+                                  : ReductionMethod::craig_bampton;
+  request.options.tolerance = table->positive("tolerance", kind::number, request.options.tolerance);
+  if (table->has("modes"))
+  {
+    request.options.n_modes = table->integer("modes", 0);
+    if (request.options.n_modes < 0)
+      throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
+    if (table->has("tolerance"))
+      throw table->error("modes", "a fixed number of modes and a 'tolerance' exclude each other; give one of them");
+  }
+  request.options.frequency = table->positive("frequency", kind::frequency, 0.);
+  return request;
+}
+
+RunRequest read_run(const SceneTable &scene)
+{
+  RunRequest run;
+  run.place        = scene.place();
+  const auto table = scene.optional_table("run");
+  if (!table)
+    return run; // modes and reduce need none; require_run() tells those who do
+  run.place  = table->place();
+  run.method = table->choice("method", {"bdf"}, "bdf");
+  auto &o    = run.options;
+  o.order    = table->integer("order", o.order);
+  if (o.order < 1 || o.order > 6)
+    throw table->error("order",
+                       "BDF has orders 1 to 6, got " + std::to_string(o.order) + "; 2 is stable for every step");
+  o.begin = table->number("begin", kind::time, 0.);
+  o.end   = table->number("end", kind::time);
+  o.step  = table->positive("step", kind::time);
+  if (o.end <= o.begin)
+    throw table->error("end", "must lie after 'begin' (" + std::to_string(o.begin) + " s), got " +
+                                  std::to_string(o.end) + " s");
+  if (o.step > o.end - o.begin)
+    throw table->error("step", "is longer than the run itself, " + std::to_string(o.end - o.begin) + " s");
+  o.max_halvings     = table->integer("max_halvings", o.max_halvings);
+  o.newton_tolerance = table->positive("newton_tolerance", kind::number, o.newton_tolerance);
+  o.energy           = table->boolean("energy", o.energy);
+  if (o.max_halvings < 0 || o.max_halvings > 40)
+    throw table->error("max_halvings", "needs a number from 0 to 40");
+  return run;
+}
+
+void read_output(const SceneTable &scene, Scene &result)
+{
+  const auto table = scene.optional_table("output");
+  if (!table)
+    return;
+  result.run.options.output_step  = table->positive("step", kind::time, 0.);
+  result.run.options.picture_step = table->positive("picture_step", kind::time, 0.);
+  if (table->is_array("signals"))
+    for (const auto &path : table->texts("signals"))
+      result.signals.push_back({path, path, table->place("signals")});
+  else if (const auto signals = table->optional_table("signals"))
+    for (const auto &name : signals->keys())
+    {
+      if (name.empty() || name.find_first_of(",\"\n[]") != std::string::npos || name == "t")
+        throw signals->error(name,
+                             "is no name for a signal: it heads a column of history.csv, so it must not be 't' or "
+                             "contain commas, quotes or brackets");
+      result.signals.push_back({name, signals->text(name), signals->place(name)});
+    }
+}
+
+/// Value of a table { crank = "160 deg", "frame.crown.uz" = "-0.6 mm" } whose keys are coordinates.
+std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, bool rates, bool rotors_only)
+{
+  std::vector<NamedValue> values;
+  for (const auto &name : table.keys())
+  {
+    const auto *body = names.find_body(name);
+    const bool frame = !rotors_only && name.rfind("frame.", 0) == 0;
+    auto valid       = names.body_names();
+    if (rotors_only)
+      valid.erase(std::remove_if(valid.begin(), valid.end(),
+                                 [&](const auto &n) { return names.find_body(n)->kind != coupling::BodyKind::rotor; }),
+                  valid.end());
+    if (!rotors_only)
+      for (const auto &interface : names.interfaces())
+        for (const std::string motion : {"ux", "uy", "uz", "rx", "ry", "rz"})
+          valid.push_back("frame." + interface + "." + motion);
+    if (!frame && std::find(valid.begin(), valid.end(), name) == valid.end())
+      throw table.error(name, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
+                                  suggestion(name, valid));
+    if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
+      throw table.error(name, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+    const bool angle = body ? body->kind == coupling::BodyKind::rotor : name.size() > 2 && name[name.size() - 2] == 'r';
+    const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
+    values.push_back({name, table.number(name, kind), table.place(name)});
+  }
+  return values;
+}
+
+std::vector<NamedValue> read_optional_coordinates(const SceneTable &table, const std::string &key, const Names &names,
+                                                  bool rates, bool rotors_only)
+{
+  const auto inner = table.optional_table(key);
+  return inner ? read_coordinates(*inner, names, rates, rotors_only) : std::vector<NamedValue>{};
+}
+
+StartRequest read_start(const SceneTable &scene, const Names &names)
+{
+  StartRequest start;
+  start.place      = scene.place();
+  const auto table = scene.optional_table("start");
+  if (!table)
+    return start;
+  start.place = table->place();
+  start.rule  = table->choice("rule", {"given", "steady"}, "given") == "given" ? StartRule::given : StartRule::steady;
+  if (start.rule == StartRule::given)
+  {
+    start.q = read_optional_coordinates(*table, "q", names, false, false);
+    start.v = read_optional_coordinates(*table, "v", names, true, false);
+    return start;
+  }
+  for (const auto &angle : read_optional_coordinates(*table, "angles", names, false, true))
+    start.steady.angles.emplace_back(angle.name, angle.value);
+  for (const auto &speed : read_optional_coordinates(*table, "speeds", names, true, true))
+    start.steady.speeds.emplace_back(speed.name, speed.value);
+  if (table->has("driver"))
+    start.steady.driver = names.body(*table, "driver", coupling::BodyKind::rotor).name;
+  return start;
+}
+
+ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene &result)
+{
+  ModesRequest modes;
+  const auto table = scene.optional_table("modes");
+  if (!table)
+    return modes;
+  modes.at     = read_optional_coordinates(*table, "at", names, false, false);
+  modes.number = table->integer("number", modes.number);
+  if (modes.number < 1)
+    throw table->error("number", "needs a number of modes of 1 or more");
+  if (table->has("open"))
+    modes.open = table->texts("open");
+  std::vector<std::string> elements;
+  for (const auto &element : result.elements)
+    elements.push_back(element.name);
+  for (const auto &name : modes.open)
+    if (std::find(elements.begin(), elements.end(), name) == elements.end())
+      throw table->error("open", "there is no nonlinear element '" + name + "' that could be open" +
+                                     suggestion(name, elements));
+  return modes;
+}
+
+void check_gravity(const Scene &scene)
+{
+  const auto &g = scene.gravity;
+  if (scene.frame.source == FrameSource::matrices && !scene.frame.has_translations &&
+      (g[0] != 0. || g[1] != 0. || g[2] != 0.))
+    throw std::invalid_argument(
+        scene.frame.place +
+        ": gravity acts on every row of the frame, but not every row belongs to an "
+        "interface; give 'translations', the n x 3 matrix of q under a unit translation in x, y, z");
+}
+
+} // namespace
+
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides)
+{
+  const SceneNode root = read_scene_file(path, overrides);
+  const Parameters parameters(root.find("parameters"));
+  const SceneTable table(root, parameters, "");
+  table.has("parameters");
+  table.has("extends"); // of the file itself, followed while reading it
+
+  Scene scene;
+  scene.file        = path;
+  scene.name        = table.text("name", std::filesystem::path(path).stem().string());
+  scene.description = table.text("description", "");
+  if (scene.name.find('/') != std::string::npos || scene.name == "." || scene.name == "..")
+    throw table.error("name", "must not contain '/': it names the folder of the results");
+  scene.gravity   = table.vector("gravity", kind::acceleration, {});
+  scene.frame     = read_frame(table);
+  scene.reduction = read_reduction(table, scene.frame);
+  check_gravity(scene);
+
+  Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
+  scene.bodies = read_bodies(table, names);
+  read_elements(table, names, scene);
+  scene.run   = read_run(table);
+  scene.start = read_start(table, names);
+  scene.modes = read_modes(table, names, scene);
+  read_output(table, scene);
+  table.finish();
+  return scene;
+}
+
+} // namespace gestell::apps

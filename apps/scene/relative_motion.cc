@@ -1,0 +1,63 @@
+#include "apps/scene/relative_motion.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+bool parallel(const Vector3 &a, const Vector3 &b)
+{
+  return std::abs(std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) - 1.) < 1e-9;
+}
+
+/// Axis of the first slider, or of the first rotor, among the two; null if there is none.
+const BodyRequest *leading_body(const BodyRequest *from, const BodyRequest *to, coupling::BodyKind kind)
+{
+  if (from && from->kind == kind)
+    return from;
+  return to && to->kind == kind ? to : nullptr;
+}
+
+} // namespace
+
+MotionMeasure difference(const std::string &from, const std::string &to, const Vector3 &axis, bool rotation)
+{
+  MotionMeasure u;
+  if (from != "ground")
+    u.push_back({from, rotation, axis, 1.});
+  if (to != "ground")
+    u.push_back({to, rotation, axis, -1.});
+  return u;
+}
+
+RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
+{
+  const std::string from = names.marker(table, "from"), to = names.marker(table, "to", "ground");
+  if (from == to)
+    throw table.error("to", "is '" + to + "' like `from`; an element acts between two places");
+
+  const bool along = table.has("direction"), about = table.has("about");
+  if (along && about)
+    throw table.error("has both 'direction' and 'about'; give 'direction' for a displacement or 'about' for an angle");
+  if (along || about)
+    return {difference(from, to, table.direction(along ? "direction" : "about"), about), about};
+
+  const BodyRequest *a = names.find_body(from), *b = names.find_body(to);
+  if (const auto *slider = leading_body(a, b, coupling::BodyKind::slider))
+    return {difference(from, to, slider->axis, false), false};
+  const auto *rotor = leading_body(a, b, coupling::BodyKind::rotor);
+  if (!rotor || (a && b && !parallel(a->axis, b->axis)))
+    throw table.error("give 'direction' (a displacement) or 'about' (an angle) between '" + from + "' and '" + to +
+                      "': their axes do not tell");
+  return {difference(from, to, rotor->axis, true), true};
+}
+
+void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                 const std::vector<MotionMeasure> &measures)
+{
+  scene.elements.push_back({table.name(), std::move(element), measures});
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,162 @@
+#pragma once
+
+#include "coupling/frame_service.h"
+#include "coupling/machine.h"
+#include "coupling/simulation.h"
+#include "fem/frame_matrices.h"
+#include "fem/frame_specification.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::apps
+{
+
+using Vector3 = std::array<double, 3>;
+
+enum class FrameSource
+{
+  none,
+  geometry,    ///< CAD or mesh, made by the FrameService
+  matrices,    ///< M, B, C inline or from files
+  reduced_file ///< a reduced frame saved by an earlier run
+};
+
+struct FrameRequest
+{
+  FrameSource source = FrameSource::none;
+  fem::FrameSpecification geometry;
+  fem::FrameMatrices matrices;
+  bool has_translations = false; ///< of `matrices`
+  std::string reduced_file;      ///< absolute path
+  std::string place;
+};
+
+enum class ReductionMethod
+{
+  none,
+  craig_bampton
+};
+
+struct ReductionRequest
+{
+  ReductionMethod method = ReductionMethod::none;
+  coupling::ReductionOptions options;
+};
+
+struct BodyRequest
+{
+  std::string name;
+  coupling::BodyKind kind = coupling::BodyKind::rotor;
+  Vector3 axis{};                 ///< unit vector
+  std::string carrier;            ///< marker a rotor sits on, or a slider is guided by
+  double inertia = 0., mass = 0.; ///< kg m^2, kg
+  Vector3 position{}, size{};     ///< [m], for pictures
+  double radius = 0.;             ///< [m], for pictures
+  std::string place;
+};
+
+/// weight * (motion of a marker along or about an axis).
+struct MotionTerm
+{
+  std::string marker;
+  bool rotation = false;
+  Vector3 axis{}; ///< unit vector
+  double weight = 1.;
+};
+using MotionMeasure = std::vector<MotionTerm>;
+
+struct LinearRequest
+{
+  std::string name;
+  MotionMeasure u;
+  double stiffness = 0., damping = 0., preload = 0., rest = 0.;
+  std::string force_unit;
+};
+
+struct ElementRequest
+{
+  std::string name;
+  std::shared_ptr<mechanism::ForceElement> element;
+  std::vector<MotionMeasure> measures;
+};
+
+struct PointMassRequest
+{
+  std::string name, marker;
+  double mass = 0.;
+  Vector3 inertia{}, offset{};
+};
+
+/// Value of a coordinate or of its rate, by the name of the coordinate.
+struct NamedValue
+{
+  std::string name;
+  double value;
+  std::string place;
+};
+
+enum class StartRule
+{
+  given, ///< q and q' as listed, zero for the rest
+  steady ///< coupling::steady_start
+};
+
+struct StartRequest
+{
+  StartRule rule = StartRule::given;
+  std::vector<NamedValue> q, v; ///< given
+  coupling::SteadyStart steady;
+  std::string place;
+};
+
+struct SignalRequest
+{
+  std::string name, path, place;
+};
+
+struct ModesRequest
+{
+  std::vector<NamedValue> at;    ///< configuration of the bodies; zero for the rest
+  std::vector<std::string> open; ///< elements that are not engaged
+  int number = 20;
+};
+
+struct RunRequest
+{
+  std::string method = "bdf";
+  coupling::RunOptions options;
+  std::string place;
+};
+
+/// A scene file as a plain value: checked in itself, nothing computed.
+struct Scene
+{
+  std::string file, name, description;
+  Vector3 gravity{};
+  FrameRequest frame;
+  ReductionRequest reduction;
+  std::vector<BodyRequest> bodies;
+  std::vector<LinearRequest> linear;
+  std::vector<ElementRequest> elements;
+  std::vector<PointMassRequest> point_masses;
+  std::vector<coupling::DrawnRod> rods;
+  std::map<std::string, std::string> element_places; ///< by the element's name
+  StartRequest start;
+  RunRequest run;
+  ModesRequest modes;
+  std::vector<SignalRequest> signals;
+};
+
+/**
+ * Reads and validates a scene without computing anything (docs/scene.md is the reference of its keys).
+ *
+ * @param overrides  of the command line, "key.path=value".
+ * @throws std::invalid_argument "press.toml:12: body.crank.inertia: ..." for everything a user can get wrong in it.
+ */
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides = {});
+
+} // namespace gestell::apps

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Where a value stands: "press.toml:12", or "--set run.step=1" if it came from the command line.
+struct Place
+{
+  std::string file;
+  int line = 0; ///< from 1; 0: the file as a whole
+
+  std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+};
+
+/// A value of a scene file, with its place; tables keep the order of the file.
+struct SceneNode
+{
+  enum class Type
+  {
+    table,
+    array,
+    text,
+    integer,
+    real,
+    boolean,
+    date
+  };
+  using Entry = std::pair<std::string, SceneNode>;
+
+  Type type = Type::table;
+  Place place;
+  std::string folder; ///< relative paths in the value start here
+  std::string text;   ///< of a text; a number as it is written
+  double number = 0.;
+  bool boolean  = false;
+
+  std::vector<Entry> entries;      ///< of a table
+  std::vector<SceneNode> elements; ///< of an array
+
+  mutable bool used = false;           ///< somebody asked for it
+  mutable std::set<std::string> asked; ///< keys somebody asked this table for
+
+  const SceneNode *find(const std::string &key) const;
+  SceneNode *find(const std::string &key);
+};
+
+/// "a table", "text", "a whole number" ...
+std::string type_name(SceneNode::Type type);
+
+/// Key as it must be written in TOML: bare, or in quotes.
+std::string written_key(const std::string &key);
+
+/**
+ * Reads a scene file with all it extends and the overrides applied.
+ *
+ * `extends = "other.toml"` in a file takes over the entries of the other one; where both have one, tables are merged
+ * and for anything else the extending file wins.  Paths stay relative to the file they are written in.
+ *
+ * @param overrides  "key.path=value"; segments with spaces or dots in quotes.  The value is read as TOML if it is
+ *                   that, else it is text: run.step=20 us and run.step="20 us" are the same.  Relative paths in a value
+ *                   are relative to the working directory.
+ * @throws std::invalid_argument with file and line.
+ */
+SceneNode read_scene_file(const std::string &path, const std::vector<std::string> &overrides);
+
+} // namespace gestell::apps

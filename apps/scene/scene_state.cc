@@ -1,0 +1,74 @@
+#include "apps/scene/build_machine.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// Adds `value` for a body, or for a motion of an interface: q[coordinate] = sign * motion.
+void set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::Machine &machine)
+{
+  for (const auto &body : machine.bodies())
+    if (body.name == value.name)
+    {
+      x[body.coordinate] = value.value;
+      return;
+    }
+  static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
+  const auto dot        = value.name.rfind('.');
+  const auto motion     = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
+  const auto interfaces = machine.reduced_frame() ? machine.reduced_frame()->interfaces
+                          : machine.full_frame()  ? machine.full_frame()->interfaces
+                                                  : std::vector<fem::Interface>{};
+  for (const auto &interface : interfaces)
+    if ("frame." + interface.name == value.name.substr(0, dot) && motion < 6)
+    {
+      const int i = interface.coordinate[motion];
+      if (i < 0)
+        throw std::invalid_argument(value.place + ": this motion of the frame is held, it has no coordinate");
+      x[i] = interface.sign[motion] * value.value;
+      return;
+    }
+  throw std::invalid_argument(value.place + ": there is no coordinate '" + value.name +
+                              "'; give a body or \"frame.NAME.uz\"");
+}
+
+} // namespace
+
+coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine)
+{
+  coupling::InitialState state;
+  if (scene.start.rule == StartRule::steady)
+  {
+    try
+    {
+      state = coupling::steady_start(machine, scene.start.steady);
+    }
+    catch (const std::invalid_argument &e)
+    {
+      throw std::invalid_argument(scene.start.place + ": " + e.what());
+    }
+  }
+  else
+  {
+    state.q = state.v = Eigen::VectorXd::Zero(machine.size());
+    for (const auto &value : scene.start.q)
+      set_coordinate(state.q, value, machine);
+    for (const auto &value : scene.start.v)
+      set_coordinate(state.v, value, machine);
+  }
+  state.t = scene.run.options.begin;
+  return state;
+}
+
+Eigen::VectorXd modes_configuration(const Scene &scene, const coupling::Machine &machine)
+{
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());
+  for (const auto &value : scene.modes.at)
+    set_coordinate(q, value, machine);
+  return q;
+}
+
+} // namespace gestell::apps

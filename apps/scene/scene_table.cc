@@ -1,0 +1,371 @@
+#include "apps/scene/scene_table.h"
+
+#include "apps/scene/nearest_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+using Type = SceneNode::Type;
+
+SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path)
+    : SceneTable(node, parameters, path, path)
+{
+}
+
+SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path,
+                       const std::string &name)
+    : node_(&node), parameters_(&parameters), path_(path), name_(name)
+{
+  node.used = true;
+  if (node.type != Type::table)
+    throw error("needs a table of keys, got " + type_name(node.type) + " " + node.text);
+}
+
+// --- places and errors
+
+std::string SceneTable::path_of(const std::string &key) const
+{
+  return (path_.empty() ? "" : path_ + ".") + written_key(key);
+}
+
+std::string SceneTable::name() const
+{
+  return name_;
+}
+
+std::string SceneTable::place() const
+{
+  return node_->place.text() + (path_.empty() ? "" : ": " + path_);
+}
+
+std::string SceneTable::place(const std::string &key) const
+{
+  const SceneNode *value = node_->find(key);
+  return (value ? value->place : node_->place).text() + ": " + path_of(key);
+}
+
+std::invalid_argument SceneTable::error(const std::string &what) const
+{
+  return std::invalid_argument(place() + ": " + what);
+}
+
+std::invalid_argument SceneTable::error(const std::string &key, const std::string &what) const
+{
+  return std::invalid_argument(place(key) + ": " + what);
+}
+
+// --- looking up
+
+const SceneNode *SceneTable::look_up(const std::string &key) const
+{
+  node_->asked.insert(key);
+  const SceneNode *value = node_->find(key);
+  if (value)
+    value->used = true;
+  return value;
+}
+
+const SceneNode &SceneTable::demand(const std::string &key, const std::string &what) const
+{
+  const SceneNode *value = look_up(key);
+  if (value)
+    return *value;
+  std::vector<std::string> unknown;
+  for (const auto &entry : node_->entries)
+    if (!node_->asked.count(entry.first))
+      unknown.push_back(entry.first);
+  const auto meant = nearest_name(key, unknown);
+  throw error("the key '" + key + "' is missing; it needs " + what +
+              (meant.empty() ? "" : "; is '" + meant + "' a misspelling of it?"));
+}
+
+bool SceneTable::has(const std::string &key) const
+{
+  return look_up(key) != nullptr;
+}
+
+bool SceneTable::is_text(const std::string &key) const
+{
+  const auto *value = look_up(key);
+  return value && value->type == Type::text;
+}
+
+bool SceneTable::is_array(const std::string &key) const
+{
+  const auto *value = look_up(key);
+  return value && value->type == Type::array;
+}
+
+bool SceneTable::is_table(const std::string &key) const
+{
+  const auto *value = look_up(key);
+  return value && value->type == Type::table;
+}
+
+std::vector<std::string> SceneTable::keys() const
+{
+  std::vector<std::string> result;
+  for (const auto &entry : node_->entries)
+    result.push_back(entry.first);
+  return result;
+}
+
+// --- numbers
+
+double SceneTable::evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const
+{
+  const std::string at = value.place.text() + ": " + path_of(key) + ": ";
+  if (value.type != Type::text && value.type != Type::integer && value.type != Type::real)
+    throw std::invalid_argument(at + "needs a " + kind.name + " such as \"" + kind.example + "\", got " +
+                                type_name(value.type) + " " + value.text);
+  try
+  {
+    const double result = value_as(parameters_->evaluate(value), kind, value.text);
+    if (!std::isfinite(result))
+      throw std::invalid_argument("needs a finite number, got " + value.text);
+    return result;
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw std::invalid_argument(at + e.what());
+  }
+}
+
+double SceneTable::number(const std::string &key, const Kind &kind) const
+{
+  return evaluate(key, demand(key, "a " + kind.name + " such as \"" + kind.example + "\""), kind);
+}
+
+double SceneTable::number(const std::string &key, const Kind &kind, double fallback) const
+{
+  return optional_number(key, kind).value_or(fallback);
+}
+
+std::optional<double> SceneTable::optional_number(const std::string &key, const Kind &kind) const
+{
+  const SceneNode *value = look_up(key);
+  return value ? std::optional<double>(evaluate(key, *value, kind)) : std::nullopt;
+}
+
+double SceneTable::positive(const std::string &key, const Kind &kind) const
+{
+  const double value = number(key, kind);
+  if (value <= 0.)
+    throw error(key,
+                "needs a " + kind.name + " above zero such as \"" + kind.example + "\", got " + node_->find(key)->text);
+  return value;
+}
+
+double SceneTable::positive(const std::string &key, const Kind &kind, double fallback) const
+{
+  return has(key) ? positive(key, kind) : fallback;
+}
+
+double SceneTable::not_negative(const std::string &key, const Kind &kind) const
+{
+  const double value = number(key, kind);
+  if (value < 0.)
+    throw error(key, "needs a " + kind.name + " of zero or more, got " + node_->find(key)->text);
+  return value;
+}
+
+double SceneTable::not_negative(const std::string &key, const Kind &kind, double fallback) const
+{
+  return has(key) ? not_negative(key, kind) : fallback;
+}
+
+int SceneTable::integer(const std::string &key, int fallback) const
+{
+  const SceneNode *value = look_up(key);
+  if (!value)
+    return fallback;
+  const double number = evaluate(key, *value, kind::number);
+  if (value->type == Type::real || number != std::round(number) || std::abs(number) > 1e9)
+    throw error(key, "needs a whole number, got " + value->text);
+  return static_cast<int>(number);
+}
+
+bool SceneTable::boolean(const std::string &key, bool fallback) const
+{
+  const SceneNode *value = look_up(key);
+  if (!value)
+    return fallback;
+  if (value->type != Type::boolean)
+    throw error(key, "needs true or false without quotes, got " + type_name(value->type) + " " + value->text);
+  return value->boolean;
+}
+
+// --- arrays of numbers
+
+std::vector<double> SceneTable::numbers(const std::string &key, const Kind &kind) const
+{
+  const SceneNode &value = demand(key, "an array of values");
+  if (value.type != Type::array)
+    throw error(key, "needs an array such as [\"" + kind.example + "\", 0], got " + type_name(value.type) + " " +
+                         value.text);
+  std::vector<double> result;
+  for (const auto &element : value.elements)
+    result.push_back(evaluate(key, element, kind));
+  return result;
+}
+
+std::vector<std::vector<double>> SceneTable::matrix(const std::string &key, const Kind &kind) const
+{
+  const SceneNode &value = demand(key, "a matrix, an array of rows");
+  if (value.type != Type::array || value.elements.empty())
+    throw error(key, "needs a matrix, an array of rows [[..], [..]]");
+  std::vector<std::vector<double>> rows;
+  for (const auto &row : value.elements)
+  {
+    if (row.type != Type::array)
+      throw error(key, "needs a matrix, an array of rows [[..], [..]]; row " + std::to_string(rows.size() + 1) +
+                           " is " + type_name(row.type));
+    rows.emplace_back();
+    for (const auto &element : row.elements)
+      rows.back().push_back(evaluate(key, element, kind));
+    if (rows.back().size() != rows.front().size())
+      throw error(key, "row " + std::to_string(rows.size()) + " has " + std::to_string(rows.back().size()) +
+                           " entries, the first one " + std::to_string(rows.front().size()));
+  }
+  return rows;
+}
+
+Vector3 SceneTable::vector(const std::string &key, const Kind &kind) const
+{
+  const auto x = numbers(key, kind);
+  if (x.size() != 3)
+    throw error(key, "needs three values [x, y, z], got " + std::to_string(x.size()));
+  return {x[0], x[1], x[2]};
+}
+
+Vector3 SceneTable::vector(const std::string &key, const Kind &kind, const Vector3 &fallback) const
+{
+  return has(key) ? vector(key, kind) : fallback;
+}
+
+Vector3 SceneTable::direction(const std::string &key) const
+{
+  Vector3 d           = vector(key, kind::number);
+  const double length = std::hypot(d[0], d[1], d[2]);
+  if (length == 0.)
+    throw error(key, "is a direction and cannot be [0, 0, 0]");
+  for (double &x : d)
+    x /= length;
+  return d;
+}
+
+Vector3 SceneTable::direction(const std::string &key, const Vector3 &fallback) const
+{
+  return has(key) ? direction(key) : fallback;
+}
+
+// --- texts
+
+std::string SceneTable::text(const std::string &key) const
+{
+  const SceneNode &value = demand(key, "text in quotes");
+  if (value.type != Type::text)
+    throw error(key, "needs text in quotes, got " + type_name(value.type) + " " + value.text);
+  if (value.text.empty())
+    throw error(key, "needs text, got an empty one");
+  return value.text;
+}
+
+std::string SceneTable::text(const std::string &key, const std::string &fallback) const
+{
+  return has(key) ? text(key) : fallback;
+}
+
+std::string SceneTable::choice(const std::string &key, const std::vector<std::string> &valid,
+                               const std::string &fallback) const
+{
+  if (fallback.empty() && !has(key))
+    demand(key, "one of " + listed(valid));
+  const std::string chosen = text(key, fallback);
+  if (std::find(valid.begin(), valid.end(), chosen) != valid.end())
+    return chosen;
+  const auto nearest = nearest_name(chosen, valid);
+  throw error(key, "there is no '" + chosen + "'; valid: " + listed(valid) +
+                       (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+std::vector<std::string> SceneTable::texts(const std::string &key) const
+{
+  const SceneNode &value = demand(key, "text in quotes or an array of texts");
+  if (value.type != Type::array)
+    return {text(key)};
+  std::vector<std::string> result;
+  for (const auto &element : value.elements)
+  {
+    if (element.type != Type::text || element.text.empty())
+      throw error(key,
+                  "needs an array of texts in quotes, got " + type_name(element.type) + " " + element.text + " in it");
+    result.push_back(element.text);
+  }
+  if (result.empty())
+    throw error(key, "needs at least one text, got an empty array");
+  return result;
+}
+
+std::string SceneTable::file(const std::string &key) const
+{
+  const std::string given = text(key);
+  const auto folder       = std::filesystem::path(node_->find(key)->folder);
+  const auto path         = (folder / given).lexically_normal();
+  if (!std::filesystem::exists(path))
+    throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " +
+                         folder.string());
+  if (std::filesystem::is_directory(path))
+    throw error(key, "\"" + given + "\" is a folder; a file is needed");
+  return path.string();
+}
+
+// --- tables
+
+SceneTable SceneTable::table(const std::string &key) const
+{
+  return {demand(key, "a table of keys"), *parameters_, path_of(key), key};
+}
+
+std::optional<SceneTable> SceneTable::optional_table(const std::string &key) const
+{
+  return has(key) ? std::optional<SceneTable>(table(key)) : std::nullopt;
+}
+
+std::vector<SceneTable> SceneTable::tables(const std::string &key) const
+{
+  std::vector<SceneTable> result;
+  if (const auto all = optional_table(key))
+    for (const auto &name : all->keys())
+      result.push_back(all->table(name));
+  return result;
+}
+
+namespace
+{
+
+void refuse_unknown(const SceneNode &table, const std::string &path)
+{
+  for (const auto &[key, value] : table.entries)
+  {
+    if (!value.used)
+      throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
+                                  key + "'" + suggestion(key, {table.asked.begin(), table.asked.end()}));
+    // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
+    if (value.type == Type::table && (!value.asked.empty() || value.entries.empty()))
+      refuse_unknown(value, (path.empty() ? "" : path + ".") + written_key(key));
+  }
+}
+
+} // namespace
+
+void SceneTable::finish() const
+{
+  refuse_unknown(*node_, path_);
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,53 @@
+#include "apps/scene/units.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+std::map<std::string, Quantity> make_units()
+{
+  std::map<std::string, Quantity> table;
+  const auto add = [&](const Dimension &dimension, const std::map<std::string, double> &names, Counts counts)
+  {
+    for (const auto &[name, value] : names)
+      table[name] = Quantity{value, dimension, true, counts};
+  };
+  const Counts none = Counts::nothing;
+
+  add({1, 0, 0},
+      {{"m", 1.}, {"km", 1e3}, {"dm", 1e-1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}, {"nm", 1e-9}},
+      none);
+  add({0, 1, 0}, {{"kg", 1.}, {"g", 1e-3}, {"t", 1e3}}, none);
+  add({0, 0, 1}, {{"s", 1.}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"min", 60.}, {"h", 3600.}}, none);
+  add({1, 1, -2}, {{"N", 1.}, {"mN", 1e-3}, {"kN", 1e3}, {"MN", 1e6}}, none);
+  add({2, 1, -2}, {{"Nm", 1.}, {"kNm", 1e3}, {"J", 1.}, {"kJ", 1e3}, {"MJ", 1e6}}, none);
+  add({1, 1, -1}, {{"Ns", 1.}, {"kNs", 1e3}}, none);
+  add({2, 1, -3}, {{"W", 1.}, {"kW", 1e3}, {"MW", 1e6}}, none);
+  add({-1, 1, -2}, {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}, {"bar", 1e5}}, none);
+  add({0, 0, -1}, {{"Hz", 1.}, {"kHz", 1e3}}, Counts::turns);
+  add({0, 0, -1}, {{"rpm", 2. * pi / 60.}}, Counts::radians);
+  add({0, 0, 0}, {{"rad", 1.}, {"mrad", 1e-3}, {"deg", pi / 180.}, {"°", pi / 180.}}, Counts::radians);
+  add({0, 0, 0}, {{"%", 1e-2}}, none);
+  return table;
+}
+
+} // namespace
+
+const std::map<std::string, Quantity> &units()
+{
+  static const auto table = make_units();
+  return table;
+}
+
+std::vector<std::string> unit_names()
+{
+  std::vector<std::string> names;
+  for (const auto &entry : units())
+    names.push_back(entry.first);
+  return names;
+}
+
+} // namespace gestell::apps
