@@ -1,0 +1,212 @@
+#include "coupling/reduction/craig_bampton.h"
+
+#include "coupling/reduction/enough_modes.h"
+#include "coupling/reduction/lowest_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double two_pi = 6.283185307179586;
+
+void require(bool condition, const ReductionOptions &options, const std::string &message)
+{
+  if (!condition)
+    throw std::invalid_argument((options.place.empty() ? std::string("reduction") : options.place) + ": " + message);
+}
+
+void require_valid(const fem::FrameMatrices &frame, const std::vector<int> &q1, const ReductionOptions &options)
+{
+  const int n = int(frame.M.rows()), n2 = n - int(q1.size());
+  require(n > 0, options, "the frame has no coordinates");
+  for (const auto *A : {&frame.M, &frame.B, &frame.C})
+    require(A->rows() == n && A->cols() == n, options,
+            "M, B and C must be square and of one size; found " + std::to_string(A->rows()) + " x " +
+              std::to_string(A->cols()) + " beside " + std::to_string(n) + " x " + std::to_string(n));
+  require(frame.M.isCompressed() && frame.C.isCompressed() && frame.B.isCompressed(), options,
+          "M, B and C must be compressed");
+  require(q1.empty() || (q1.front() >= 0 && q1.back() < n), options, "an interface coordinate lies outside the frame");
+  require(std::adjacent_find(q1.begin(), q1.end()) == q1.end(), options,
+          "two interfaces share a coordinate; give each its own node");
+  require(options.n_modes <= n2, options,
+          std::to_string(options.n_modes) + " modes requested, but only " + std::to_string(n2) +
+            " internal coordinates remain once the interface is held; ask for fewer modes or keep fewer interface points");
+  require(options.n_modes >= 0 || options.tolerance > 0., options,
+          "tolerance is " + std::to_string(options.tolerance) + "; the automatic number of modes needs one above zero");
+  require(std::isfinite(options.frequency) && options.frequency >= 0., options,
+          "frequency is " + std::to_string(options.frequency) + " Hz; it must be zero (automatic) or positive");
+}
+
+void tell(const Progress &progress, const char *phase)
+{
+  if (progress)
+    progress(phase, -1.);
+}
+
+ReductionBasis basis_without_modes(const HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  ReductionBasis basis;
+  basis.q1 = q1;
+  basis.T  = held.constraint_modes();
+  basis.MT = symmetric_product(frame.M, basis.T);
+  return basis;
+}
+
+/// Load of a unit acceleration field in x, y, z.
+MatrixXd acceleration_load(const fem::FrameMatrices &frame)
+{
+  return frame.acceleration_load.rows() > 0 ? frame.acceleration_load :
+                                              symmetric_product(frame.M, frame.translations);
+}
+
+/// Interfaces with their coordinates counted in p.
+std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, const std::vector<int> &q1)
+{
+  for (auto &interface : interfaces)
+    for (int &i : interface.coordinate)
+      if (i >= 0)
+        i = int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin());
+  return interfaces;
+}
+
+/**
+ * Relative part, in the energy norm, of the load f2 of gravity on q2 that the modes do not carry; the worst of x, y, z:
+ *
+ *     1 - sum_i (v_i^T f2)^2 / omega_0i^2  /  f2^T C22^-1 f2     (its square root).
+ */
+double static_residual(const HeldFrame &held, const ReductionBasis &basis, const MatrixXd &load)
+{
+  MatrixXd f2 = load;
+  for (const int i : basis.q1)
+    f2.row(i).setZero();
+  MatrixXd u2 = f2;
+  held.solve_in_place(u2);
+  double worst = 0.;
+  for (int d = 0; d < load.cols(); ++d)
+    {
+      const double energy  = f2.col(d).dot(u2.col(d));
+      const auto   modal   = (basis.fixed_modes().transpose() * f2.col(d)).cwiseQuotient(basis.omega0);
+      const double carried = modal.squaredNorm();
+      if (energy > 0.)
+        worst = std::max(worst, std::sqrt(std::max(0., 1. - carried / energy)));
+    }
+  return worst;
+}
+
+/// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
+void add_modal_damping(MatrixXd &B, const SupportedModes &refined, double zeta)
+{
+  const auto n = B.rows(), p = std::min<Eigen::Index>(refined.omega.size(), n);
+  const auto P = refined.P.topLeftCorner(n, p);
+  B += P * (2. * zeta * refined.omega.head(p)).asDiagonal() * P.transpose();
+}
+
+void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionBasis &basis)
+{
+  reduced.interfaces  = renumbered(frame.interfaces, basis.q1);
+  reduced.n_interface = basis.n1();
+  reduced.omega0      = basis.omega0;
+  for (const auto &output : frame.outputs)
+    {
+      auto row = output;
+      row.on_q = basis.T.transpose() * output.on_q;
+      row.on_v = basis.T.transpose() * output.on_v;
+      reduced.outputs.push_back(row);
+    }
+  reduced.points    = frame.picture.points;
+  reduced.triangles = frame.picture.triangles;
+  if (frame.picture.displacement.rows() > 0)
+    reduced.displacement = (frame.picture.displacement * basis.T).cast<float>();
+  reduced.n_full  = int(frame.M.rows());
+  reduced.n_cells = frame.n_cells;
+  reduced.mass    = frame.mass;
+}
+
+} // namespace
+
+ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
+{
+  ReductionOptions options;
+  options.n_modes = std::max(0, n_modes);
+  const auto q1   = frame.interface_coordinates();
+  require_valid(frame, q1, options);
+  const HeldFrame held(frame, q1);
+  ReductionBasis  basis = basis_without_modes(held, frame, q1);
+  add_fixed_modes(basis, held, frame, n_modes);
+  return basis;
+}
+
+ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress)
+{
+  const auto q1 = frame.interface_coordinates();
+  require_valid(frame, q1, options);
+  tell(progress, "factorisation");
+  const HeldFrame held(frame, q1);
+  tell(progress, "constraint modes");
+  ReductionBasis basis = basis_without_modes(held, frame, q1);
+
+  ReducedFrame   reduced;
+  SupportedModes refined;
+  if (options.n_modes < 0)
+    refined = enough_modes(basis, held, frame, options, progress, reduced.notes);
+  else
+    {
+      tell(progress, "fixed-interface modes");
+      add_fixed_modes(basis, held, frame, options.n_modes);
+    }
+  ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+  if (options.n_modes >= 0)
+    {
+      tell(progress, "error estimate");
+      refined = supported_modes(held, basis, star, frame.M);
+    }
+  const auto estimate     = frequency_estimate(star, basis.n1(), basis.m(), refined);
+  reduced.frequencies_hz  = estimate.omega / two_pi;
+  reduced.frequency_error = estimate.error;
+  if (frame.modal_damping_ratio > 0.)
+    add_modal_damping(star.B, refined, frame.modal_damping_ratio);
+
+  tell(progress, "reduced matrices");
+  reduced.M = star.M;
+  reduced.B = star.B;
+  reduced.C = star.C;
+  if (frame.translations.rows() > 0)
+    {
+      const MatrixXd load       = acceleration_load(frame);
+      reduced.translations_load = basis.T.transpose() * load;
+      reduced.total_mass        = frame.translations.transpose() * load;
+      reduced.static_residual   = static_residual(held, basis, load);
+    }
+  else
+    reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
+  describe(reduced, frame, basis);
+  return reduced;
+}
+
+void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress)
+{
+  const int n = int(frame.M.rows());
+  if (n_modes < 0 || n_modes > n)
+    throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested of a frame with " +
+                                std::to_string(n) + " coordinates; ask for 0 to " + std::to_string(n));
+  tell(progress, "factorisation");
+  const HeldFrame free_frame(frame, {});
+  tell(progress, "modes of the supported frame");
+  ReductionBasis basis;
+  basis.T.resize(n, 0);
+  basis.MT.resize(n, 0);
+  add_fixed_modes(basis, free_frame, frame, n_modes);
+  frame.modal_damping.Z = basis.MT;
+  frame.modal_damping.d = 2. * frame.modal_damping_ratio * basis.omega0;
+}
+
+} // namespace gestell::coupling

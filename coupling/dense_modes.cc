@@ -1,0 +1,96 @@
+#include "coupling/dense_modes.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double massless = 1e-13; // mu relative to the largest, below which a mode has no mass
+constexpr double rigid    = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
+
+/// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
+VectorXd unit_diagonal(const MatrixXd &A)
+{
+  return A.diagonal().unaryExpr([](double a) { return a > 0. ? 1. / std::sqrt(a) : 1.; });
+}
+
+bool is_regular(const MatrixXd &A)
+{
+  const VectorXd d = unit_diagonal(A);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * A * d.asDiagonal(), Eigen::EigenvaluesOnly);
+  return scaled.eigenvalues().minCoeff() > rigid;
+}
+
+/// The lowest C_ii / M_ii, an upper bound of the lowest omega^2.
+double lowest_quotient(const MatrixXd &C, const MatrixXd &M)
+{
+  double s = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < C.rows(); ++i)
+    if (C(i, i) > 0. && M(i, i) > 0.)
+      s = std::min(s, C(i, i) / M(i, i));
+  return std::isfinite(s) ? s : 1.;
+}
+
+void require_motion(const MatrixXd &A, const Eigen::LLT<MatrixXd> &factor)
+{
+  if (factor.info() == Eigen::Success)
+    return;
+  int weakest;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(A);
+  modes.eigenvectors().col(0).cwiseAbs().maxCoeff(&weakest);
+  throw std::invalid_argument("dense_modes: a motion of coordinate " + std::to_string(weakest) +
+                              " has neither stiffness nor mass; give it one of them or leave the coordinate out");
+}
+
+} // namespace
+
+DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M)
+{
+  if (C.rows() == 0)
+    return {};
+  const double   s = is_regular(C) ? 0. : lowest_quotient(C, M);
+  const MatrixXd A = C + s * M;
+  const VectorXd d = unit_diagonal(A);
+  const MatrixXd scaled = d.asDiagonal() * A * d.asDiagonal();
+
+  const Eigen::LLT<MatrixXd> L(scaled);
+  require_motion(scaled, L);
+  MatrixXd H = d.asDiagonal() * M * d.asDiagonal(); // H = L^-1 D M D L^-T
+  L.matrixL().solveInPlace(H);
+  H = H.transpose().eval();
+  L.matrixL().solveInPlace(H);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(H);
+
+  const VectorXd &mu = solver.eigenvalues(); // ascending: omega descending
+  const int       n  = int(mu.size());
+  int             p  = 0;
+  while (p < n && mu(n - 1 - p) > massless * mu(n - 1))
+    ++p;
+  DenseModes modes{VectorXd(p), solver.eigenvectors().rightCols(p).rowwise().reverse()};
+  L.matrixU().solveInPlace(modes.V);
+  modes.V = d.asDiagonal() * modes.V;
+  for (int j = 0; j < p; ++j)
+    {
+      auto v = modes.V.col(j);
+      v /= std::sqrt(v.dot(M * v));
+      const double square = v.dot(C * v);
+      // a rigid motion: stiffness cancels down to rounding
+      const double rounding = 1e-13 * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
+      modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
+    }
+  return modes;
+}
+
+} // namespace gestell::coupling

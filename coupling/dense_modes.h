@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Undamped modes (C - omega^2 M) v = 0, omega ascending, V^T M V = E.
+struct DenseModes
+{
+  Eigen::VectorXd omega; // [p] rad/s; rigid motions have 0
+  Eigen::MatrixXd V;     // [n x p]
+};
+
+/**
+ * All modes of small dense matrices, both symmetric and positive semidefinite.
+ *
+ * Solved is  M v = mu (C + s M) v,  omega^2 = 1 / mu - s,  so that M may be singular (such coordinates have no mode of
+ * their own: p = rank M) and C may be singular (rigid motions).  s lies below the lowest quotient C_ii / M_ii and is
+ * zero if C is regular, which keeps the low frequencies accurate; Rayleigh quotients mend the high ones.
+ *
+ * @throws std::invalid_argument if a motion has neither stiffness nor mass, naming the coordinate it fails at.
+ */
+DenseModes dense_modes(const Eigen::MatrixXd &C, const Eigen::MatrixXd &M);
+
+} // namespace gestell::coupling

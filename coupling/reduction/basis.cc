@@ -1,0 +1,107 @@
+#include "coupling/reduction/basis.h"
+
+#include <cassert>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+constexpr int lanes = 8; // columns that travel together
+
+MatrixXd symmetric(const MatrixXd &A)
+{
+  return 0.5 * (A + A.transpose());
+}
+
+MatrixXd rows(const MatrixXd &A, const std::vector<int> &index)
+{
+  MatrixXd picked(index.size(), A.cols());
+  for (std::size_t i = 0; i < index.size(); ++i)
+    picked.row(i) = A.row(index[i]);
+  return picked;
+}
+
+} // namespace
+
+MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X)
+{
+  assert(A.isCompressed() && A.cols() == X.rows());
+  const auto  n     = A.cols();
+  const int  *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
+  const auto *a     = A.valuePtr();
+  MatrixXd    Y(n, X.cols());
+  Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
+  for (Eigen::Index first = 0; first < X.cols(); first += lanes)
+    {
+      const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
+      x.setZero();
+      x.topRows(width) = X.middleCols(first, width).transpose();
+      for (Eigen::Index j = 0; j < n; ++j)
+        {
+          Eigen::Matrix<double, lanes, 1> sum = Eigen::Matrix<double, lanes, 1>::Zero();
+          for (int k = start[j]; k < start[j + 1]; ++k)
+            sum += a[k] * x.col(row[k]);
+          Y.row(j).segment(first, width) = sum.head(width).transpose();
+        }
+    }
+  return Y;
+}
+
+void ReductionBasis::append(const SparseMatrix &M, const MatrixXd &V, const VectorXd &omega)
+{
+  const auto old = T.cols(), added = V.cols();
+  T.conservativeResize(Eigen::NoChange, old + added);
+  MT.conservativeResize(Eigen::NoChange, old + added);
+  omega0.conservativeResize(omega0.size() + added);
+  T.rightCols(added)  = V;
+  MT.rightCols(added) = symmetric_product(M, V);
+  omega0.tail(added)  = omega;
+}
+
+void ReductionBasis::truncate(int m)
+{
+  assert(m <= this->m());
+  T.conservativeResize(Eigen::NoChange, n1() + m);
+  MT.conservativeResize(Eigen::NoChange, n1() + m);
+  omega0.conservativeResize(m);
+}
+
+ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix &B, const SparseMatrix &C)
+{
+  const int  n1 = basis.n1(), m = basis.m();
+  const auto Psi = basis.constraint_modes();
+  const auto M_Psi = basis.MT.leftCols(n1);
+
+  ReducedMatrices star;
+  star.M                        = MatrixXd::Identity(n1 + m, n1 + m);
+  star.M.topLeftCorner(n1, n1)  = symmetric(Psi.transpose() * M_Psi);
+  star.M.topRightCorner(n1, m)  = M_Psi.transpose() * basis.fixed_modes();
+  star.M.bottomLeftCorner(m, n1) = star.M.topRightCorner(n1, m).transpose();
+
+  star.C                           = MatrixXd::Zero(n1 + m, n1 + m);
+  star.C.topLeftCorner(n1, n1)     = symmetric(rows(symmetric_product(C, Psi), basis.q1));
+  star.C.bottomRightCorner(m, m).diagonal() = basis.omega0.cwiseAbs2();
+
+  star.B = MatrixXd::Zero(n1 + m, n1 + m);
+  if (B.nonZeros() > 0)
+    star.B = symmetric(basis.T.transpose() * symmetric_product(B, basis.T));
+  return star;
+}
+
+VectorXd project_initial(const ReductionBasis &basis, const SparseMatrix &C, const VectorXd &q)
+{
+  VectorXd p(basis.n1() + basis.m());
+  for (int i = 0; i < basis.n1(); ++i)
+    p(i) = q(basis.q1[i]);
+  // V is zero on q1, so V^T C q is V22^T C21 q1 + V22^T C22 q2
+  p.tail(basis.m()) = (basis.fixed_modes().transpose() * (C * q)).cwiseQuotient(basis.omega0.cwiseAbs2());
+  return p;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * T of (5.5.3/16) with its rows in the frame's own order of coordinates: q = T p, p = (q1, modes).
+ *
+ * On the rows of q1 the first n1 columns are E and the modes zero; on all others they are -C22^-1 C21 and V22.  Work
+ * vectors of the held frame likewise keep all n rows, with zeros on q1, so that nothing is gathered or scattered.
+ */
+struct ReductionBasis
+{
+  std::vector<int> q1;     // interface coordinates, ascending
+  Eigen::MatrixXd  T;      // [n x (n1 + m)]
+  Eigen::MatrixXd  MT;     // M T
+  Eigen::VectorXd  omega0; // [m] fixed-interface frequencies (5.5.3/17) [rad/s]
+
+  int  n1() const { return int(q1.size()); }
+  int  m() const { return int(omega0.size()); }
+  auto constraint_modes() const { return T.leftCols(n1()); }
+  auto fixed_modes() const { return T.rightCols(m()); }
+
+  void append(const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega);
+  void truncate(int m);
+};
+
+/// Reduced matrices.
+struct ReducedMatrices
+{
+  Eigen::MatrixXd M, B, C; // [(n1 + m) x (n1 + m)]
+};
+
+/**
+ * M*, B*, C* by the blocks of (5.5.3/20): M*_22 = E, C*_12 = 0 and C*_22 = diag(omega0^2) are not computed but known.
+ * With Psi the constraint modes and V the fixed-interface modes, both padded as in ReductionBasis,
+ *
+ *     M*_11 = Psi^T M Psi,   M*_12 = (M Psi)^T V,   C*_11 = C11 + C12 Psi2,   B* = T^T B T.
+ */
+ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B,
+                                 const Eigen::SparseMatrix<double> &C);
+
+/**
+ * Initial values (5.5.3/22, 23): q*_10 = q_10,  q*_20 = diag(1 / omega0^2) (V22^T C21 q_10 + V22^T C22 q_20); the same
+ * serves for velocities.
+ *
+ * @param C  stiffness of the frame [n x n].
+ * @param q  displacements or velocities of all its coordinates [n].
+ */
+Eigen::VectorXd project_initial(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &C,
+                                const Eigen::VectorXd &q);
+
+/// A X for a symmetric sparse A (both triangles stored) and several columns, passing through A once per eight of them.
+Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double> &A,
+                                  const Eigen::Ref<const Eigen::MatrixXd> &X);
+
+} // namespace gestell::coupling

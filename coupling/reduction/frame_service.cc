@@ -1,0 +1,47 @@
+#include "coupling/frame_service.h"
+
+#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/openblas.h"
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+class Service final : public FrameService
+{
+public:
+  MeshReport mesh(const fem::FrameSpecification &, const Progress &) override
+  {
+    throw std::invalid_argument("FrameService::mesh: not yet connected");
+  }
+
+  fem::FrameMatrices assemble(const fem::FrameSpecification &, const Progress &) override
+  {
+    throw std::invalid_argument("FrameService::assemble: not yet connected");
+  }
+
+  ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                      const Progress &progress) override
+  {
+    use_one_blas_thread();
+    return craig_bampton(frame, options, progress);
+  }
+
+  void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) override
+  {
+    use_one_blas_thread();
+    coupling::add_modal_damping(frame, n_modes, progress);
+  }
+};
+
+} // namespace
+
+} // namespace gestell::coupling
+
+gestell::coupling::FrameService *gestell_frame_service()
+{
+  static gestell::coupling::Service service;
+  return &service;
+}

@@ -1,0 +1,103 @@
+#include "coupling/reduction/held_frame.h"
+
+#include "coupling/reduction/free_motion.h"
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Pivots of a frame that is held well do not differ more than this; below it a free motion is looked for.
+constexpr double suspicious_pivots = 1e-11;
+
+/// Lower triangle of C with the rows and columns of q1 replaced by their diagonal: C22, padded.
+SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &q1)
+{
+  std::vector<char> held(C.rows(), 0);
+  for (const int i : q1)
+    held[i] = 1;
+  Eigen::VectorXi height(C.cols());
+  for (int j = 0; j < C.outerSize(); ++j)
+    {
+      height(j) = 1;
+      for (SparseMatrix::InnerIterator c(C, j); c; ++c)
+        height(j) += c.row() > j;
+    }
+  const double typical = std::max(C.diagonal().mean(), 1e-300);
+  SparseMatrix lower(C.rows(), C.cols());
+  lower.reserve(height);
+  for (int j = 0; j < C.outerSize(); ++j)
+    {
+      lower.insert(j, j) = held[j] ? typical : C.coeff(j, j);
+      if (!held[j])
+        for (SparseMatrix::InnerIterator c(C, j); c; ++c)
+          if (c.row() > j && !held[c.row()])
+            lower.insert(c.row(), j) = c.value();
+    }
+  lower.makeCompressed();
+  return lower;
+}
+
+SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  const SparseMatrix C22 = lower_triangle_held(frame.C, q1);
+  try
+    {
+      SparseCholesky factor(C22);
+      if (factor.pivot_ratio() < suspicious_pivots)
+        require_no_free_motion(frame, q1, C22);
+      return factor;
+    }
+  catch (const NotPositiveDefinite &failure)
+    {
+      require_no_free_motion(frame, q1, C22);
+      throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
+                                  "definite at coordinate " +
+                                  std::to_string(failure.row) + "; it must be symmetric with positive energy for every "
+                                                                "motion");
+    }
+}
+
+} // namespace
+
+HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+  : frame_(frame)
+  , q1_(q1)
+  , factor_(factor_held(frame, q1))
+  , work_(frame.C.rows())
+{
+}
+
+void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
+{
+  for (const int i : q1_)
+    X.row(i).setZero();
+  factor_.solve_in_place(X);
+}
+
+void HeldFrame::solve(const double *f, double *x) const
+{
+  work_ = Eigen::Map<const Eigen::VectorXd>(f, work_.size());
+  for (const int i : q1_)
+    work_(i) = 0.;
+  factor_.solve(work_.data(), x);
+}
+
+Eigen::MatrixXd HeldFrame::constraint_modes() const
+{
+  Eigen::MatrixXd Psi = Eigen::MatrixXd::Zero(frame_.C.rows(), q1_.size());
+  for (std::size_t k = 0; k < q1_.size(); ++k)
+    for (SparseMatrix::InnerIterator c(frame_.C, q1_[k]); c; ++c)
+      Psi(c.row(), k) = -c.value();
+  solve_in_place(Psi);
+  for (std::size_t k = 0; k < q1_.size(); ++k)
+    Psi(q1_[k], k) = 1.;
+  return Psi;
+}
+
+} // namespace gestell::coupling

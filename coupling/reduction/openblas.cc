@@ -1,0 +1,29 @@
+#include "coupling/reduction/openblas.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+extern "C" void openblas_set_num_threads(int n);
+extern "C" void dgemm_();
+
+namespace gestell::coupling
+{
+
+void use_one_blas_thread()
+{
+  static const std::string library = [] {
+    Dl_info found{};
+    return std::string(dladdr(reinterpret_cast<void *>(&dgemm_), &found) && found.dli_fname ? found.dli_fname : "");
+  }();
+  if (library.find("openblas") == std::string::npos)
+    throw std::invalid_argument("reduction: BLAS is " + library + ", but Gestell needs OpenBLAS; on Debian install "
+                                "libopenblas0-pthread and choose it with: update-alternatives --config "
+                                "libblas.so.3-x86_64-linux-gnu");
+  if (!std::getenv("OPENBLAS_NUM_THREADS"))
+    openblas_set_num_threads(1);
+}
+
+} // namespace gestell::coupling

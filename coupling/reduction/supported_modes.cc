@@ -1,0 +1,75 @@
+#include "coupling/reduction/supported_modes.h"
+
+#include "coupling/dense_modes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double singular = 1e-11; // eigenvalue of S scaled to unit diagonal, below which a motion is rigid
+
+/// S^-1, on the complement of the null space if S is singular.
+MatrixXd pseudo_inverse(const MatrixXd &S)
+{
+  if (S.rows() == 0)
+    return S;
+  const VectorXd d = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
+  const VectorXd inverse =
+    scaled.eigenvalues().unaryExpr([](double lambda) { return lambda > singular ? 1. / lambda : 0.; });
+  const MatrixXd U = d.asDiagonal() * scaled.eigenvectors();
+  return U * inverse.asDiagonal() * U.transpose();
+}
+
+} // namespace
+
+SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basis, const ReducedMatrices &star,
+                               const Eigen::SparseMatrix<double> &M)
+{
+  const int        n1   = basis.n1();
+  const DenseModes ritz = dense_modes(star.C, star.M);
+
+  SupportedModes modes;
+  modes.n_rigid        = int((ritz.omega.array() == 0.).count());
+  const auto elastic   = ritz.omega.size() - modes.n_rigid;
+  const MatrixXd Phi_r = ritz.V.leftCols(modes.n_rigid), Phi_e = ritz.V.rightCols(elastic);
+
+  // Y = C^-1 M T Phi
+  MatrixXd       Y       = basis.MT * Phi_e;
+  const MatrixXd Psi_F   = basis.constraint_modes().transpose() * Y;
+  const MatrixXd on_q1   = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * Psi_F;
+  held.solve_in_place(Y);
+  Y += basis.constraint_modes() * on_q1;
+  if (modes.n_rigid > 0)
+    Y -= basis.T * (Phi_r * (Phi_r.transpose() * (basis.MT.transpose() * Y)));
+
+  const MatrixXd   P      = basis.MT.transpose() * Y; // T^T M Y
+  const MatrixXd   YCY    = P.transpose() * Phi_e;
+  const MatrixXd   YMY    = Y.transpose() * symmetric_product(M, Y);
+  const DenseModes refined = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
+  modes.omega             = refined.omega;
+  modes.P                 = P * refined.V;
+  return modes;
+}
+
+FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined)
+{
+  const int         n = n1 + m;
+  FrequencyEstimate estimate;
+  estimate.omega = dense_modes(star.C.topLeftCorner(n, n), star.M.topLeftCorner(n, n)).omega;
+  estimate.error = VectorXd::Zero(estimate.omega.size());
+  for (int j = refined.n_rigid; j < estimate.omega.size() && j - refined.n_rigid < refined.omega.size(); ++j)
+    estimate.error(j) = std::max(0., estimate.omega(j) / refined.omega(j - refined.n_rigid) - 1.);
+  return estimate;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "coupling/reduction/basis.h"
+#include "coupling/reduction/held_frame.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/**
+ * Modes of the supported frame with its interface free, better than the reduced model gives them.
+ *
+ * All Ritz vectors T Phi* of the reduced model are improved together by one step of inverse iteration and a Rayleigh-Ritz
+ * projection onto the result Y (one round of simultaneous iteration):
+ *
+ *     C Y = M T Phi*,     Y^T C Y g = omega^2 Y^T M Y g,     Phi = Y g.
+ *
+ * The inverse of the full C follows from the factor of C22 by block elimination with the constraint modes Psi,
+ *
+ *     C^-1 f = (0; C22^-1 f2) + Psi S^-1 Psi^T f,     S = C*_11 = C11 - C12 C22^-1 C21  [n1 x n1].
+ *
+ * If the frame floats, S has its rigid motions as null space; they are exact in the reduced model and left out here.
+ */
+struct SupportedModes
+{
+  int             n_rigid = 0;
+  Eigen::VectorXd omega; // [p] elastic modes, refined, ascending [rad/s]
+  Eigen::MatrixXd P;     // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
+};
+
+SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basis, const ReducedMatrices &star,
+                               const Eigen::SparseMatrix<double> &M);
+
+/// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
+struct FrequencyEstimate
+{
+  Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)
+  Eigen::VectorXd error; // (omega - refined) / refined, >= 0 but for rounding
+};
+FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined);
+
+} // namespace gestell::coupling
