@@ -1,24 +1,291 @@
 #include "apps/output/report.h"
 
+#include "apps/output/mode_charts.h"
 #include "apps/output/number_text.h"
+#include "apps/output/report_style.h"
 #include "apps/output/signal_charts.h"
+#include "apps/output/skin_picture.h"
 #include "apps/output/svg.h"
+
+#include <cmath>
 
 namespace gestell::apps
 {
+namespace
+{
+
+constexpr std::size_t most_mode_pictures = 9;
+
+std::string section(const std::string &id, const std::string &title, const std::string &content)
+{
+  return content.empty() ? "" : "<section id=\"" + id + "\"><h2>" + title + "</h2>\n" + content + "</section>\n";
+}
+
+std::string figure(const std::string &svg, const std::string &caption = "")
+{
+  return "<figure>" + svg + (caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>") + "</figure>\n";
+}
+
+std::string cell(const std::string &text, const char *kind = "")
+{
+  return (*kind != '\0' ? std::string("<td class=\"") + kind + "\">" : std::string("<td>")) + text + "</td>";
+}
+
+std::string number_cell(double x, int digits = 4)
+{
+  return cell(short_text(x, digits), "n");
+}
+
+/// A table of two columns for facts; those without a value are left out.
+class Facts
+{
+public:
+  void add(const std::string &name, const std::string &value)
+  {
+    rows_ += "<tr><th>" + name + "</th>" + cell(value, "n") + "</tr>\n";
+  }
+  void count(const std::string &name, long n)
+  {
+    if (n >= 0)
+      add(name, std::to_string(n));
+  }
+  void quantity(const std::string &name, double x, const std::string &unit)
+  {
+    if (!std::isnan(x))
+      add(name, short_text(x) + (unit.empty() ? "" : " " + unit));
+  }
+  std::string table() const { return rows_.empty() ? "" : "<table>" + rows_ + "</table>\n"; }
+
+private:
+  std::string rows_;
+};
+
+std::string warning_box(const Result &result)
+{
+  const auto warnings = all_warnings(result);
+  if (warnings.empty())
+    return "";
+  std::string html = "<div class=\"warnings\" role=\"note\"><strong>Warnings</strong><ul>";
+  for (const std::string &warning : warnings)
+    html += "<li>" + escape_xml(warning) + "</li>";
+  return html + "</ul></div>\n";
+}
+
+std::string machine_section(const Result &result, Report &report)
+{
+  const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
+  std::vector<Shape> shapes;
+  std::string caption = "The frame as it is meshed.";
+  if (result.run && !result.run->picture_states.empty())
+  {
+    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
+    caption =
+        "The frame and, as if through glass, the mechanism at t = " + short_text(result.run->picture_times.front()) +
+        " s.";
+  }
+  const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene);
+  if (svg.empty())
+    return "";
+  report.charts.emplace_back("machine", svg);
+  return section("machine", "The machine", figure(svg, result.scenery.has_skin() ? caption : "The mechanism."));
+}
+
+std::string peaks_section(const Result &result)
+{
+  if (!result.run || result.run->signals.empty())
+    return "";
+  std::string html = "<div class=\"wide\"><table><tr><th>signal</th><th>unit</th><th class=\"n\">largest</th>"
+                     "<th class=\"n\">at t [s]</th><th class=\"n\">smallest</th><th class=\"n\">at t [s]</th>"
+                     "<th class=\"n\">at the end</th></tr>\n";
+  for (const coupling::SignalSummary &signal : result.run->signals)
+  {
+    const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
+    const auto value        = [&](double x) { return short_text(x * shown.factor, 5); };
+    html += "<tr>" + cell(escape_xml(signal.name)) + cell(escape_xml(shown.unit)) + cell(value(signal.max), "n peak") +
+            number_cell(signal.t_max, 6) + cell(value(signal.min), "n peak") + number_cell(signal.t_min, 6) +
+            cell(value(signal.final), "n") + "</tr>\n";
+  }
+  return section("peaks", "The answer: peaks and when they occur", html + "</table></div>\n");
+}
+
+std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
+                          const std::string &title)
+{
+  std::string html;
+  for (const SignalChart &chart : charts)
+    if (chart.topic == topic)
+      html += figure(chart.svg);
+  return section(id, title, html);
+}
+
+std::string events_section(const Result &result)
+{
+  if (!result.run || result.run->events.empty())
+    return "";
+  std::string html =
+      "<p class=\"soft\">Located on the solution between steps; the numbers are those above the charts.</p>"
+      "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
+      "<th>object</th><th>transition</th></tr>\n";
+  int number = 0;
+  for (const coupling::EventRecord &event : result.run->events)
+    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(event.t, 7) + cell(escape_xml(event.name)) +
+            cell(escape_xml(event.kind)) + "</tr>\n";
+  return section("events", "Events", html + "</table></div>\n");
+}
+
+/// What the residual of the balance says, and what it does not.
+std::string energy_statement(const coupling::EnergySummary &energy)
+{
+  const double supplied = std::max({std::abs(energy.input), std::abs(energy.stored), std::abs(energy.dissipated)});
+  if (!(supplied > 0.))
+    return "<p>No energy was exchanged.</p>";
+  std::string html =
+      "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than <strong>" +
+      short_text(energy.residual, 3) + " J, " + short_text(100. * energy.residual / supplied, 2) +
+      " %</strong> of the largest of the three.</p><p>This residual measures the error of the integration in time "
+      "alone. The errors of mesh and reduction do not show in it.</p>\n";
+  return html;
+}
+
+std::string energy_section(const Result &result, const std::vector<SignalChart> &charts)
+{
+  if (!result.run)
+    return "";
+  const coupling::EnergySummary &energy = result.run->energy;
+  if (energy.input == 0. && energy.stored == 0. && energy.dissipated == 0. && energy.residual == 0.)
+    return "";
+  Facts facts;
+  facts.quantity("input by drives", energy.input, "J");
+  facts.quantity("stored since the start", energy.stored, "J");
+  facts.quantity("dissipated, work of tools included", energy.dissipated, "J");
+  facts.quantity("largest residual", energy.residual, "J");
+  std::string html = energy_statement(energy) + facts.table();
+  for (const SignalChart &chart : charts)
+    if (chart.topic == ChartTopic::energy)
+      html += figure(chart.svg);
+  return section("energy", "Energy balance", html);
+}
+
+std::string mode_table(const std::vector<coupling::Mode> &modes)
+{
+  std::string html =
+      "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
+      "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th><th class=\"n\">effective mass x "
+      "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
+  int number = 0;
+  for (const coupling::Mode &mode : modes)
+  {
+    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6) +
+            number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
+    for (const double mass : mode.effective_mass)
+      html += number_cell(mass);
+    html += "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+std::string modes_section(const Result &result, Report &report)
+{
+  const auto pictures = [&](const std::vector<coupling::Mode> &modes, const std::string &name, auto svg_of, bool wide)
+  {
+    std::string html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
+    for (std::size_t j = 0; j < std::min(modes.size(), most_mode_pictures); ++j)
+    {
+      report.charts.emplace_back("mode-" + name + "-" + std::to_string(j + 1), svg_of(result, j));
+      html += figure(report.charts.back().second);
+    }
+    return html + "</div>\n";
+  };
+  std::string html;
+  if (!result.coupled_modes.empty())
+    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes) +
+            pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+  if (!result.frame_modes.empty())
+    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes) +
+            pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
+  return section("modes", "Natural frequencies and modes", html);
+}
+
+std::string numerics_section(const Result &result)
+{
+  const ModelFacts &m = result.model;
+  Facts model;
+  model.count("coordinates integrated", m.dofs);
+  model.count("interface coordinates", m.interface);
+  model.count("internal modes kept", m.modes);
+  model.count("measures of nonlinear elements", m.nonlinear);
+  model.count("coordinates of the frame unreduced", m.frame_dofs);
+  model.count("finite elements", m.cells);
+  model.quantity("mass of the frame", m.frame_mass, "kg");
+  model.quantity("estimated error of frequencies by reduction", 100. * m.frequency_error, "%");
+  model.quantity("static load the modes do not carry", 100. * m.static_residual, "%");
+
+  Facts work;
+  if (result.run)
+  {
+    const coupling::WorkCounts &w = result.run->work;
+    work.count("steps", w.steps);
+    work.count("steps rejected", w.rejected);
+    work.count("Newton iterations", w.newton);
+    work.quantity("Newton iterations per step", w.steps > 0 ? static_cast<double>(w.newton) / w.steps : std::nan(""),
+                  "");
+    work.count("factorisations", w.factorisations);
+    work.quantity("time per step",
+                  w.steps > 0 && result.run->wall_s > 0. ? 1e6 * result.run->wall_s / w.steps : std::nan(""), "µs");
+  }
+  for (const auto &[phase, seconds] : result.wall_s)
+    work.quantity("wall time: " + escape_xml(phase), seconds, "s");
+
+  std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (!result.settings.empty())
+    html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
+  return section("numerics", "Model and work", html);
+}
+
+/// Links to the sections there are.
+std::string contents(const std::string &body)
+{
+  std::string html = "<nav>";
+  for (const auto &[id, name] : {std::pair("peaks", "Peaks"),
+                                 {"machine", "Machine"},
+                                 {"forces", "Forces"},
+                                 {"motion", "Motion"},
+                                 {"events", "Events"},
+                                 {"energy", "Energy"},
+                                 {"modes", "Modes"},
+                                 {"numerics", "Model and work"}})
+    if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
+      html += "<a href=\"#" + std::string(id) + "\">" + name + "</a>";
+  return html + "</nav>\n";
+}
+
+} // namespace
 
 Report make_report(const Result &result)
 {
   Report report;
-  report.html = "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><title>" + escape_xml(result.scene) +
-                "</title><h1>" + escape_xml(result.scene) + "</h1>";
-  if (result.run)
-    for (SignalChart &chart : signal_charts(*result.run))
-    {
-      report.html += chart.svg;
-      report.charts.emplace_back(chart.name, std::move(chart.svg));
-    }
-  report.html += "</html>\n";
+  const std::vector<SignalChart> charts = result.run ? signal_charts(*result.run) : std::vector<SignalChart>();
+  for (const SignalChart &chart : charts)
+    report.charts.emplace_back(chart.name, chart.svg);
+
+  const std::string body = peaks_section(result) + machine_section(result, report) +
+                           chart_section(charts, ChartTopic::force, "forces", "Forces") +
+                           chart_section(charts, ChartTopic::motion, "motion", "Motion") +
+                           chart_section(charts, ChartTopic::other, "signals", "Other signals") +
+                           events_section(result) + energy_section(result, charts) + modes_section(result, report) +
+                           numerics_section(result);
+
+  const std::string title = escape_xml(result.scene);
+  report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+                "content=\"width=device-width, initial-scale=1\"><title>" +
+                title + "</title><style>" + report_style + "</style></head>\n<body>\n<header><h1>" + title + "</h1>\n";
+  if (!result.description.empty())
+    report.html += "<p class=\"lead\">" + escape_xml(result.description) + "</p>\n";
+  report.html +=
+      "</header>\n" + warning_box(result) + contents(body) + body + "<footer>Computed with gestell " +
+      escape_xml(result.version) +
+      ". All numbers in full precision: summary.json, history.csv, modes.csv beside this page; the motion for "
+      "ParaView: motion.pvd.</footer>\n</body>\n</html>\n";
   return report;
 }
 

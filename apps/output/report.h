@@ -16,7 +16,11 @@ struct Report
   std::vector<std::pair<std::string, std::string>> charts;
 };
 
-/// One self-contained page: warnings, what was computed, the answer, histories, events, energy, modes, numerics.
+/**
+ * One self-contained page without references to anything outside it: warnings, the machine, the answer (peaks with
+ * their times), histories of forces and motion, events, the energy balance as a statement of the error, modes, model
+ * and work.  What a result does not have is left out.
+ */
 Report make_report(const Result &result);
 
 } // namespace gestell::apps

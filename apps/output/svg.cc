@@ -9,10 +9,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Dark blue to yellow with evenly rising lightness, so that it reads without colour too (own, close to viridis).
-const std::array<const char *, n_scale_colours> scale_colours = {
-    "#45327c", "#443f85", "#3f4d8a", "#395a8c", "#33678d", "#2e738e", "#297f8e", "#248b8d",
-    "#21978a", "#25a384", "#39af7a", "#58ba6c", "#7dc45a", "#a5cd45", "#cdd535", "#f0dd33"};
+/// After the colour-blind safe set of Okabe & Ito, darker on white and lighter on black.
 const std::array<const char *, n_series_colours> on_light = {"#0072b2", "#d55e00", "#009e73", "#b0508f",
                                                              "#b07a00", "#3a3f45", "#3f9fd6"};
 const std::array<const char *, n_series_colours> on_dark  = {"#4fb0ea", "#ff8a3d", "#2fc79b", "#e58cc3",
@@ -48,9 +45,6 @@ std::string style_sheet()
     const std::string n = std::to_string(i);
     css += ".gst .s" + n + "{stroke:var(--s" + n + ")}.gst .f" + n + "{fill:var(--s" + n + ")}";
   }
-  css += ".gst .face{stroke-width:.7;stroke-linejoin:round}";
-  for (int i = 0; i < n_scale_colours; ++i)
-    css += ".gst .c" + std::to_string(i) + "{fill:" + scale_colours[i] + ";stroke:" + scale_colours[i] + "}";
   return css;
 }
 

@@ -21,6 +21,5 @@ std::string svg_text(double x, double y, const std::string &text, const std::str
                      const std::string &anchor = "start", double turn_degrees = 0.);
 
 constexpr int n_series_colours = 7;
-constexpr int n_scale_colours  = 16;
 
 } // namespace gestell::apps

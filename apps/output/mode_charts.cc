@@ -1,0 +1,98 @@
+#include "apps/output/mode_charts.h"
+
+#include "apps/output/chart.h"
+#include "apps/output/number_text.h"
+#include "apps/output/skin_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_bars = 10;
+
+std::string heading(std::size_t j, const coupling::Mode &mode)
+{
+  return "Mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz";
+}
+
+std::string damping_text(const coupling::Mode &mode)
+{
+  return std::isnan(mode.damping_ratio) ? "does not vibrate"
+                                        : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
+}
+
+/// Whether coordinate i of the machine is an angle: that of a rotor, or a rotation of an interface.
+bool is_angle(const Result &result, std::size_t i)
+{
+  for (const coupling::Body &body : result.scenery.bodies)
+    if (body.coordinate == static_cast<int>(i))
+      return body.kind == coupling::BodyKind::rotor;
+  const std::string &name = i < result.coordinate_names.size() ? result.coordinate_names[i] : std::string();
+  const std::string end   = name.size() > 3 ? name.substr(name.size() - 3) : "";
+  return end == ".rx" || end == ".ry" || end == ".rz";
+}
+
+/// Amplitudes of internal modes of a reduced frame say nothing to a reader.
+bool is_physical(const Result &result, std::size_t i)
+{
+  const int first_mode = result.model.interface >= 0 ? result.model.interface : result.scenery.n_frame;
+  const int k          = static_cast<int>(i);
+  return k < first_mode || k >= result.scenery.n_frame;
+}
+
+std::string bars_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
+{
+  const double length = result.scenery.rods.empty() ? 1. : result.scenery.rods.front().crank_radius;
+
+  BarChart chart;
+  chart.title    = title;
+  bool any_angle = false;
+  for (long i = 0; i < mode.shape.size(); ++i)
+  {
+    const auto k = static_cast<std::size_t>(i);
+    if (!is_physical(result, k))
+      continue;
+    const bool angle = is_angle(result, k);
+    any_angle        = any_angle || angle;
+    chart.bars.push_back({k < result.coordinate_names.size() ? result.coordinate_names[k] : "q" + std::to_string(i),
+                          mode.shape(i) * (angle ? length : 1.), angle ? 1 : 0});
+  }
+  const auto larger = [](const Bar &a, const Bar &b) { return std::abs(a.value) > std::abs(b.value); };
+  if (chart.bars.size() > most_bars)
+  {
+    std::stable_sort(chart.bars.begin(), chart.bars.end(), larger);
+    chart.bars.resize(most_bars);
+  }
+  const auto largest = std::min_element(chart.bars.begin(), chart.bars.end(), larger);
+  if (largest != chart.bars.end() && largest->value != 0.)
+  {
+    const double scale = 1. / largest->value;
+    for (Bar &bar : chart.bars)
+      bar.value *= scale;
+  }
+  chart.note = damping_text(mode);
+  if (any_angle)
+    chart.note += "; angles (second colour) times " + short_text(length) + " m";
+  return bar_chart_svg(chart);
+}
+
+} // namespace
+
+std::string frame_mode_svg(const Result &result, std::size_t j)
+{
+  const coupling::Mode &mode = result.frame_modes[j];
+  if (!result.scenery.has_skin())
+    return bars_svg(result, "Frame " + heading(j, mode), mode);
+  return mode_picture_svg(skin_of(result.scenery, mode.shape), heading(j, mode), damping_text(mode));
+}
+
+std::string coupled_mode_svg(const Result &result, std::size_t j)
+{
+  return bars_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
+}
+
+} // namespace gestell::apps

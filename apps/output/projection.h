@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Parallel projection from front right and above; fits what is to be seen into a picture whose longer side has the
+/// given size.
+class View
+{
+public:
+  View(const std::vector<Eigen::Vector3d> &seen, double picture_size);
+
+  /// Coordinates in the picture, to the right and down, and depth (larger is nearer) [units].
+  Eigen::Vector3d operator()(const Eigen::Vector3d &x) const;
+
+  double width() const;  ///< [units]
+  double height() const; ///< [units]
+
+  bool faces_viewer(const Eigen::Vector3d &normal) const { return normal.dot(towards_) > 0.; }
+  /// Brightness of a face of this outward normal under a lamp above and right of the viewer; of few steps, since few
+  /// colours make a small file.
+  double light_on(const Eigen::Vector3d &normal) const;
+
+private:
+  Eigen::Vector3d right_, up_, towards_; // unit vectors
+  Eigen::Vector2d low_, high_;           // of what is to be seen
+  double scale_;
+};
+
+/// A triangle ready to be drawn.
+struct Facet
+{
+  std::array<Eigen::Vector3d, 3> corners; ///< as View gives them
+  std::string colour;                     ///< #rrggbb
+
+  double depth() const { return corners[0][2] + corners[1][2] + corners[2][2]; }
+};
+
+/// What is nearest to the viewer at each point of a raster over the picture.
+class DepthRaster
+{
+public:
+  DepthRaster(const std::vector<Facet> &facets, const View &view);
+
+  /// Whether nothing is nearer than `slack` [units] before x.
+  bool sees(const Eigen::Vector3d &x, double slack) const;
+
+  /// Those facets that something can be seen of, the farthest first.
+  std::vector<Facet> visible(const std::vector<Facet> &facets) const;
+
+private:
+  void draw(const std::array<Eigen::Vector3d, 3> &corners, int facet);
+  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i); }
+
+  int columns_, rows_;
+  std::vector<double> depth_;
+  std::vector<int> facet_; // -1: none
+};
+
+using Colour = std::array<double, 3>; ///< red, green, blue, 0 to 255
+
+/// Colour for a share s in [0, 1]: dark blue to yellow, lightness rising evenly, in a few steps.
+Colour scale_colour(double s);
+
+/// "#rrggbb" of a colour under a light.
+std::string hex(const Colour &colour, double light);
+
+/// Facets, farthest first, as SVG paths for a style that fills with `currentColor`.  Within a thin slice of depth,
+/// where the order does not matter, facets of one colour share a path.
+std::string facet_paths(std::vector<Facet> facets);
+
+} // namespace gestell::apps

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "apps/output/mechanism_shapes.h"
+#include "apps/output/scenery.h"
+#include "apps/output/skin.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
+Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
+
+/// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
+/// undeformed edges.  Seen in parallel projection from front right and above; at most some thousand triangles, a few
+/// hundred kB.
+std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle);
+
+/// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass.
+std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title);
+
+} // namespace gestell::apps
