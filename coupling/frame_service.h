@@ -52,7 +52,7 @@ struct PhaseTime
 class FrameService
 {
 public:
-  virtual ~FrameService() = default;
+  virtual ~FrameService()                                                                             = default;
   virtual MeshReport         mesh(const fem::FrameSpecification &frame, const Progress &progress)     = 0;
   virtual fem::FrameMatrices assemble(const fem::FrameSpecification &frame, const Progress &progress) = 0;
   /// Craig-Bampton (5.5.3/14-23), modal damping included.

@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * The heavy half of Gestell, loaded on the first call: libgestell_frame.so from the folder of the running program or else
- * from the folder that the environment variable GESTELL_PLUGIN_DIR names.
+ * The heavy half of Gestell, loaded on the first call: libgestell_frame.so from the folder of the running program or
+ * else from the folder that the environment variable GESTELL_PLUGIN_DIR names.
  *
  * @throws std::invalid_argument if there is none (a build without the finite element side) or it cannot be loaded.
  */

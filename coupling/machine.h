@@ -111,18 +111,18 @@ public:
   int           coordinate(const std::string &name) const; ///< of a body, or "frame.crown.uz"
   /// "crank.angle", "crank.speed", "slide.displacement", "slide.velocity", "frame.crown.uz", "frame.crown.uz_rate",
   /// "frame.cut.columns", "frame.support.feet", "rod.force" ...; a leading minus turns the sign.
-  Signal                          signal(const std::string &name, const std::string &path) const;
-  std::vector<std::string>        signal_paths() const;
-  const std::vector<Body>        &bodies() const;
-  const std::vector<DrawnRod>    &rods() const;
+  Signal                               signal(const std::string &name, const std::string &path) const;
+  std::vector<std::string>             signal_paths() const;
+  const std::vector<Body>             &bodies() const;
+  const std::vector<DrawnRod>         &rods() const;
   const std::vector<ElementPlacement> &elements() const;
-  const ReducedFrame             *reduced_frame() const; ///< null if there is none
-  const fem::FrameMatrices       *full_frame() const;    ///< null if there is none
-  const LinearBase               &base() const;
-  int                             n_frame() const;       ///< coordinates of the frame
-  int                             n_interface() const;
+  const ReducedFrame                  *reduced_frame() const; ///< null if there is none
+  const fem::FrameMatrices            *full_frame() const;    ///< null if there is none
+  const LinearBase                    &base() const;
+  int                                  n_frame() const; ///< coordinates of the frame
+  int                                  n_interface() const;
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
-  Eigen::MatrixXd                 translation_loads() const;
+  Eigen::MatrixXd translation_loads() const;
 
   double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                   const LocalState &local) const;
@@ -131,24 +131,25 @@ public:
               LocalState &local) const;
 
   // --- SecondOrderSystem
-  int  size() const override;
-  void mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  int                                size() const override;
+  void                               mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                               damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                               stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
   std::unique_ptr<LinearSolver>      factorise(double w_M, double w_B, double w_C) const override;
   std::vector<SpectrumLine>          spectrum() const override;
   void                               excitation(double t, Eigen::VectorXd &f) const override;
   bool                               excitation_is_constant() const override;
   const Eigen::SparseMatrix<double> &directions() const override;
   void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
-  void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                     Eigen::MatrixXd &dp) const override;
+  void            local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                                Eigen::MatrixXd &dp) const override;
   Eigen::VectorXd save_history() const override;
   void            restore_history(const Eigen::VectorXd &saved) override;
   void            start(const LocalState &state) override;
   void            accept(const LocalState &state) override;
   int             n_guards() const override;
   void            guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
+  GuardCrossing   crossing(int i) const override;
   ActiveGuard     guard(int i) const override;
   void            transition(int i, const LocalState &state) override;
   double          local_stored_energy(const LocalState &state) const override;

@@ -16,13 +16,13 @@ namespace gestell::coupling
  */
 struct ReducedFrame
 {
-  Eigen::MatrixXd             M, B, C;      // [(n1+m) x (n1+m)]
-  int                         n_interface = 0;
-  Eigen::VectorXd             omega0;       // [m] fixed-interface frequencies [rad/s]
-  std::vector<fem::Interface> interfaces;
-  Eigen::MatrixXd             translations_load; // [(n1+m) x 3]  T^T M R: load of a unit acceleration in x, y, z
-  Eigen::Matrix3d             total_mass = Eigen::Matrix3d::Zero(); // R^T M R [kg]
-  std::vector<fem::FrameOutput> outputs;    // rows on p
+  Eigen::MatrixXd               M, B, C; // [(n1+m) x (n1+m)]
+  int                           n_interface = 0;
+  Eigen::VectorXd               omega0; // [m] fixed-interface frequencies [rad/s]
+  std::vector<fem::Interface>   interfaces;
+  Eigen::MatrixXd               translations_load; // [(n1+m) x 3]  T^T M R: load of a unit acceleration in x, y, z
+  Eigen::Matrix3d               total_mass = Eigen::Matrix3d::Zero(); // R^T M R [kg]
+  std::vector<fem::FrameOutput> outputs;                              // rows on p
 
   // pictures
   std::vector<std::array<double, 3>> points;
@@ -30,13 +30,13 @@ struct ReducedFrame
   Eigen::MatrixXf                    displacement; // [3 points x (n1+m)]
 
   // what is known about the model
-  int    n_full    = 0; ///< coordinates of the unreduced frame
-  int    n_cells   = 0;
-  double mass      = 0.; ///< [kg]
-  Eigen::VectorXd frequencies_hz;        // [p] supported frame, interface free, from the reduced model
-  Eigen::VectorXd frequency_error;       // [p] estimated relative error of these, >= 0
-  double          static_residual = 0.;  ///< relative part of the static load on q2 that the modes do not carry
-  std::vector<std::string> notes;        ///< warnings of the making
+  int                      n_full  = 0; ///< coordinates of the unreduced frame
+  int                      n_cells = 0;
+  double                   mass    = 0.;         ///< [kg]
+  Eigen::VectorXd          frequencies_hz;       // [p] supported frame, interface free, from the reduced model
+  Eigen::VectorXd          frequency_error;      // [p] estimated relative error of these, >= 0
+  double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
+  std::vector<std::string> notes;                ///< warnings of the making
 };
 
 } // namespace gestell::coupling

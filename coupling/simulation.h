@@ -30,13 +30,13 @@ InitialState steady_start(Machine &machine, const SteadyStart &start);
 
 struct RunOptions
 {
-  int    order = 2;           ///< BDF order
+  int    order = 2;                       ///< BDF order
   double begin = 0., end = 0., step = 0.; ///< [s]
-  double output_step  = 0.;   ///< [s] between rows of the history; 0: every step
-  double picture_step = 0.;   ///< [s] between saved states for pictures; 0: none
-  int    max_halvings = 10;   ///< of the step when Newton fails
-  double newton_tolerance = 1e-10; ///< relative to the scale of each measure
-  bool   energy       = true;
+  double output_step      = 0.;           ///< [s] between rows of the history; 0: every step
+  double picture_step     = 0.;           ///< [s] between saved states for pictures; 0: none
+  int    max_halvings     = 10;           ///< of the step when Newton fails
+  double newton_tolerance = 1e-10;        ///< relative to the scale of each measure
+  bool   energy           = true;
 };
 
 struct SignalSummary
@@ -65,16 +65,16 @@ struct RunResult
 {
   std::vector<SignalSummary> signals;
   /// Rows of history.csv: t, every signal, then energy input, stored, dissipated.
-  std::vector<std::string>  columns, units;
-  std::vector<double>       rows; ///< row major, columns.size() wide
-  std::vector<EventRecord>  events;
-  WorkCounts                work;
-  EnergySummary             energy;
+  std::vector<std::string>     columns, units;
+  std::vector<double>          rows; ///< row major, columns.size() wide
+  std::vector<EventRecord>     events;
+  WorkCounts                   work;
+  EnergySummary                energy;
   std::vector<double>          picture_times;
   std::vector<Eigen::VectorXd> picture_states; ///< q
   std::vector<std::string>     warnings;
   double                       wall_s = 0.;
-  std::string                  failure;     ///< not empty: why it stopped early
+  std::string                  failure; ///< not empty: why it stopped early
   bool                         interrupted = false;
 };
 

@@ -9,7 +9,7 @@ namespace gestell::mechanism
 /// Motion of the k measures of one element at one instant: u [k] in m or rad, its rates v = u' and a = u''.
 struct LocalMotion
 {
-  double t;
+  double        t;
   const double *u;
   const double *v;
   const double *a;
@@ -39,7 +39,7 @@ enum class Crossing
 struct Guard
 {
   std::string kind; ///< name of the transition, e.g. "tool_contact"
-  Crossing crossing;
+  Crossing    crossing;
 };
 
 /// A scalar an element can tell about itself.
@@ -90,17 +90,17 @@ public:
 
   /// Energy [J] stored in the element; what it takes up beyond it is work() .
   virtual double stored_energy(const LocalMotion &, const double *history) const;
-  virtual Work work() const { return Work::dissipated; }
+  virtual Work   work() const { return Work::dissipated; }
 
   /// Switching functions of the branch that `history` says is active.
   virtual std::vector<Guard> guards(const double *history) const;
-  virtual int n_guards(const double *history) const { return (void)history, 0; }
-  virtual void guard_values(const LocalMotion &motion, const double *history, double *g) const;
+  virtual int                n_guards(const double *history) const { return (void)history, 0; }
+  virtual void               guard_values(const LocalMotion &motion, const double *history, double *g) const;
   /// Takes the transition of guard i at the motion where it crossed zero.
   virtual void transition(int i, const LocalMotion &motion, double *history) const;
 
-  virtual std::vector<Quantity> quantities() const                                       = 0;
-  virtual double quantity(int i, const LocalMotion &motion, const double *history) const = 0;
+  virtual std::vector<Quantity> quantities() const                                                      = 0;
+  virtual double                quantity(int i, const LocalMotion &motion, const double *history) const = 0;
 };
 
 } // namespace gestell::mechanism

@@ -3,7 +3,10 @@
 namespace gestell::coupling
 {
 
-void SecondOrderSystem::constraints(double, const Eigen::VectorXd &, Eigen::VectorXd &g) const { g.resize(0); }
+void SecondOrderSystem::constraints(double, const Eigen::VectorXd &, Eigen::VectorXd &g) const
+{
+  g.resize(0);
+}
 
 void SecondOrderSystem::constraint_jacobian(double, const Eigen::VectorXd &, Eigen::MatrixXd &G) const
 {

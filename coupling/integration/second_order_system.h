@@ -16,7 +16,7 @@ namespace gestell::coupling
 class LinearSolver
 {
 public:
-  virtual ~LinearSolver()                                              = default;
+  virtual ~LinearSolver()                                                = default;
   virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
 };
 
@@ -36,9 +36,8 @@ enum class GuardCrossing
 /// A switching function that is active now: whose it is, and which transition its zero means.
 struct ActiveGuard
 {
-  std::string   name; ///< of the element in the scene
-  std::string   kind; ///< of the transition
-  GuardCrossing crossing;
+  std::string name; ///< of the element in the scene
+  std::string kind; ///< of the transition
 };
 
 /// One mode of the linear base system: s = -zeta omega +- i omega sqrt(1 - zeta^2).
@@ -62,12 +61,12 @@ public:
   virtual ~SecondOrderSystem() = default;
 
   // --- linear base system
-  virtual int  size() const                                                                         = 0;
-  virtual void mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                        = 0;
-  virtual void damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                     = 0;
-  virtual void stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const                   = 0;
-  virtual std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const          = 0;
-  virtual std::vector<SpectrumLine>     spectrum() const                                             = 0;
+  virtual int                           size() const                                                        = 0;
+  virtual void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const      = 0;
+  virtual void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const   = 0;
+  virtual void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const = 0;
+  virtual std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const                 = 0;
+  virtual std::vector<SpectrumLine>     spectrum() const                                                    = 0;
   /// f_t(t) [n].
   virtual void excitation(double t, Eigen::VectorXd &f) const = 0;
   /// True if f_t does not depend on time: integrators then evaluate it once.
@@ -75,23 +74,24 @@ public:
 
   // --- local nonlinear forces
   /// W [n x n_u].
-  virtual const Eigen::SparseMatrix<double> &directions() const                                      = 0;
-  virtual void local_force(const LocalState &state, Eigen::VectorXd &p) const                        = 0;
+  virtual const Eigen::SparseMatrix<double> &directions() const                                             = 0;
+  virtual void                               local_force(const LocalState &state, Eigen::VectorXd &p) const = 0;
   /// p [n_u] and  w_u dp/du + w_v dp/dv + w_a dp/da  [n_u x n_u], block diagonal by element.
   virtual void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                             Eigen::MatrixXd &dp) const                                              = 0;
+                             Eigen::MatrixXd &dp) const = 0;
 
   // --- history of the elements: changes on accept() and transition() only
-  virtual Eigen::VectorXd save_history() const                         = 0;
+  virtual Eigen::VectorXd save_history() const                          = 0;
   virtual void            restore_history(const Eigen::VectorXd &saved) = 0;
-  virtual void            start(const LocalState &state)               = 0;
-  virtual void            accept(const LocalState &state)              = 0;
+  virtual void            start(const LocalState &state)                = 0;
+  virtual void            accept(const LocalState &state)               = 0;
 
   // --- events
-  virtual int         n_guards() const                                                  = 0;
-  virtual void        guard_values(const LocalState &state, Eigen::VectorXd &g) const   = 0;
-  virtual ActiveGuard guard(int i) const                                                = 0;
-  virtual void        transition(int i, const LocalState &state)                        = 0;
+  virtual int           n_guards() const                                                = 0;
+  virtual void          guard_values(const LocalState &state, Eigen::VectorXd &g) const = 0;
+  virtual GuardCrossing crossing(int i) const                                           = 0;
+  virtual ActiveGuard   guard(int i) const                                              = 0;
+  virtual void          transition(int i, const LocalState &state)                      = 0;
 
   // --- ideal joints; most machines have none
   virtual int  n_constraints() const { return 0; }

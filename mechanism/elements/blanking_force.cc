@@ -29,7 +29,7 @@ Branch branch_of(const double *history)
 BlankingForce::BlankingForce(const Parameters &parameters) : parameters_(parameters)
 {
   const std::string name = "blanking force";
-  const auto &d          = parameters_;
+  const auto       &d    = parameters_;
   require(d.thickness > 0., name, "thickness [m]", d.thickness, "positive");
   require(d.cut_length > 0., name, "cut_length [m]", d.cut_length, "positive");
   require(d.shear_resistance > 0., name, "shear_resistance [Pa]", d.shear_resistance, "positive");
@@ -121,9 +121,9 @@ void BlankingForce::guard_values(const LocalMotion &motion, const double *histor
 
 void BlankingForce::transition(int i, const LocalMotion &motion, double *history) const
 {
-  constexpr Branch after[] = {fracture, slug_friction, through}; // rise, fracture, slug friction
-  const double z           = motion.u[0] - parameters_.contact_at;
-  const auto virgin_branch = [&](double at) { return at < z_m_ ? rise : at < z_d_ ? fracture : slug_friction; };
+  constexpr Branch after[]       = {fracture, slug_friction, through}; // rise, fracture, slug friction
+  const double     z             = motion.u[0] - parameters_.contact_at;
+  const auto       virgin_branch = [&](double at) { return at < z_m_ ? rise : at < z_d_ ? fracture : slug_friction; };
   switch (branch_of(history))
   {
   case rise:

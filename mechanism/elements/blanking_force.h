@@ -57,17 +57,17 @@ public:
   }
 
   /// history: z_max [m], active branch.
-  int n_history() const override { return 2; }
+  int  n_history() const override { return 2; }
   void start(const LocalMotion &motion, double *history) const override;
   void accept(const LocalMotion &motion, double *history) const override;
 
-  int n_guards(const double *history) const override;
+  int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
-  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void transition(int i, const LocalMotion &motion, double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
 
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
   double peak_force() const { return F_max_; } ///< F_max [N]
 
@@ -93,7 +93,7 @@ private:
   double lift_off(double z_max) const; ///< z_e, penetration at which the unloading line reaches zero
 
   Parameters parameters_;
-  double F_max_, z_m_, z_d_;
+  double     F_max_, z_m_, z_d_;
 };
 
 } // namespace gestell::mechanism

@@ -37,16 +37,16 @@ public:
     p[0]                      = d > 0. && factor > 0. ? Number(-s * c * d * factor) : Number(0.);
   }
 
-  int n_history() const override { return 1; }
-  void start(const LocalMotion &motion, double *history) const override;
-  void engaged(const double *u, double *K, double *D) const override;
-  double stored_energy(const LocalMotion &motion, const double *history) const override;
-  int n_guards(const double *history) const override;
-  std::vector<Guard> guards(const double *history) const override;
-  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void transition(int i, const LocalMotion &motion, double *history) const override;
+  int                   n_history() const override { return 1; }
+  void                  start(const LocalMotion &motion, double *history) const override;
+  void                  engaged(const double *u, double *K, double *D) const override;
+  double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  int                   n_guards(const double *history) const override;
+  std::vector<Guard>    guards(const double *history) const override;
+  void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   Parameters parameters_;

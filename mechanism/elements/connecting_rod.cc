@@ -56,7 +56,7 @@ double ConnectingRod::rate(const LocalMotion &motion) const
 
 void ConnectingRod::start(const LocalMotion &motion, double *history) const
 {
-  double gradient[3];
+  double       gradient[3];
   const double delta = compression(motion.u, gradient);
   history[0]         = delta > 0. ? compressed : delta < -parameters_.clearance ? pulled : gap;
 }
@@ -86,7 +86,7 @@ bool ConnectingRod::closure(const double *u, const double *v, double &g, double 
 
 double ConnectingRod::stored_energy(const LocalMotion &motion, const double *) const
 {
-  double gradient[3];
+  double       gradient[3];
   const double delta = compression(motion.u, gradient);
   const double e     = delta > 0. ? delta : std::min(0., delta + parameters_.clearance);
   return 0.5 * parameters_.stiffness * e * e;
@@ -112,7 +112,7 @@ std::vector<Guard> ConnectingRod::guards(const double *history) const
 
 void ConnectingRod::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  double gradient[3];
+  double       gradient[3];
   const double delta  = compression(motion.u, gradient);
   const Branch branch = branch_of(history);
   g[0]                = branch == pulled ? delta + parameters_.clearance : delta;
@@ -133,7 +133,7 @@ std::vector<Quantity> ConnectingRod::quantities() const
 
 double ConnectingRod::quantity(int i, const LocalMotion &motion, const double *) const
 {
-  double gradient[3];
+  double       gradient[3];
   const double delta = compression(motion.u, gradient);
   if (i == 1)
     return delta;

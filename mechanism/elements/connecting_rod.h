@@ -44,7 +44,7 @@ public:
   template <typename Number>
   void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
   {
-    Number delta, gradient[3];
+    Number       delta, gradient[3];
     const double r = parameters_.crank_radius, l = parameters_.length;
     using std::cos;
     using std::sin;
@@ -62,19 +62,19 @@ public:
       p[i] = -push * gradient[i];
   }
 
-  int n_history() const override { return 1; }
-  void start(const LocalMotion &motion, double *history) const override;
-  void engaged(const double *u, double *K, double *D) const override;
-  bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+  int    n_history() const override { return 1; }
+  void   start(const LocalMotion &motion, double *history) const override;
+  void   engaged(const double *u, double *K, double *D) const override;
+  bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
 
-  int n_guards(const double *history) const override;
+  int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
-  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void transition(int i, const LocalMotion &motion, double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
 
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
   const Parameters &parameters() const { return parameters_; }
 

@@ -23,10 +23,10 @@ public:
     p[0] = -(parameters_.stiffness + parameters_.cubic * u[0] * u[0]) * u[0];
   }
 
-  void engaged(const double *u, double *K, double *D) const override;
-  double stored_energy(const LocalMotion &motion, const double *history) const override;
+  void                  engaged(const double *u, double *K, double *D) const override;
+  double                stored_energy(const LocalMotion &motion, const double *history) const override;
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   Parameters parameters_;

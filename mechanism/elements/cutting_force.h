@@ -44,14 +44,14 @@ public:
     p[0]               = -F * shape * gate;
   }
 
-  int n_history() const override { return 1; }
-  void start(const LocalMotion &motion, double *history) const override;
-  int n_guards(const double *) const override { return 1; }
-  std::vector<Guard> guards(const double *history) const override;
-  void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void transition(int i, const LocalMotion &motion, double *history) const override;
+  int                   n_history() const override { return 1; }
+  void                  start(const LocalMotion &motion, double *history) const override;
+  int                   n_guards(const double *) const override { return 1; }
+  std::vector<Guard>    guards(const double *history) const override;
+  void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   Parameters parameters_;

@@ -35,9 +35,9 @@ public:
     p[0]                            = (2. * i * M_K * s_K) * s / (s * s + s_K * s_K);
   }
 
-  Work work() const override { return Work::input; }
+  Work                  work() const override { return Work::input; }
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   Parameters parameters_;

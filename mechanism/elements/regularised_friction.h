@@ -29,7 +29,7 @@ public:
   }
 
   std::vector<Quantity> quantities() const override;
-  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   Parameters parameters_;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "coupling/machine.h"
+
+namespace gestell::coupling
+{
+
+/// The base matrices as dense ones [n x n], for small machines.
+Eigen::MatrixXd dense_mass(const Machine &machine);
+Eigen::MatrixXd dense_damping(const Machine &machine);
+Eigen::MatrixXd dense_stiffness(const Machine &machine);
+
+/// Stiffness and damping W K W^T, W D W^T [n x n] of the elements engaged at q, without those named in `open`.
+/// @throws std::invalid_argument for a name in `open` that no element has.
+void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
+                      Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
+
+} // namespace gestell::coupling

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "coupling/integration/bdf_formula.h"
+#include "coupling/integration/implicit_step.h"
+#include "coupling/integration/time_integrator.h"
+
+#include <array>
+
+namespace gestell::coupling
+{
+
+/**
+ * BDF (Gear) of order p = 1..6 with fixed step in the form (5.5.2/4-13).
+ *
+ * With w = M q' + B q (the book's v) and h^q, h^w from the past by (5.5.2/8):
+ *
+ *     A q_k = M h^q + h_beta h^w + h_beta^2 (f_t + W p),     A = M + h_beta B + h_beta^2 C      (5.5.2/12, 13)
+ *     q'_k  = (q_k - h^q)/h_beta,     w_k = h_beta (f_t + W p - C q_k) + h^w                    (5.5.2/6, 10)
+ *
+ * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
+ * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not.
+ * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
+ * max_halvings times; the grid stays as it was.
+ */
+class Bdf : public TimeIntegrator
+{
+public:
+  struct Options
+  {
+    int           order        = 2;
+    double        step         = 0.; ///< h [s], > 0
+    int           max_halvings = 10;
+    NewtonOptions newton;
+  };
+
+  /// @throws std::invalid_argument for an order outside 1..6 or a step that is not positive.
+  Bdf(const SecondOrderSystem &system, const Options &options);
+
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  void advance() override;
+
+  const Instant         &instant() const override { return now_; }
+  const IntegrationWork &work() const override { return work_; }
+
+private:
+  /// A past point: q, v = q', w = M q' + B q [n]; u, u' [n_u].
+  struct Point
+  {
+    Eigen::VectorXd q, v, w, u, u_rate;
+  };
+
+  Point &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
+  Point &push();
+  void   multistep(double t);
+  void   start_value(double t);
+  void   euler_chain(const Point &from, double t, double length, int n, Point &to);
+  void   divided_step(const Point &from, double t, double length, int halvings, Point &to);
+  void   formula_step(int order, const Point *const *past, double t, double step, Point &to);
+  void   load(double t);
+  void   publish(double t);
+
+  static constexpr int capacity = 8; ///< points kept: up to 6 past ones, the new one, one spare
+
+  const SecondOrderSystem    &system_;
+  Options                     options_;
+  ImplicitStep                implicit_;
+  IntegrationWork             work_;
+  Instant                     now_;
+  double                      t_begin_ = 0.;
+  long                        index_   = 0; ///< of the newest point, t = t_begin + index h
+  std::array<Point, capacity> points_;
+  int                         newest_ = 0, n_past_ = 0;
+  LocalState                  local_;
+  Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, p_, product_;
+  bool                        load_known_ = false;
+};
+
+} // namespace gestell::coupling

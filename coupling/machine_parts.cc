@@ -1,0 +1,196 @@
+#include "coupling/machine_parts.h"
+
+#include "coupling/dense_base.h"
+#include "coupling/sparse_base.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+void add_to(Eigen::MatrixXd &dense, const std::vector<Eigen::Triplet<double>> &triplets)
+{
+  for (const auto &entry : triplets)
+    dense(entry.row(), entry.col()) += entry.value();
+}
+
+/// [a 0; 0 0] + triplets, n x n.
+Eigen::SparseMatrix<double> enlarged(const Eigen::SparseMatrix<double> &a, int n,
+                                     const std::vector<Eigen::Triplet<double>> &triplets)
+{
+  Eigen::SparseMatrix<double> sum = a;
+  sum.conservativeResize(n, n);
+  if (triplets.empty())
+    return sum;
+  Eigen::SparseMatrix<double> added(n, n);
+  added.setFromTriplets(triplets.begin(), triplets.end());
+  return sum + added;
+}
+} // namespace
+
+int Machine::Parts::add_coordinate(const std::string &body)
+{
+  if (markers.count(body))
+    throw std::invalid_argument("the name \"" + body + "\" is used twice; give every body its own");
+  return n_frame + static_cast<int>(bodies.size());
+}
+
+void Machine::Parts::add_body(const Body &body)
+{
+  bodies.push_back(body);
+  markers[body.name]   = body.marker;
+  positions[body.name] = body.position;
+}
+
+void Machine::Parts::add_interfaces(const std::vector<fem::Interface> &interfaces)
+{
+  for (const fem::Interface &interface : interfaces)
+  {
+    Marker marker;
+    marker.name = "frame." + interface.name;
+    for (int i = 0; i < 6; ++i)
+      if (interface.coordinate[i] >= 0)
+        (i < 3 ? marker.translation[i] : marker.rotation[i - 3]) = {{interface.coordinate[i], interface.sign[i]}};
+    positions[marker.name] = interface.position;
+    markers[marker.name]   = marker;
+  }
+}
+
+void Machine::Parts::add_dyad(Triplets &matrix, double factor, const Measure &w)
+{
+  if (factor != 0.)
+    for (const auto &[i, wi] : w)
+      for (const auto &[j, wj] : w)
+        matrix.emplace_back(i, j, factor * wi * wj);
+}
+
+void Machine::Parts::add_loads(double mass, const std::array<Measure, 3> &translation)
+{
+  for (int d = 0; d < 3; ++d)
+    acceleration_load[d] = acceleration_load[d] + mass * translation[d];
+}
+
+void Machine::Parts::add_mass(double mass, const std::array<Measure, 3> &translation)
+{
+  for (int d = 0; d < 3; ++d)
+    add_dyad(M, mass, translation[d]);
+  add_loads(mass, translation);
+}
+
+Vector3 Machine::Parts::position_of(const std::string &marker) const
+{
+  const auto found = positions.find(marker);
+  return found == positions.end() ? Vector3{} : found->second;
+}
+
+void Machine::Parts::finish()
+{
+  const int n       = n_frame + static_cast<int>(bodies.size());
+  translation_loads = Eigen::MatrixXd::Zero(n, 3);
+  if (full)
+    assemble_sparse(n);
+  else
+    assemble_dense(n);
+  for (int d = 0; d < 3; ++d)
+    for (const auto &[coordinate, value] : acceleration_load[d])
+      translation_loads(coordinate, d) += value;
+
+  load = translation_loads * Eigen::Map<const Eigen::Vector3d>(gravity.data());
+  for (const auto &[coordinate, value] : constant_load)
+    load[coordinate] += value;
+  place_elements(n);
+}
+
+void Machine::Parts::assemble_dense(int n)
+{
+  Eigen::MatrixXd  mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
+  std::vector<int> modal;
+  if (reduced)
+  {
+    mass.topLeftCorner(n_frame, n_frame)      = reduced->M;
+    damping.topLeftCorner(n_frame, n_frame)   = reduced->B;
+    stiffness.topLeftCorner(n_frame, n_frame) = reduced->C;
+    translation_loads.topRows(n_frame)        = reduced->translations_load;
+    modal.resize(n_frame - n_interface);
+    std::iota(modal.begin(), modal.end(), n_interface);
+  }
+  add_to(mass, M);
+  add_to(damping, B);
+  add_to(stiffness, C);
+  base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), std::move(modal));
+}
+
+void Machine::Parts::assemble_sparse(int n)
+{
+  if (full->acceleration_load.size() > 0)
+    translation_loads.topRows(n_frame) = full->acceleration_load;
+  else
+    translation_loads.topRows(n_frame) = full->M * full->translations;
+  fem::ModalDamping damping_operator = full->modal_damping;
+  if (damping_operator.Z.cols() > 0)
+  {
+    damping_operator.Z.conservativeResize(n, Eigen::NoChange);
+    damping_operator.Z.bottomRows(n - n_frame).setZero();
+  }
+  base = std::make_unique<SparseBase>(enlarged(full->M, n, M), enlarged(full->B, n, B), enlarged(full->C, n, C),
+                                      std::move(damping_operator));
+}
+
+void Machine::Parts::place_elements(int n)
+{
+  int      n_measures = 0, n_history = 0;
+  Triplets columns;
+  placed.clear();
+  for (const ElementPlacement &placement : elements)
+  {
+    const int k = placement.element->n_measures();
+    if (k > max_measures)
+      throw std::invalid_argument("element \"" + placement.name + "\" has " + std::to_string(k) +
+                                  " measures; at most " + std::to_string(max_measures) + " are provided for");
+    placed.push_back({placement.element.get(), n_measures, k, n_history});
+    for (int j = 0; j < k; ++j)
+      for (const auto &[coordinate, weight] : placement.measures[j])
+        columns.emplace_back(coordinate, n_measures + j, weight);
+    n_measures += k;
+    n_history += placement.element->n_history();
+  }
+  W.resize(n, n_measures);
+  W.setFromTriplets(columns.begin(), columns.end());
+  history = Eigen::VectorXd::Zero(n_history);
+}
+
+void Machine::Parts::refresh_guards()
+{
+  guards.clear();
+  for (std::size_t e = 0; e < placed.size(); ++e)
+  {
+    const auto own = placed[e].element->guards(history_of(placed[e]));
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      const bool rising = own[i].crossing == mechanism::Crossing::rising;
+      guards.push_back({static_cast<int>(e),
+                        static_cast<int>(i),
+                        rising ? GuardCrossing::rising : GuardCrossing::falling,
+                        {elements[e].name, own[i].kind}});
+    }
+  }
+}
+
+std::string Machine::Parts::coordinate_name(int i) const
+{
+  if (i >= n_frame)
+    return bodies[i - n_frame].name;
+  const std::vector<fem::Interface> &interfaces = reduced ? reduced->interfaces : full->interfaces;
+  for (const fem::Interface &interface : interfaces)
+    for (int m = 0; m < 6; ++m)
+      if (interface.coordinate[m] == i)
+        return "frame." + interface.name + "." + motion_names[m];
+  return reduced ? "frame mode " + std::to_string(i - n_interface + 1) : "frame coordinate " + std::to_string(i);
+}
+
+} // namespace gestell::coupling

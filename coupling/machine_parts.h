@@ -1,0 +1,89 @@
+#pragma once
+
+#include "coupling/linear_base.h"
+#include "coupling/machine.h"
+
+#include <map>
+
+namespace gestell::coupling
+{
+
+/// What a Machine is made of, while it is built and afterwards.
+struct Machine::Parts
+{
+  using Triplets                    = std::vector<Eigen::Triplet<double>>;
+  static constexpr int max_measures = 8; ///< per element
+
+  /// Spring, damper and constant force on one measure, part of the base system.
+  struct LinearElement
+  {
+    std::string name;
+    Measure     u;
+    double      stiffness, damping, offset;
+    std::string unit;
+  };
+
+  /// An element with its place in u and in the history; a copy of what the hot loop needs, side by side.
+  struct PlacedElement
+  {
+    const mechanism::ForceElement *element;
+    int                            first_measure, n_measures, first_history;
+
+    mechanism::LocalMotion motion(const LocalState &state) const
+    {
+      return {state.t, state.u.data() + first_measure, state.v.data() + first_measure, state.a.data() + first_measure};
+    }
+  };
+
+  struct PlacedGuard
+  {
+    int           element, index;
+    GuardCrossing crossing;
+    ActiveGuard   guard;
+  };
+
+  // building
+  std::unique_ptr<ReducedFrame>       reduced;
+  std::unique_ptr<fem::FrameMatrices> full;
+  int                                 n_frame = 0, n_interface = 0;
+  Vector3                             gravity{};
+  std::map<std::string, Marker>       markers;
+  std::map<std::string, Vector3>      positions; ///< of interfaces [m]
+  std::vector<Body>                   bodies;
+  std::vector<DrawnRod>               rods;
+  std::vector<LinearElement>          linear;
+  std::vector<ElementPlacement>       elements;
+  Triplets                            M, B, C;
+  std::vector<std::pair<int, double>> constant_load;
+  std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
+
+  // finished
+  std::unique_ptr<LinearBase> base;
+  Eigen::SparseMatrix<double> W;
+  Eigen::VectorXd             load; // f_t
+  Eigen::MatrixXd             translation_loads;
+  std::vector<PlacedElement>  placed;
+  Eigen::VectorXd             history;
+  std::vector<PlacedGuard>    guards;
+
+  int     add_coordinate(const std::string &body);
+  void    add_body(const Body &body);
+  void    add_interfaces(const std::vector<fem::Interface> &interfaces);
+  void    add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T
+  void    add_loads(double mass, const std::array<Measure, 3> &translation);
+  void    add_mass(double mass, const std::array<Measure, 3> &translation);
+  Vector3 position_of(const std::string &marker) const;
+
+  void                          finish();
+  void                          assemble_dense(int n);
+  void                          assemble_sparse(int n);
+  void                          place_elements(int n);
+  void                          refresh_guards();
+  std::string                   coordinate_name(int i) const;
+  std::map<std::string, Signal> signals() const; ///< all there are, by path
+
+  double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }
+  const double *history_of(const PlacedElement &part) const { return history.data() + part.first_history; }
+};
+
+} // namespace gestell::coupling

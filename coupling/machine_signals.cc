@@ -1,0 +1,130 @@
+#include "coupling/machine_parts.h"
+#include "coupling/nearest_name.h"
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr const char *motions[]      = {"ux", "uy", "uz", "rx", "ry", "rz"};
+constexpr const char *motion_units[] = {"m", "m", "m", "rad", "rad", "rad"};
+
+Measure measure_of_row(const Eigen::VectorXd &row)
+{
+  Measure result;
+  for (int i = 0; i < row.size(); ++i)
+    if (row[i] != 0.)
+      result.emplace_back(i, row[i]);
+  return result;
+}
+
+} // namespace
+
+std::map<std::string, Signal> Machine::Parts::signals() const
+{
+  std::map<std::string, Signal> signals;
+  const auto                    add_motion =
+      [&](const std::string &path, const std::string &rate_path, const std::string &unit, const Measure &u)
+  {
+    signals[path]      = {path, unit, u, {}, -1, -1, 1., 0.};
+    signals[rate_path] = {rate_path, unit + "/s", {}, u, -1, -1, 1., 0.};
+  };
+
+  for (const auto &[name, marker] : markers)
+    if (name.rfind("frame.", 0) == 0)
+      for (int i = 0; i < 6; ++i)
+        add_motion(name + "." + motions[i], name + "." + motions[i] + "_rate", motion_units[i],
+                   i < 3 ? marker.translation[i] : marker.rotation[i - 3]);
+
+  for (const Body &body : bodies)
+    if (body.kind == BodyKind::rotor)
+      add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate, 1.}});
+    else
+      add_motion(body.name + ".displacement", body.name + ".velocity", "m", {{body.coordinate, 1.}});
+
+  if (reduced || full)
+    for (const fem::FrameOutput &output : reduced ? reduced->outputs : full->outputs)
+    {
+      const std::string path = "frame." + output.name;
+      signals[path] = {path, output.unit, measure_of_row(output.on_q), measure_of_row(output.on_v), -1, -1, 1., 0.};
+    }
+
+  for (const auto &element : linear)
+  {
+    add_motion(element.name + ".displacement", element.name + ".rate", element.unit == "N m" ? "rad" : "m", element.u);
+    signals[element.name + ".force"] = {
+        element.name + ".force", element.unit, element.stiffness * element.u, element.damping * element.u, -1, -1, 1.,
+        element.offset};
+    if (element.unit == "N m")
+      signals[element.name + ".torque"] = signals[element.name + ".force"];
+  }
+
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    const auto quantities = elements[e].element->quantities();
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+    {
+      const std::string path = elements[e].name + "." + quantities[i].name;
+      signals[path]          = {path, quantities[i].unit, {}, {}, static_cast<int>(e), static_cast<int>(i), 1., 0.};
+    }
+  }
+  return signals;
+}
+
+std::vector<std::string> Machine::signal_paths() const
+{
+  std::vector<std::string> paths;
+  for (const auto &entry : parts_->signals())
+    paths.push_back(entry.first);
+  return paths;
+}
+
+Signal Machine::signal(const std::string &name, const std::string &path) const
+{
+  const bool        minus    = !path.empty() && path[0] == '-';
+  const std::string positive = minus ? path.substr(path.find_first_not_of("- ")) : path;
+  const auto        signals  = parts_->signals();
+  const auto        found    = signals.find(positive);
+  if (found == signals.end())
+    throw std::invalid_argument("signal \"" + name + "\": there is no \"" + positive + "\"; the nearest is \"" +
+                                nearest_name(positive, signal_paths()) + "\"");
+  Signal signal = found->second;
+  signal.name   = name;
+  if (minus)
+    signal.scale = -1.;
+  return signal;
+}
+
+int Machine::coordinate(const std::string &name) const
+{
+  for (const Body &body : parts_->bodies)
+    if (body.name == name)
+      return body.coordinate;
+  std::vector<std::string> names;
+  for (int i = 0; i < size(); ++i)
+  {
+    names.push_back(coordinate_name(i));
+    if (names.back() == name)
+      return i;
+  }
+  throw std::invalid_argument("there is no coordinate \"" + name + "\"; the nearest name is \"" +
+                              nearest_name(name, names) + "\"");
+}
+
+double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                         const LocalState &local) const
+{
+  double value = signal.offset;
+  for (const auto &[i, weight] : signal.on_q)
+    value += weight * q[i];
+  for (const auto &[i, weight] : signal.on_v)
+    value += weight * v[i];
+  if (signal.element >= 0)
+  {
+    const auto &part = parts_->placed[signal.element];
+    value += part.element->quantity(signal.quantity, part.motion(local), parts_->history_of(part));
+  }
+  return signal.scale * value;
+}
+
+} // namespace gestell::coupling
