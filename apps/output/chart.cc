@@ -51,14 +51,14 @@ void add_room(double &low, double &high)
 struct LegendEntry
 {
   double x;
-  int row;
+  int    row;
 };
 
 std::vector<LegendEntry> legend_layout(const LineChart &chart, int &rows)
 {
   std::vector<LegendEntry> entries;
-  double x = left_margin;
-  rows     = 1;
+  double                   x = left_margin;
+  rows                       = 1;
   for (const Series &series : chart.series)
   {
     const double width = 34. + letter_width * static_cast<double>(series.name.size());
@@ -109,7 +109,7 @@ std::string axes(const LineChart &chart, const Frame &f)
 std::string event_lines(const LineChart &chart, const Frame &f)
 {
   std::string svg;
-  double free_from = f.left;
+  double      free_from = f.left;
   for (const EventMark &mark : chart.marks)
   {
     if (mark.x < f.x0 || mark.x > f.x1)
@@ -117,7 +117,7 @@ std::string event_lines(const LineChart &chart, const Frame &f)
     const double x = f.px(mark.x);
     svg += "<g><title>" + escape_xml(mark.text) + "</title>" + segment("event", x, f.top, x, f.bottom);
     const std::string number = std::to_string(mark.number);
-    const double half        = 3.2 * static_cast<double>(number.size());
+    const double      half   = 3.2 * static_cast<double>(number.size());
     if (x - half >= free_from)
     {
       svg += svg_text(x, f.top - 4., number, "small", "middle");
@@ -132,8 +132,8 @@ std::string event_lines(const LineChart &chart, const Frame &f)
 std::string curve(const LineChart &chart, const std::vector<double> &y, const Window &window, const Frame &f)
 {
   std::string path;
-  bool pen_down      = false;
-  const auto draw_to = [&](std::size_t i)
+  bool        pen_down = false;
+  const auto  draw_to  = [&](std::size_t i)
   {
     path += pen_down ? 'L' : 'M';
     append_coordinate(path, f.px(chart.x[i]));
@@ -151,7 +151,7 @@ std::string curve(const LineChart &chart, const std::vector<double> &y, const Wi
       continue;
     }
     const double column = std::floor(f.px(chart.x[i]));
-    std::size_t last = i, low = i, high = i;
+    std::size_t  last = i, low = i, high = i;
     for (std::size_t k = i; k < end && std::isfinite(y[k]) && std::floor(f.px(chart.x[k])) == column; ++k)
     {
       last = k;
@@ -222,10 +222,10 @@ std::string line_chart_svg(const LineChart &chart)
   if (!(x1 > x0))
     add_room(x0, x1);
 
-  int rows            = 1;
-  const auto entries  = legend_layout(chart, rows);
-  const Window window = window_of(chart, x0, x1);
-  const Frame f       = frame_of(chart, window, x0, x1, rows);
+  int          rows    = 1;
+  const auto   entries = legend_layout(chart, rows);
+  const Window window  = window_of(chart, x0, x1);
+  const Frame  f       = frame_of(chart, window, x0, x1, rows);
 
   std::string svg = svg_head(chart.width, chart.height, chart.title);
   svg += svg_text(left_margin, 18., chart.title, "title");
@@ -246,7 +246,7 @@ std::string bar_chart_svg(const BarChart &chart)
 {
   constexpr double row = 22., top = 34.;
 
-  double largest      = 0.;
+  double      largest = 0.;
   std::size_t longest = 0;
   for (const Bar &bar : chart.bars)
   {
@@ -260,7 +260,7 @@ std::string bar_chart_svg(const BarChart &chart)
   std::string svg = svg_head(chart.width, height, chart.title) + svg_text(10., 19., chart.title, "title");
   for (std::size_t i = 0; i < chart.bars.size(); ++i)
   {
-    const Bar &bar      = chart.bars[i];
+    const Bar   &bar    = chart.bars[i];
     const double y      = top + row * static_cast<double>(i);
     const double length = largest > 0. && std::isfinite(bar.value) ? half * bar.value / largest : 0.;
     svg += svg_text(left - 4., y + 14., bar.name, "label", "end");
@@ -270,7 +270,8 @@ std::string bar_chart_svg(const BarChart &chart)
     append_coordinate(py, y + 3.);
     svg += "<rect class=\"f" + std::to_string(bar.colour % n_series_colours) + "\" x=\"" + x + "\" y=\"" + py +
            "\" width=\"" + w + "\" height=\"14\" rx=\"1.5\"/>";
-    svg += svg_text(chart.width - 8., y + 14., short_text(bar.value, 3), "tick", "end");
+    svg += svg_text(chart.width - 8., y + 14., short_text(std::abs(bar.value) < 5e-4 * largest ? 0. : bar.value, 3),
+                    "tick", "end");
   }
   svg += segment("axis", zero, top, zero, top + row * static_cast<double>(chart.bars.size()));
   if (!chart.note.empty())

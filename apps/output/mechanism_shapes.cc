@@ -13,7 +13,7 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double pi          = 3.14159265358979323846;
-constexpr int n_rim          = 36;   ///< corners of a disc
+constexpr int    n_rim       = 36;   ///< corners of a disc
 constexpr double disc_width  = 0.25; ///< of its radius
 constexpr double rod_breadth = 0.08; ///< of its length
 
@@ -51,12 +51,12 @@ void add_box(Shape &shape, const Vector3d &centre, const Vector3d &a, const Vect
 void add_disc(Shape &shape, const Vector3d &centre, const Vector3d &e1, const Vector3d &e2, const Vector3d &axis,
               double radius)
 {
-  const int first     = static_cast<int>(shape.points.size());
-  const Vector3d side = 0.5 * disc_width * radius * axis;
+  const int      first = static_cast<int>(shape.points.size());
+  const Vector3d side  = 0.5 * disc_width * radius * axis;
   for (int i = 0; i < n_rim; ++i)
   {
-    const double angle = 2. * pi * i / n_rim;
-    const Vector3d rim = centre + radius * (std::cos(angle) * e1 + std::sin(angle) * e2);
+    const double   angle = 2. * pi * i / n_rim;
+    const Vector3d rim   = centre + radius * (std::cos(angle) * e1 + std::sin(angle) * e2);
     shape.points.push_back(rim - side);
     shape.points.push_back(rim + side);
   }
@@ -93,7 +93,7 @@ struct RotorPose
         if (const coupling::Body *slider = find(scenery, rod.slider))
           top = -vector(slider->axis);
     const Vector3d zero = across(axis, axis.cross(top).norm() > 1e-6 ? top : Vector3d::UnitX());
-    const double phi    = q(rotor.coordinate);
+    const double   phi  = q(rotor.coordinate);
     pin                 = std::cos(phi) * zero + std::sin(phi) * axis.cross(zero);
     ahead               = axis.cross(pin);
   }
@@ -103,7 +103,7 @@ struct RotorPose
 struct SliderPose
 {
   Vector3d axis;
-  double ideal; ///< [m]
+  double   ideal; ///< [m]
   Vector3d displacement;
 
   SliderPose(const Scenery &scenery, const coupling::Body &slider, const Eigen::VectorXd &q)
@@ -126,8 +126,8 @@ struct SliderPose
 Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eigen::VectorXd &q)
 {
   const RotorPose pose(scenery, rotor, q);
-  const Vector3d centre = vector(rotor.position);
-  const double r        = rotor.radius;
+  const Vector3d  centre = vector(rotor.position);
+  const double    r      = rotor.radius;
 
   Shape shape;
   shape.name = rotor.name;
@@ -142,7 +142,7 @@ Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eig
 Shape slider_shape(const Scenery &scenery, const coupling::Body &slider, const Eigen::VectorXd &q)
 {
   const SliderPose pose(scenery, slider, q);
-  Shape shape;
+  Shape            shape;
   shape.name = slider.name;
   add_box(shape, vector(slider.position) + pose.ideal * pose.axis, 0.5 * slider.size[0] * Vector3d::UnitX(),
           0.5 * slider.size[1] * Vector3d::UnitY(), 0.5 * slider.size[2] * Vector3d::UnitZ());
@@ -153,14 +153,14 @@ Shape slider_shape(const Scenery &scenery, const coupling::Body &slider, const E
 Shape rod_shape(const Scenery &scenery, const coupling::DrawnRod &rod, const coupling::Body &crank,
                 const coupling::Body &slider, const Eigen::VectorXd &q)
 {
-  const RotorPose turned(scenery, crank, q);
+  const RotorPose  turned(scenery, crank, q);
   const SliderPose slid(scenery, slider, q);
-  const Vector3d centre    = vector(crank.position);
-  const Vector3d big_end   = centre + rod.crank_radius * turned.pin;
-  const Vector3d small_end = centre + (rod.length - rod.crank_radius + slid.ideal) * slid.axis;
-  const Vector3d half = 0.5 * (small_end - big_end), along = half.normalized();
-  const Vector3d side = across(along, turned.axis), front = along.cross(side);
-  const double breadth = 0.5 * rod_breadth * rod.length;
+  const Vector3d   centre    = vector(crank.position);
+  const Vector3d   big_end   = centre + rod.crank_radius * turned.pin;
+  const Vector3d   small_end = centre + (rod.length - rod.crank_radius + slid.ideal) * slid.axis;
+  const Vector3d   half = 0.5 * (small_end - big_end), along = half.normalized();
+  const Vector3d   side = across(along, turned.axis), front = along.cross(side);
+  const double     breadth = 0.5 * rod_breadth * rod.length;
 
   Shape shape;
   shape.name = rod.name;

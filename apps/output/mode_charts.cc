@@ -32,7 +32,7 @@ bool is_angle(const Result &result, std::size_t i)
     if (body.coordinate == static_cast<int>(i))
       return body.kind == coupling::BodyKind::rotor;
   const std::string &name = i < result.coordinate_names.size() ? result.coordinate_names[i] : std::string();
-  const std::string end   = name.size() > 3 ? name.substr(name.size() - 3) : "";
+  const std::string  end  = name.size() > 3 ? name.substr(name.size() - 3) : "";
   return end == ".rx" || end == ".ry" || end == ".rz";
 }
 

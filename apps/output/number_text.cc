@@ -12,7 +12,7 @@ namespace gestell::apps
 void append_exact(std::string &text, double x)
 {
   std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
+  const auto           end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
   text.append(buffer.data(), end);
 }
 
@@ -28,7 +28,7 @@ std::string short_text(double x, int digits)
   if (!std::isfinite(x))
     return std::isnan(x) ? "–" : (x > 0. ? "∞" : "−∞");
   std::array<char, 64> buffer;
-  const double size = std::abs(x);
+  const double         size = std::abs(x);
   if (size >= 1e-3 && size < 1e6)
   {
     const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
@@ -51,7 +51,7 @@ DisplayUnit display_unit(const std::string &si_unit, double magnitude)
   static const std::array<const char *, 9> takes_prefix = {"N", "N m", "m", "m/s", "J", "W", "Pa", "N/m", "N s/m"};
   struct Prefix
   {
-    int exponent;
+    int         exponent;
     const char *letter;
   };
   static const std::array<Prefix, 6> prefixes = {{{-9, "n"}, {-6, "µ"}, {-3, "m"}, {3, "k"}, {6, "M"}, {9, "G"}}};

@@ -36,13 +36,13 @@ double in_steps(double s, double n)
 /// The path of one facet in half units, relative, as short as can be.
 std::string triangle_path(const Facet &facet)
 {
-  std::string svg;
+  std::string         svg;
   std::array<long, 2> previous = {0, 0};
   for (int i = 0; i < 3; ++i)
   {
     const std::array<long, 2> place = {std::lround(2. * facet.corners[i][0]), std::lround(2. * facet.corners[i][1])};
-    const std::string x = std::to_string(place[0] - previous[0]), y = std::to_string(place[1] - previous[1]);
-    const char *const before = i == 0 ? "M" : i == 1 ? "l" : x[0] == '-' ? "" : " ";
+    const std::string         x = std::to_string(place[0] - previous[0]), y = std::to_string(place[1] - previous[1]);
+    const char *const         before = i == 0 ? "M" : i == 1 ? "l" : x[0] == '-' ? "" : " ";
     svg += before + x + (y[0] == '-' ? "" : " ") + y;
     previous = place;
   }
@@ -99,20 +99,20 @@ DepthRaster::DepthRaster(const std::vector<Facet> &facets, const View &view)
 void DepthRaster::draw(const std::array<Vector3d, 3> &corners, int facet)
 {
   const Vector3d a = on_raster(corners[0]), b = on_raster(corners[1]), c = on_raster(corners[2]);
-  const double area = cross(a, b, c);
+  const double   area = cross(a, b, c);
   if (std::abs(area) < 1e-12)
     return;
   const auto bound = [](double x, int n) { return std::clamp(static_cast<int>(x), 0, n - 1); };
-  const int left = bound(std::min({a[0], b[0], c[0]}), columns_), top = bound(std::min({a[1], b[1], c[1]}), rows_);
-  const int right  = bound(std::max({a[0], b[0], c[0]}) + 1., columns_);
-  const int bottom = bound(std::max({a[1], b[1], c[1]}) + 1., rows_);
+  const int  left = bound(std::min({a[0], b[0], c[0]}), columns_), top = bound(std::min({a[1], b[1], c[1]}), rows_);
+  const int  right  = bound(std::max({a[0], b[0], c[0]}) + 1., columns_);
+  const int  bottom = bound(std::max({a[1], b[1], c[1]}) + 1., rows_);
   for (int j = top; j <= bottom; ++j)
     for (int i = left; i <= right; ++i)
     {
       // Shares of the corners in the raster point.
       const Vector3d x(i, j, 0.);
-      const double u = cross(x, b, c) / area, v = cross(a, x, c) / area, w = 1. - u - v;
-      const double z = u * a[2] + v * b[2] + w * c[2];
+      const double   u = cross(x, b, c) / area, v = cross(a, x, c) / area, w = 1. - u - v;
+      const double   z = u * a[2] + v * b[2] + w * c[2];
       if (std::min({u, v, w}) < -1e-9 || z <= depth_[index(i, j)])
         continue;
       depth_[index(i, j)] = z;
@@ -146,8 +146,8 @@ Colour scale_colour(double s)
   static const std::array<Colour, 5> stops = {
       {{64, 67, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
   const double place = 4. * in_steps(std::clamp(s, 0., 1.), n_scale_steps);
-  const int i        = std::min(static_cast<int>(place), 3);
-  Colour mixed;
+  const int    i     = std::min(static_cast<int>(place), 3);
+  Colour       mixed;
   for (int k = 0; k < 3; ++k)
     mixed[k] = stops[i][k] + (place - i) * (stops[i + 1][k] - stops[i][k]);
   return mixed;
@@ -156,7 +156,7 @@ Colour scale_colour(double s)
 std::string hex(const Colour &colour, double light)
 {
   const auto part = [&](int k) { return std::clamp(static_cast<int>(light * colour[k]), 0, 255); };
-  char text[8];
+  char       text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", part(0), part(1), part(2));
   return text;
 }
@@ -169,7 +169,7 @@ std::string facet_paths(std::vector<Facet> facets)
                      facets.begin() + static_cast<long>(std::min(i + slice, facets.size())),
                      [](const Facet &a, const Facet &b) { return a.colour < b.colour; });
 
-  std::string svg         = "<g transform=\"scale(.5)\">";
+  std::string        svg  = "<g transform=\"scale(.5)\">";
   const std::string *open = nullptr;
   for (const Facet &facet : facets)
   {

@@ -71,26 +71,26 @@ std::string warning_box(const Result &result)
   return html + "</ul></div>\n";
 }
 
-std::string machine_section(const Result &result, Report &report)
+/// Picture of the machine at the start of the run; empty if there is nothing to be seen.
+std::string machine_figure(const Result &result, Report &report)
 {
   const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
-  std::vector<Shape> shapes;
-  std::string caption = "The frame as it is meshed.";
+  std::vector<Shape>    shapes;
+  std::string           caption = "The frame.";
   if (result.run && !result.run->picture_states.empty())
   {
-    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
-    caption =
-        "The frame and, as if through glass, the mechanism at t = " + short_text(result.run->picture_times.front()) +
-        " s.";
+    shapes  = mechanism_shapes(result.scenery, result.run->picture_states.front());
+    caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
+              short_text(result.run->picture_times.front()) + " s.";
   }
   const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene);
   if (svg.empty())
     return "";
   report.charts.emplace_back("machine", svg);
-  return section("machine", "The machine", figure(svg, result.scenery.has_skin() ? caption : "The mechanism."));
+  return figure(svg, caption);
 }
 
-std::string peaks_section(const Result &result)
+std::string peaks_table(const Result &result)
 {
   if (!result.run || result.run->signals.empty())
     return "";
@@ -100,12 +100,21 @@ std::string peaks_section(const Result &result)
   for (const coupling::SignalSummary &signal : result.run->signals)
   {
     const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
-    const auto value        = [&](double x) { return short_text(x * shown.factor, 5); };
+    const auto        value = [&](double x) { return short_text(x * shown.factor, 5); };
     html += "<tr>" + cell(escape_xml(signal.name)) + cell(escape_xml(shown.unit)) + cell(value(signal.max), "n peak") +
             number_cell(signal.t_max, 6) + cell(value(signal.min), "n peak") + number_cell(signal.t_min, 6) +
             cell(value(signal.final), "n") + "</tr>\n";
   }
-  return section("peaks", "The answer: peaks and when they occur", html + "</table></div>\n");
+  return html + "</table></div>\n";
+}
+
+std::string answer_section(const Result &result, Report &report)
+{
+  const std::string table = peaks_table(result), picture = machine_figure(result, report);
+  if (table.empty() && picture.empty())
+    return "";
+  return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
+                 "<div class=\"row\">" + table + picture + "</div>\n");
 }
 
 std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
@@ -122,11 +131,10 @@ std::string events_section(const Result &result)
 {
   if (!result.run || result.run->events.empty())
     return "";
-  std::string html =
-      "<p class=\"soft\">Located on the solution between steps; the numbers are those above the charts.</p>"
-      "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
-      "<th>object</th><th>transition</th></tr>\n";
-  int number = 0;
+  std::string html   = "<p class=\"soft\">The numbers are those above the charts.</p>"
+                       "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
+                       "<th>object</th><th>transition</th></tr>\n";
+  int         number = 0;
   for (const coupling::EventRecord &event : result.run->events)
     html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(event.t, 7) + cell(escape_xml(event.name)) +
             cell(escape_xml(event.kind)) + "</tr>\n";
@@ -136,15 +144,17 @@ std::string events_section(const Result &result)
 /// What the residual of the balance says, and what it does not.
 std::string energy_statement(const coupling::EnergySummary &energy)
 {
-  const double supplied = std::max({std::abs(energy.input), std::abs(energy.stored), std::abs(energy.dissipated)});
-  if (!(supplied > 0.))
-    return "<p>No energy was exchanged.</p>";
-  std::string html =
-      "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than <strong>" +
-      short_text(energy.residual, 3) + " J, " + short_text(100. * energy.residual / supplied, 2) +
-      " %</strong> of the largest of the three.</p><p>This residual measures the error of the integration in time "
-      "alone. The errors of mesh and reduction do not show in it.</p>\n";
-  return html;
+  const bool   supplied = energy.input > 0.;
+  const double scale    = supplied ? energy.input : std::max(std::abs(energy.stored), std::abs(energy.dissipated));
+  return "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than "
+         "<strong>" +
+         short_text(energy.residual, 3) + " J</strong>" +
+         (scale > 0. ? ", <strong>" + short_text(100. * energy.residual / scale, 2) + " %</strong> of " +
+                           (supplied ? "the energy supplied" : "the energy exchanged")
+                     : "") +
+         ".</p><p>This residual measures the error of the integration in time alone. The errors of mesh and reduction "
+         "do "
+         "not show in it.</p>\n";
 }
 
 std::string energy_section(const Result &result, const std::vector<SignalChart> &charts)
@@ -209,7 +219,7 @@ std::string modes_section(const Result &result, Report &report)
 std::string numerics_section(const Result &result)
 {
   const ModelFacts &m = result.model;
-  Facts model;
+  Facts             model;
   model.count("coordinates integrated", m.dofs);
   model.count("interface coordinates", m.interface);
   model.count("internal modes kept", m.modes);
@@ -246,8 +256,8 @@ std::string numerics_section(const Result &result)
 std::string contents(const std::string &body)
 {
   std::string html = "<nav>";
-  for (const auto &[id, name] : {std::pair("peaks", "Peaks"),
-                                 {"machine", "Machine"},
+  for (const auto &[id, name] : {std::pair("peaks", "Answer"),
+
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
                                  {"events", "Events"},
@@ -263,17 +273,16 @@ std::string contents(const std::string &body)
 
 Report make_report(const Result &result)
 {
-  Report report;
+  Report                         report;
   const std::vector<SignalChart> charts = result.run ? signal_charts(*result.run) : std::vector<SignalChart>();
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body = peaks_section(result) + machine_section(result, report) +
-                           chart_section(charts, ChartTopic::force, "forces", "Forces") +
-                           chart_section(charts, ChartTopic::motion, "motion", "Motion") +
-                           chart_section(charts, ChartTopic::other, "signals", "Other signals") +
-                           events_section(result) + energy_section(result, charts) + modes_section(result, report) +
-                           numerics_section(result);
+  const std::string body =
+      answer_section(result, report) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      chart_section(charts, ChartTopic::motion, "motion", "Motion") +
+      chart_section(charts, ChartTopic::other, "signals", "Other signals") + events_section(result) +
+      energy_section(result, charts) + modes_section(result, report) + numerics_section(result);
 
   const std::string title = escape_xml(result.scene);
   report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
@@ -284,8 +293,9 @@ Report make_report(const Result &result)
   report.html +=
       "</header>\n" + warning_box(result) + contents(body) + body + "<footer>Computed with gestell " +
       escape_xml(result.version) +
-      ". All numbers in full precision: summary.json, history.csv, modes.csv beside this page; the motion for "
-      "ParaView: motion.pvd.</footer>\n</body>\n</html>\n";
+      ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
+      (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "") +
+      "</footer>\n</body>\n</html>\n";
   return report;
 }
 

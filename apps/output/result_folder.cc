@@ -22,7 +22,7 @@ namespace
 }
 
 /// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
-const char *const own_files[]                             = {"summary.json",    "history.csv", "modes.csv",
+const char *const                           own_files[]   = {"summary.json",    "history.csv", "modes.csv",
                                                              "frame_modes.pvd", "motion.pvd",  "report.html"};
 const std::pair<const char *, const char *> own_folders[] = {
     {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}};
@@ -74,7 +74,7 @@ void prepare_folder(const fs::path &folder)
   const fs::path probe = folder / ".gestell-probe";
   errno                = 0;
   const bool written   = static_cast<bool>(std::ofstream(probe) << "probe" << std::flush);
-  const int reason     = errno;
+  const int  reason    = errno;
   fs::remove(probe, error);
   if (!written)
     refuse(folder, std::string("it cannot be written (") + std::strerror(reason) + ")");
@@ -92,7 +92,7 @@ void prepare_folder(const fs::path &folder)
 std::vector<std::string> write_results(const fs::path &folder, const Result &result)
 {
   std::vector<std::string> names;
-  const auto write = [&](const std::string &name, const std::string &content)
+  const auto               write = [&](const std::string &name, const std::string &content)
   {
     write_file(folder / name, content);
     names.push_back(name);

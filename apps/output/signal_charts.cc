@@ -4,21 +4,23 @@
 #include "apps/output/number_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace gestell::apps
 {
 namespace
 {
 
-constexpr double readable_ratio       = 15.;
+constexpr double      readable_ratio  = 15.;
 constexpr std::size_t most_per_chart  = 7;
 constexpr std::size_t fewest_for_zoom = 200; ///< rows
 
 std::vector<double> column(const coupling::RunResult &run, std::size_t j)
 {
-  const std::size_t width = run.columns.size(), n = run.rows.size() / width;
+  const std::size_t   width = run.columns.size(), n = run.rows.size() / width;
   std::vector<double> values(n);
   for (std::size_t i = 0; i < n; ++i)
     values[i] = run.rows[i * width + j];
@@ -35,7 +37,7 @@ struct Range
 
 Range range_of(const coupling::RunResult &run, std::size_t j)
 {
-  Range range;
+  Range             range;
   const std::size_t width = run.columns.size();
   for (std::size_t i = j; i < run.rows.size(); i += width)
     if (std::isfinite(run.rows[i]))
@@ -67,7 +69,7 @@ std::string quantity_of(const std::string &unit)
                                                            {"rad/s", "Angular speeds"},
                                                            {"J", "Energy"},
                                                            {"W", "Power"}};
-  const auto name                                       = names.find(unit);
+  const auto                                      name  = names.find(unit);
   return name != names.end() ? name->second : "Signals";
 }
 
@@ -87,7 +89,9 @@ LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
   const DisplayUnit shown = display_unit(group.unit, size);
 
   LineChart chart;
-  chart.title   = quantity_of(group.unit) + " " + joined_names(run, group);
+  chart.title = quantity_of(group.unit);
+  if (topic_of(group.unit) != ChartTopic::energy)
+    chart.title += ": " + joined_names(run, group);
   chart.x_label = "t [s]";
   chart.y_label = "[" + shown.unit + "]";
   chart.x       = column(run, 0);
@@ -104,23 +108,41 @@ LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
   return chart;
 }
 
-/// A file name: what is not a letter or a digit becomes a dash.
-std::string file_name(const std::string &text)
+/// Name for files from the title of a quantity: small letters, dashes for blanks.
+std::string file_name(std::string text)
 {
-  std::string name;
-  for (const char c : text)
-  {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    name += plain ? static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) : '-';
-  }
-  return name;
+  for (char &c : text)
+    c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Where a signal changes most within a sixtieth of the run, and by how much.
+std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
+{
+  const std::vector<double> t = column(run, 0), y = column(run, j);
+  const std::size_t         reach = std::max<std::size_t>(1, y.size() / 60);
+  double                    at = t.front(), change = 0.;
+  for (std::size_t i = 0; i + reach < y.size(); ++i)
+    if (std::abs(y[i + reach] - y[i]) > change)
+    {
+      change = std::abs(y[i + reach] - y[i]);
+      at     = t[i];
+    }
+  return {at, change};
+}
+
+/// Whether the shock shows in one of the signals: a third of its way within a sixtieth of the run.
+bool is_shaken(const coupling::RunResult &run, const SignalGroup &group)
+{
+  return std::any_of(group.columns.begin(), group.columns.end(),
+                     [&](std::size_t j) { return hardest_change(run, j).second > range_of(run, j).span() / 3.; });
 }
 
 } // namespace
 
 std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
 {
-  std::vector<std::string> units; // in the order of their first column
+  std::vector<std::string>                        units; // in the order of their first column
   std::map<std::string, std::vector<std::size_t>> of_unit;
   for (std::size_t j = 1; j < run.columns.size(); ++j)
   {
@@ -160,24 +182,15 @@ std::pair<double, double> main_shock(const coupling::RunResult &run)
     return {0., 0.};
 
   std::size_t chosen = 1;
-  double span        = -1.;
+  double      span   = -1.;
   for (std::size_t j = 1; j < width; ++j)
     if (run.units[j] == "N" && range_of(run, j).span() > span)
     {
       chosen = j;
       span   = range_of(run, j).span();
     }
-  const std::vector<double> t = column(run, 0), y = column(run, chosen);
-  const std::size_t reach = n / 60;
-  double hardest = -1., at = t.front();
-  for (std::size_t i = 0; i + reach < n; ++i)
-    if (std::abs(y[i + reach] - y[i]) > hardest)
-    {
-      hardest = std::abs(y[i + reach] - y[i]);
-      at      = t[i];
-    }
-  const double duration = t.back() - t.front(), zoom = duration / 8.;
-  const double begin = std::clamp(at - 0.25 * zoom, t.front(), t.back() - zoom);
+  const double first = run.rows.front(), last = run.rows[(n - 1) * width], zoom = (last - first) / 8.;
+  const double begin = std::clamp(hardest_change(run, chosen).first - 0.25 * zoom, first, last - zoom);
   return {begin, begin + zoom};
 }
 
@@ -187,18 +200,20 @@ std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
   if (run.columns.size() < 2 || run.rows.size() < 2 * run.columns.size())
     return charts;
 
-  const auto shock = main_shock(run);
+  const auto                 shock = main_shock(run);
+  std::map<std::string, int> used; // how often a quantity has had a chart
   for (const SignalGroup &group : group_signals(run))
   {
-    LineChart chart         = chart_of(run, group);
-    const std::string title = chart.title;
-    const std::string base  = std::to_string(charts.size() + 1) + "-" + file_name(quantity_of(group.unit));
-    charts.push_back({base, title, line_chart_svg(chart), topic_of(group.unit)});
-    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first))
+    LineChart   chart = chart_of(run, group);
+    std::string name  = file_name(quantity_of(group.unit));
+    if (const int n = ++used[name]; n > 1)
+      name += "-" + std::to_string(n);
+    charts.push_back({name, chart.title, line_chart_svg(chart), topic_of(group.unit)});
+    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(run, group))
       continue;
     chart.title += ", around the main shock";
     std::tie(chart.x_begin, chart.x_end) = shock;
-    charts.push_back({base + "-shock", chart.title, line_chart_svg(chart), ChartTopic::force});
+    charts.push_back({name + "-shock", chart.title, line_chart_svg(chart), ChartTopic::force});
   }
   return charts;
 }

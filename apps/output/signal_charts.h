@@ -39,7 +39,8 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run);
 /// the run; an eighth of the run wide, a quarter of it before the shock.  Empty (begin = end) for short histories.
 std::pair<double, double> main_shock(const coupling::RunResult &run);
 
-/// One chart over the whole run for every group, for forces a second one around the main shock.
+/// One chart over the whole run for every group, for forces that the main shock shakes a second one around it.  Names:
+/// forces, forces-shock, forces-2, moments, displacements, angles, energy ...
 std::vector<SignalChart> signal_charts(const coupling::RunResult &run);
 
 } // namespace gestell::apps

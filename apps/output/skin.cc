@@ -28,7 +28,7 @@ std::vector<std::set<std::array<int, 3>>> looks_of(const Skin &skin)
   std::vector<std::set<std::array<int, 3>>> looks(skin.points.size());
   for (const auto &t : skin.triangles)
   {
-    const Vector3d n                 = normal(skin, t);
+    const Vector3d           n       = normal(skin, t);
     const std::array<int, 3> rounded = {static_cast<int>(std::lround(2. * n[0])),
                                         static_cast<int>(std::lround(2. * n[1])),
                                         static_cast<int>(std::lround(2. * n[2]))};
@@ -45,12 +45,12 @@ std::vector<int> groups_of(const Skin &skin, double edge)
   const auto looks = looks_of(skin);
 
   std::map<Key, int> numbers;
-  std::vector<int> group;
+  std::vector<int>   group;
   group.reserve(skin.points.size());
   for (std::size_t i = 0; i < skin.points.size(); ++i)
   {
     const Vector3d place = skin.points[i] / edge;
-    const Key key        = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, looks[i]};
+    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, looks[i]};
     group.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
   }
   return group;
@@ -83,11 +83,11 @@ Skin coarsened(const Skin &skin, double edge)
 {
   if (skin.points.empty() || !(edge > 0.))
     return skin;
-  const std::vector<int> group = groups_of(skin, edge);
-  const std::size_t n_groups   = static_cast<std::size_t>(*std::max_element(group.begin(), group.end())) + 1;
+  const std::vector<int> group    = groups_of(skin, edge);
+  const std::size_t      n_groups = static_cast<std::size_t>(*std::max_element(group.begin(), group.end())) + 1;
 
   std::vector<Vector3d> mean(n_groups, Vector3d::Zero());
-  std::vector<int> count(n_groups, 0), nearest(n_groups, -1);
+  std::vector<int>      count(n_groups, 0), nearest(n_groups, -1);
   for (std::size_t i = 0; i < group.size(); ++i)
   {
     mean[group[i]] += skin.points[i];
@@ -120,9 +120,9 @@ std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
   struct Edge
   {
     std::array<int, 2> ends;
-    Vector3d first_normal;
-    int n_triangles;
-    bool sharp;
+    Vector3d           first_normal;
+    int                n_triangles;
+    bool               sharp;
   };
   std::unordered_map<long, Edge> edges;
   for (const auto &t : skin.triangles)
@@ -130,7 +130,7 @@ std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
     const Vector3d n = normal(skin, t);
     for (int i = 0; i < 3; ++i)
     {
-      const int a = std::min(t[i], t[(i + 1) % 3]), b = std::max(t[i], t[(i + 1) % 3]);
+      const int  a = std::min(t[i], t[(i + 1) % 3]), b = std::max(t[i], t[(i + 1) % 3]);
       const long key   = static_cast<long>(a) * static_cast<long>(skin.points.size()) + b;
       const auto found = edges.emplace(key, Edge{{a, b}, n, 0, false}).first;
       if (++found->second.n_triangles > 1 && n.dot(found->second.first_normal) < cosine)

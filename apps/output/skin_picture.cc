@@ -16,9 +16,9 @@ namespace
 using Eigen::Vector3d;
 
 constexpr std::size_t most_triangles = 14000; ///< of a closed skin; about a third of them is seen
-constexpr double shown_size          = 0.05;  ///< largest displacement as part of the frame's size
-constexpr double picture_size        = 400.;  ///< units of the picture's longer side
-constexpr double sharp               = 35.;   ///< degrees
+constexpr double      shown_size     = 0.05;  ///< largest displacement as part of the frame's size
+constexpr double      picture_size   = 400.;  ///< units of the picture's longer side
+constexpr double      sharp          = 35.;   ///< degrees
 
 /// Facets of the skin, moved by enlargement times displacement; `colour_of` gives the colour of a triangle.
 template <typename ColourOf>
@@ -42,7 +42,7 @@ std::vector<Facet> facets_of(const Skin &skin, double enlargement, const View &v
 std::string edge_path(const Skin &skin, double enlargement, const View &view, const DepthRaster *raster)
 {
   std::string svg;
-  const auto place = [&](int i) { return view(skin.points[i] + enlargement * skin.displacement[i]); };
+  const auto  place = [&](int i) { return view(skin.points[i] + enlargement * skin.displacement[i]); };
   for (const auto &[a, b] : sharp_edges(skin, sharp))
   {
     const Vector3d p = place(a), q = place(b), middle = 0.5 * (p + q);
@@ -59,8 +59,8 @@ std::string edge_path(const Skin &skin, double enlargement, const View &view, co
 /// The skin with so few points that the picture stays small.
 Skin fit_for_picture(const Skin &skin)
 {
-  Skin coarse = skin;
-  double edge = skin.size() / 150.;
+  Skin   coarse = skin;
+  double edge   = skin.size() / 150.;
   for (; coarse.triangles.size() > most_triangles; edge *= 1.2)
     coarse = coarsened(skin, edge);
   return coarse;
@@ -105,11 +105,11 @@ Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
 
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle)
 {
-  const Skin coarse        = fit_for_picture(skin);
+  const Skin   coarse      = fit_for_picture(skin);
   const double largest     = skin.largest_displacement();
   const double enlargement = largest > 0. ? shown_size * skin.size() / largest : 0.;
 
-  std::vector<Vector3d> seen           = coarse.points;
+  std::vector<Vector3d>       seen     = coarse.points;
   const std::vector<Vector3d> deformed = moved_points(coarse, enlargement);
   seen.insert(seen.end(), deformed.begin(), deformed.end());
   const View view(seen, picture_size);
@@ -121,7 +121,7 @@ std::string mode_picture_svg(const Skin &skin, const std::string &title, const s
     return scale_colour(largest > 0. ? mean / largest : 0.);
   };
   const std::vector<Facet> facets = facets_of(coarse, enlargement, view, colour);
-  const DepthRaster raster(facets, view);
+  const DepthRaster        raster(facets, view);
 
   const double width = std::max(view.width() + 24., 190.), height = view.height() + 62.;
   return svg_head(width, height, title) + face_style + svg_text(12., 19., title, "title") +
@@ -136,7 +136,7 @@ std::string mode_picture_svg(const Skin &skin, const std::string &title, const s
 std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title)
 {
   static const std::array<Colour, 4> body_colours = {{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {176, 80, 143}}};
-  const Skin coarse                               = fit_for_picture(skin);
+  const Skin                         coarse       = fit_for_picture(skin);
 
   std::vector<Vector3d> seen = coarse.points;
   for (const Shape &shape : shapes)
@@ -145,15 +145,15 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
     return "";
   const View view(seen, picture_size);
 
-  const auto pale                 = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
+  const auto               pale   = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
   const std::vector<Facet> facets = facets_of(coarse, 0., view, pale);
-  const DepthRaster raster(facets, view);
-  std::vector<Facet> bodies;
-  std::string names;
+  const DepthRaster        raster(facets, view);
+  std::vector<Facet>       bodies;
+  std::string              names;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const Colour colour = body_colours[i % body_colours.size()];
-    const auto own      = facets_of(Skin{shapes[i].points, shapes[i].displacement, shapes[i].triangles}, 0., view,
+    const auto   own    = facets_of(Skin{shapes[i].points, shapes[i].displacement, shapes[i].triangles}, 0., view,
                                     [&](const std::array<int, 3> &) { return colour; });
     bodies.insert(bodies.end(), own.begin(), own.end());
     const double y = 26. + 18. * static_cast<double>(i);

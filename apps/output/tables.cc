@@ -119,7 +119,7 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
 std::vector<std::string> all_warnings(const Result &result)
 {
   std::vector<std::string> warnings;
-  const auto add = [&](const std::string &warning)
+  const auto               add = [&](const std::string &warning)
   {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
       warnings.push_back(warning);
@@ -168,7 +168,7 @@ std::string summary_json(const Result &result)
 std::string history_csv(const coupling::RunResult &run)
 {
   const std::size_t width = run.columns.size();
-  std::string csv;
+  std::string       csv;
   csv.reserve(20 * (run.rows.size() + width));
   for (std::size_t j = 0; j < width; ++j)
     csv += (j > 0 ? "," : "") + csv_field(run.columns[j] + " [" + run.units[j] + "]");

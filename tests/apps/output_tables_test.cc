@@ -33,7 +33,7 @@ protected:
 
   std::string read(const std::string &name) const
   {
-    std::ifstream file(folder / name, std::ios::binary);
+    std::ifstream     file(folder / name, std::ios::binary);
     std::stringstream content;
     content << file.rdbuf();
     return content.str();
@@ -45,7 +45,7 @@ protected:
 std::vector<std::string> lines_of(const std::string &text)
 {
   std::vector<std::string> lines;
-  std::istringstream stream(text);
+  std::istringstream       stream(text);
   for (std::string line; std::getline(stream, line);)
     lines.push_back(line);
   return lines;
@@ -72,7 +72,7 @@ TEST(NumberText, ReadsBackExactlyForAnyDouble)
   for (int i = 0; i < 20000; ++i)
   {
     const std::uint64_t bits = random();
-    double x;
+    double              x;
     std::memcpy(&x, &bits, sizeof x);
     if (!std::isfinite(x))
       continue;
@@ -114,12 +114,12 @@ TEST(Json, EscapesTextAndHasNullForWhatIsNoNumber)
 TEST(Tables, HistoryKeepsEveryDigitAndNamesUnits)
 {
   const Result result = example_result(50);
-  const auto lines    = lines_of(history_csv(*result.run));
+  const auto   lines  = lines_of(history_csv(*result.run));
   ASSERT_EQ(lines.size(), 51u);
   EXPECT_EQ(lines[0].substr(0, 25), "t [s],F_P [N],F_u [N],x1 ");
 
   std::istringstream row(lines[50]);
-  std::string field;
+  std::string        field;
   for (std::size_t j = 0; std::getline(row, field, ','); ++j)
     EXPECT_EQ(std::strtod(field.c_str(), nullptr), result.run->rows[49 * 8 + j]);
 }
