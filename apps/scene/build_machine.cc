@@ -89,7 +89,7 @@ coupling::Machine machine_on(const Scene &scene, Frame frame)
 /// Coordinates of the frame: those of interfaces, ascending, then the others.
 std::vector<int> interface_first(const fem::FrameMatrices &frame)
 {
-  std::vector<int> order = frame.interface_coordinates();
+  std::vector<int>  order = frame.interface_coordinates();
   std::vector<bool> taken(frame.M.rows(), false);
   for (const int i : order)
     taken[i] = true;
@@ -142,8 +142,8 @@ coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame)
 
 coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame)
 {
-  const auto order        = interface_first(frame);
-  const Eigen::MatrixXd M = frame.M, B = frame.B, C = frame.C;
+  const auto             order = interface_first(frame);
+  const Eigen::MatrixXd  M = frame.M, B = frame.B, C = frame.C;
   coupling::ReducedFrame dense;
   dense.M           = M(order, order);
   dense.B           = B(order, order);

@@ -9,7 +9,7 @@ namespace
 coupling::ReducedFrame stand_in_frame(const fem::FrameSpecification &specification)
 {
   coupling::ReducedFrame frame;
-  const int n = 6 * specification.interfaces.size();
+  const int              n = 6 * specification.interfaces.size();
   frame.M = frame.C       = Eigen::MatrixXd::Identity(n, n);
   frame.B                 = Eigen::MatrixXd::Zero(n, n);
   frame.n_interface       = n;
@@ -29,7 +29,8 @@ coupling::ReducedFrame stand_in_frame(const fem::FrameSpecification &specificati
   for (const auto &cut : specification.cuts)
     add_output("cut." + cut.name);
   for (const auto &support : specification.supports)
-    add_output("support." + support.name);
+    for (const std::string direction : {"x", "y", "z"})
+      add_output("support." + support.name + "." + direction);
   return frame;
 }
 

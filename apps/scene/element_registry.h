@@ -15,7 +15,7 @@ using ElementReader = void (*)(const SceneTable &table, const Names &names, Scen
 
 struct ElementType
 {
-  std::string name; ///< value of the key `type`
+  std::string   name; ///< value of the key `type`
   ElementReader read;
 };
 

@@ -52,8 +52,8 @@ std::string Names::marker(const SceneTable &table, const std::string &key, const
 
 const BodyRequest &Names::body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const
 {
-  const std::string name   = table.text(key);
-  const std::string words  = kind == coupling::BodyKind::rotor ? "rotor" : "slider";
+  const std::string  name  = table.text(key);
+  const std::string  words = kind == coupling::BodyKind::rotor ? "rotor" : "slider";
   const BodyRequest *found = find_body(name);
   if (found && found->kind == kind)
     return *found;

@@ -24,13 +24,13 @@ public:
   /// Body of that kind named by a key of `table`.
   const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;
 
-  const BodyRequest *find_body(const std::string &name) const; ///< null if there is none
-  std::vector<std::string> body_names() const;
+  const BodyRequest              *find_body(const std::string &name) const; ///< null if there is none
+  std::vector<std::string>        body_names() const;
   const std::vector<std::string> &interfaces() const { return interfaces_; }
 
 private:
   std::vector<std::string> interfaces_;
-  bool any_interface_;
+  bool                     any_interface_;
   std::vector<BodyRequest> bodies_;
 };
 

@@ -18,7 +18,7 @@ std::string lower(std::string text)
 
 int edit_distance(const std::string &a, const std::string &b)
 {
-  const int n = a.size(), m = b.size();
+  const int                     n = a.size(), m = b.size();
   std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= m; ++j)
@@ -38,7 +38,7 @@ int edit_distance(const std::string &a, const std::string &b)
 std::string nearest_name(const std::string &name, const std::vector<std::string> &names)
 {
   std::string best;
-  int best_distance = 1 << 20;
+  int         best_distance = 1 << 20;
   for (const auto &candidate : names)
   {
     const int distance = edit_distance(lower(name), lower(candidate));

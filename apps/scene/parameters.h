@@ -19,7 +19,7 @@ public:
   /// @throws std::invalid_argument with file and line for circles, names that mean something else, and wrong values.
   explicit Parameters(const SceneNode *table);
 
-  std::optional<Quantity> find(const std::string &name) const;
+  std::optional<Quantity>  find(const std::string &name) const;
   std::vector<std::string> names() const;
 
   /// A number or an expression; what a plain number measures is not known.

@@ -76,9 +76,9 @@ public:
 private:
   [[noreturn]] void fail(const std::string &what) const { throw std::invalid_argument("\"" + text_ + "\" " + what); }
 
-  bool at_end() const { return next_ == tokens_.size(); }
+  bool         at_end() const { return next_ == tokens_.size(); }
   const Token &token(int ahead = 0) const { return next_ + ahead < tokens_.size() ? tokens_[next_ + ahead] : end_; }
-  bool is(const std::string &symbol, int ahead = 0) const
+  bool         is(const std::string &symbol, int ahead = 0) const
   {
     return token(ahead).kind == Token::symbol && token(ahead).text == symbol;
   }
@@ -129,7 +129,7 @@ private:
     Quantity a = factor();
     while (is("*") || is("/"))
     {
-      const int sign    = is("*") ? 1 : -1;
+      const int  sign   = is("*") ? 1 : -1;
       const bool minute = sign < 0 && token(1).text == "min" && !parameters_("min");
       ++next_;
       number_with_unit_ = false;
@@ -163,8 +163,8 @@ private:
     const Quantity base = operand();
     if (!take("^"))
       return base;
-    const bool unit_before  = number_with_unit_;
-    const Quantity exponent = factor();
+    const bool     unit_before = number_with_unit_;
+    const Quantity exponent    = factor();
     if (!is_number(exponent))
       fail("has an exponent with a unit");
     if (!base.checked || !exponent.checked)
@@ -306,12 +306,12 @@ private:
          name + ")\"; for the unit use another one or rename the parameter");
   }
 
-  const std::string text_;
-  const NameLookup &parameters_;
+  const std::string  text_;
+  const NameLookup  &parameters_;
   std::vector<Token> tokens_;
-  Token end_;
-  std::size_t next_      = 0;
-  bool number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
+  Token              end_;
+  std::size_t        next_             = 0;
+  bool               number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
 };
 
 } // namespace

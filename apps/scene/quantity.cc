@@ -37,12 +37,12 @@ std::string describe(const Dimension &dimension)
     if (equal(d, dimension))
       return name;
   const std::array<std::string, 3> names{"m", "kg", "s"};
-  std::string above, below;
+  std::string                      above, below;
   for (const int i : {1, 0, 2}) // kg m/s reads better than m kg/s
     if (const double e = dimension[i]; std::abs(e) > 1e-9)
     {
       const std::string part = names[i] + (std::abs(std::abs(e) - 1.) < 1e-9 ? "" : "^" + printed(std::abs(e)));
-      std::string &side      = e > 0 ? above : below;
+      std::string      &side = e > 0 ? above : below;
       side += (side.empty() ? "" : " ") + part;
     }
   if (above.empty() && below.empty())

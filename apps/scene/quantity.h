@@ -24,19 +24,19 @@ enum class Counts
 /// A value in SI units.
 struct Quantity
 {
-  double value = 0.;
+  double    value = 0.;
   Dimension dimension{};
-  bool checked  = true; ///< false: made from a plain number of [parameters], so of any dimension
-  Counts counts = Counts::nothing;
+  bool      checked = true; ///< false: made from a plain number of [parameters], so of any dimension
+  Counts    counts  = Counts::nothing;
 };
 
 /// What a key needs, in words and in exponents: {"length", "40 mm", {1, 0, 0}}.
 struct Kind
 {
   std::string name, example;
-  Dimension dimension;
-  Counts refused  = Counts::nothing; ///< an angular speed refuses turns, a frequency radians
-  int metre_range = 0;               ///< so many more powers of a metre are right as well (matrices)
+  Dimension   dimension;
+  Counts      refused     = Counts::nothing; ///< an angular speed refuses turns, a frequency radians
+  int         metre_range = 0;               ///< so many more powers of a metre are right as well (matrices)
 };
 
 namespace kind

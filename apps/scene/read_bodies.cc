@@ -39,7 +39,7 @@ BodyRequest read_body(const SceneTable &table)
 std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
 {
   std::vector<BodyRequest> sorted;
-  const auto done = [&](const std::string &name)
+  const auto               done = [&](const std::string &name)
   { return std::any_of(sorted.begin(), sorted.end(), [&](const auto &body) { return body.name == name; }); };
   const auto is_body = [&](const std::string &name)
   { return std::any_of(bodies.begin(), bodies.end(), [&](const auto &body) { return body.name == name; }); };
@@ -64,7 +64,7 @@ std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
 std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
 {
   std::vector<BodyRequest> bodies;
-  const auto tables = scene.tables("body");
+  const auto               tables = scene.tables("body");
   for (const auto &table : tables)
   {
     bodies.push_back(read_body(table));

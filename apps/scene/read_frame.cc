@@ -6,7 +6,7 @@ namespace gestell::apps
 FrameRequest read_frame(const SceneTable &scene)
 {
   FrameRequest request;
-  const auto frame = scene.optional_table("frame");
+  const auto   frame = scene.optional_table("frame");
   if (!frame)
     return request;
   request.place = frame->place();

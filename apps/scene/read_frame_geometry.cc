@@ -77,8 +77,8 @@ std::vector<std::string> read_surface_names(const SceneTable &table, const fem::
 {
   if (table.has("surface") && table.has("surfaces"))
     throw table.error("has both 'surface' and 'surfaces'; give one of them");
-  const std::string key = table.has("surface") ? "surface" : "surfaces";
-  const auto names      = table.texts(key);
+  const std::string        key   = table.has("surface") ? "surface" : "surfaces";
+  const auto               names = table.texts(key);
   std::vector<std::string> declared;
   for (const auto &entry : frame.surfaces)
     declared.push_back(entry.first);

@@ -14,7 +14,7 @@ namespace
 
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
 {
-  const bool reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
+  const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
   ReductionRequest request;
   request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
   request.options.place = scene.place();
@@ -73,11 +73,14 @@ RunRequest read_run(const SceneTable &scene)
 
 void read_output(const SceneTable &scene, Scene &result)
 {
-  const auto table = scene.optional_table("output");
+  const auto &run = result.run.options;
+  // A hundred pictures by default: enough for a film, little enough for a disk.
+  result.run.options.picture_step = (run.end - run.begin) / 100.;
+  const auto table                = scene.optional_table("output");
   if (!table)
     return;
   result.run.options.output_step  = table->positive("step", kind::time, 0.);
-  result.run.options.picture_step = table->positive("picture_step", kind::time, 0.);
+  result.run.options.picture_step = table->not_negative("picture_step", kind::time, run.picture_step);
   if (table->is_array("signals"))
     for (const auto &path : table->texts("signals"))
       result.signals.push_back({path, path, table->place("signals")});
@@ -98,9 +101,9 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
   std::vector<NamedValue> values;
   for (const auto &name : table.keys())
   {
-    const auto *body = names.find_body(name);
-    const bool frame = !rotors_only && name.rfind("frame.", 0) == 0;
-    auto valid       = names.body_names();
+    const auto *body  = names.find_body(name);
+    const bool  frame = !rotors_only && name.rfind("frame.", 0) == 0;
+    auto        valid = names.body_names();
     if (rotors_only)
       valid.erase(std::remove_if(valid.begin(), valid.end(),
                                  [&](const auto &n) { return names.find_body(n)->kind != coupling::BodyKind::rotor; }),
@@ -155,7 +158,7 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
 ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene &result)
 {
   ModesRequest modes;
-  const auto table = scene.optional_table("modes");
+  const auto   table = scene.optional_table("modes");
   if (!table)
     return modes;
   modes.at     = read_optional_coordinates(*table, "at", names, false, false);
@@ -189,7 +192,7 @@ void check_gravity(const Scene &scene)
 
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides)
 {
-  const SceneNode root = read_scene_file(path, overrides);
+  const SceneNode  root = read_scene_file(path, overrides);
   const Parameters parameters(root.find("parameters"));
   const SceneTable table(root, parameters, "");
   table.has("parameters");

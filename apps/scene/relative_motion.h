@@ -15,7 +15,7 @@ MotionMeasure difference(const std::string &from, const std::string &to, const V
 struct RelativeMotion
 {
   MotionMeasure u;
-  bool rotation = false; ///< u is an angle
+  bool          rotation = false; ///< u is an angle
 
   std::string force_unit() const { return rotation ? "N m" : "N"; }
 };

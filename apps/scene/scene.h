@@ -27,12 +27,12 @@ enum class FrameSource
 
 struct FrameRequest
 {
-  FrameSource source = FrameSource::none;
+  FrameSource             source = FrameSource::none;
   fem::FrameSpecification geometry;
-  fem::FrameMatrices matrices;
-  bool has_translations = false; ///< of `matrices`
-  std::string reduced_file;      ///< absolute path
-  std::string place;
+  fem::FrameMatrices      matrices;
+  bool                    has_translations = false; ///< of `matrices`
+  std::string             reduced_file;             ///< absolute path
+  std::string             place;
 };
 
 enum class ReductionMethod
@@ -43,59 +43,59 @@ enum class ReductionMethod
 
 struct ReductionRequest
 {
-  ReductionMethod method = ReductionMethod::none;
+  ReductionMethod            method = ReductionMethod::none;
   coupling::ReductionOptions options;
 };
 
 struct BodyRequest
 {
-  std::string name;
+  std::string        name;
   coupling::BodyKind kind = coupling::BodyKind::rotor;
-  Vector3 axis{};                 ///< unit vector
-  std::string carrier;            ///< marker a rotor sits on, or a slider is guided by
-  double inertia = 0., mass = 0.; ///< kg m^2, kg
-  Vector3 position{}, size{};     ///< [m], for pictures
-  double radius = 0.;             ///< [m], for pictures
-  std::string place;
+  Vector3            axis{};                  ///< unit vector
+  std::string        carrier;                 ///< marker a rotor sits on, or a slider is guided by
+  double             inertia = 0., mass = 0.; ///< kg m^2, kg
+  Vector3            position{}, size{};      ///< [m], for pictures
+  double             radius = 0.;             ///< [m], for pictures
+  std::string        place;
 };
 
 /// weight * (motion of a marker along or about an axis).
 struct MotionTerm
 {
   std::string marker;
-  bool rotation = false;
-  Vector3 axis{}; ///< unit vector
-  double weight = 1.;
+  bool        rotation = false;
+  Vector3     axis{}; ///< unit vector
+  double      weight = 1.;
 };
 using MotionMeasure = std::vector<MotionTerm>;
 
 struct LinearRequest
 {
-  std::string name;
+  std::string   name;
   MotionMeasure u;
-  double stiffness = 0., damping = 0., preload = 0., rest = 0.;
-  std::string force_unit;
+  double        stiffness = 0., damping = 0., preload = 0., rest = 0.;
+  std::string   force_unit;
 };
 
 struct ElementRequest
 {
-  std::string name;
+  std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
-  std::vector<MotionMeasure> measures;
+  std::vector<MotionMeasure>               measures;
 };
 
 struct PointMassRequest
 {
   std::string name, marker;
-  double mass = 0.;
-  Vector3 inertia{}, offset{};
+  double      mass = 0.;
+  Vector3     inertia{}, offset{};
 };
 
 /// Value of a coordinate or of its rate, by the name of the coordinate.
 struct NamedValue
 {
   std::string name;
-  double value;
+  double      value;
   std::string place;
 };
 
@@ -107,10 +107,10 @@ enum class StartRule
 
 struct StartRequest
 {
-  StartRule rule = StartRule::given;
+  StartRule               rule = StartRule::given;
   std::vector<NamedValue> q, v; ///< given
-  coupling::SteadyStart steady;
-  std::string place;
+  coupling::SteadyStart   steady;
+  std::string             place;
 };
 
 struct SignalRequest
@@ -120,35 +120,35 @@ struct SignalRequest
 
 struct ModesRequest
 {
-  std::vector<NamedValue> at;    ///< configuration of the bodies; zero for the rest
+  std::vector<NamedValue>  at;   ///< configuration of the bodies; zero for the rest
   std::vector<std::string> open; ///< elements that are not engaged
-  int number = 20;
+  int                      number = 20;
 };
 
 struct RunRequest
 {
-  std::string method = "bdf";
+  std::string          method = "bdf";
   coupling::RunOptions options;
-  std::string place;
+  std::string          place;
 };
 
 /// A scene file as a plain value: checked in itself, nothing computed.
 struct Scene
 {
-  std::string file, name, description;
-  Vector3 gravity{};
-  FrameRequest frame;
-  ReductionRequest reduction;
-  std::vector<BodyRequest> bodies;
-  std::vector<LinearRequest> linear;
-  std::vector<ElementRequest> elements;
-  std::vector<PointMassRequest> point_masses;
-  std::vector<coupling::DrawnRod> rods;
+  std::string                        file, name, description;
+  Vector3                            gravity{};
+  FrameRequest                       frame;
+  ReductionRequest                   reduction;
+  std::vector<BodyRequest>           bodies;
+  std::vector<LinearRequest>         linear;
+  std::vector<ElementRequest>        elements;
+  std::vector<PointMassRequest>      point_masses;
+  std::vector<coupling::DrawnRod>    rods;
   std::map<std::string, std::string> element_places; ///< by the element's name
-  StartRequest start;
-  RunRequest run;
-  ModesRequest modes;
-  std::vector<SignalRequest> signals;
+  StartRequest                       start;
+  RunRequest                         run;
+  ModesRequest                       modes;
+  std::vector<SignalRequest>         signals;
 };
 
 /**

@@ -45,7 +45,7 @@ void remove(SceneNode &table, const std::string &key)
 SceneNode read_with_base(const std::string &path, std::vector<std::string> files)
 {
   const auto identity = std::filesystem::weakly_canonical(path).string();
-  SceneNode own       = parse_toml_file(path);
+  SceneNode  own      = parse_toml_file(path);
   files.push_back(identity);
 
   const SceneNode *extends = own.find("extends");

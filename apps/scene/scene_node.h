@@ -12,7 +12,7 @@ namespace gestell::apps
 struct Place
 {
   std::string file;
-  int line = 0; ///< from 1; 0: the file as a whole
+  int         line = 0; ///< from 1; 0: the file as a whole
 
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };
@@ -32,21 +32,21 @@ struct SceneNode
   };
   using Entry = std::pair<std::string, SceneNode>;
 
-  Type type = Type::table;
-  Place place;
+  Type        type = Type::table;
+  Place       place;
   std::string folder; ///< relative paths in the value start here
   std::string text;   ///< of a text; a number as it is written
-  double number = 0.;
-  bool boolean  = false;
+  double      number  = 0.;
+  bool        boolean = false;
 
-  std::vector<Entry> entries;      ///< of a table
+  std::vector<Entry>     entries;  ///< of a table
   std::vector<SceneNode> elements; ///< of an array
 
-  mutable bool used = false;           ///< somebody asked for it
-  mutable std::set<std::string> asked; ///< keys somebody asked this table for
+  mutable bool                  used = false; ///< somebody asked for it
+  mutable std::set<std::string> asked;        ///< keys somebody asked this table for
 
   const SceneNode *find(const std::string &key) const;
-  SceneNode *find(const std::string &key);
+  SceneNode       *find(const std::string &key);
 };
 
 /// "a table", "text", "a whole number" ...

@@ -20,10 +20,10 @@ namespace
 std::vector<std::string> segments(const std::string &path, const Place &place)
 {
   std::vector<std::string> result;
-  std::size_t i = 0;
+  std::size_t              i = 0;
   do
   {
-    const char quote = i < path.size() ? path[i] : '\0';
+    const char  quote = i < path.size() ? path[i] : '\0';
     std::size_t end;
     if (quote == '"' || quote == '\'')
     {
@@ -83,7 +83,7 @@ std::string trimmed(const std::string &text)
 void apply_override(SceneNode &root, const std::string &text)
 {
   const Place place{"--set " + text, 0};
-  const auto equals = equals_sign(text);
+  const auto  equals = equals_sign(text);
   if (equals == std::string::npos)
     fail(place, "needs the form key.path=value, for example --set run.step=\"5 us\"");
   const auto path = segments(trimmed(text.substr(0, equals)), place);

@@ -17,7 +17,7 @@ void set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling:
       return;
     }
   static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
-  const auto dot        = value.name.rfind('.');
+  const auto                            dot = value.name.rfind('.');
   const auto motion     = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
   const auto interfaces = machine.reduced_frame() ? machine.reduced_frame()->interfaces
                           : machine.full_frame()  ? machine.full_frame()->interfaces

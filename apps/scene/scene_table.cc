@@ -249,7 +249,7 @@ Vector3 SceneTable::vector(const std::string &key, const Kind &kind, const Vecto
 
 Vector3 SceneTable::direction(const std::string &key) const
 {
-  Vector3 d           = vector(key, kind::number);
+  Vector3      d      = vector(key, kind::number);
   const double length = std::hypot(d[0], d[1], d[2]);
   if (length == 0.)
     throw error(key, "is a direction and cannot be [0, 0, 0]");
@@ -313,9 +313,9 @@ std::vector<std::string> SceneTable::texts(const std::string &key) const
 
 std::string SceneTable::file(const std::string &key) const
 {
-  const std::string given = text(key);
-  const auto folder       = std::filesystem::path(node_->find(key)->folder);
-  const auto path         = (folder / given).lexically_normal();
+  const std::string given  = text(key);
+  const auto        folder = std::filesystem::path(node_->find(key)->folder);
+  const auto        path   = (folder / given).lexically_normal();
   if (!std::filesystem::exists(path))
     throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " +
                          folder.string());

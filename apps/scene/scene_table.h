@@ -30,8 +30,8 @@ public:
 
   bool has(const std::string &key) const; ///< marks the key as known
 
-  double number(const std::string &key, const Kind &kind) const;
-  double number(const std::string &key, const Kind &kind, double fallback) const;
+  double                number(const std::string &key, const Kind &kind) const;
+  double                number(const std::string &key, const Kind &kind, double fallback) const;
   std::optional<double> optional_number(const std::string &key, const Kind &kind) const;
   /// As number(), and must be > 0 or >= 0.
   double positive(const std::string &key, const Kind &kind) const;
@@ -39,24 +39,24 @@ public:
   double not_negative(const std::string &key, const Kind &kind) const;
   double not_negative(const std::string &key, const Kind &kind, double fallback) const;
 
-  int integer(const std::string &key, int fallback) const;
+  int  integer(const std::string &key, int fallback) const;
   bool boolean(const std::string &key, bool fallback) const;
 
-  std::string text(const std::string &key) const;
-  std::string text(const std::string &key, const std::string &fallback) const;
-  std::string choice(const std::string &key, const std::vector<std::string> &valid,
-                     const std::string &fallback) const;        ///< fallback "": demanded
-  std::vector<std::string> texts(const std::string &key) const; ///< one text or an array of them
-  std::string file(const std::string &key) const;               ///< absolute path of a file that exists
+  std::string              text(const std::string &key) const;
+  std::string              text(const std::string &key, const std::string &fallback) const;
+  std::string              choice(const std::string &key, const std::vector<std::string> &valid,
+                                  const std::string &fallback) const; ///< fallback "": demanded
+  std::vector<std::string> texts(const std::string &key) const;       ///< one text or an array of them
+  std::string              file(const std::string &key) const;        ///< absolute path of a file that exists
 
-  Vector3 vector(const std::string &key, const Kind &kind) const;
-  Vector3 vector(const std::string &key, const Kind &kind, const Vector3 &fallback) const;
-  Vector3 direction(const std::string &key) const; ///< made a unit vector
-  Vector3 direction(const std::string &key, const Vector3 &fallback) const;
-  std::vector<double> numbers(const std::string &key, const Kind &kind) const;
+  Vector3                          vector(const std::string &key, const Kind &kind) const;
+  Vector3                          vector(const std::string &key, const Kind &kind, const Vector3 &fallback) const;
+  Vector3                          direction(const std::string &key) const; ///< made a unit vector
+  Vector3                          direction(const std::string &key, const Vector3 &fallback) const;
+  std::vector<double>              numbers(const std::string &key, const Kind &kind) const;
   std::vector<std::vector<double>> matrix(const std::string &key, const Kind &kind) const; ///< rows of equal length
 
-  SceneTable table(const std::string &key) const;
+  SceneTable                table(const std::string &key) const;
   std::optional<SceneTable> optional_table(const std::string &key) const;
   /// Tables in table `key`, in the order of the file: [body.crank], [body.slide]; none if there is no `key`.
   std::vector<SceneTable> tables(const std::string &key) const;
@@ -68,9 +68,9 @@ public:
   bool is_table(const std::string &key) const;
 
   const std::string &path() const { return path_; }
-  std::string name() const;  ///< own name: last segment of the path
-  std::string place() const; ///< "press.toml:12: body.crank"
-  std::string place(const std::string &key) const;
+  std::string        name() const;  ///< own name: last segment of the path
+  std::string        place() const; ///< "press.toml:12: body.crank"
+  std::string        place(const std::string &key) const;
 
   std::invalid_argument error(const std::string &what) const;
   std::invalid_argument error(const std::string &key, const std::string &what) const;
@@ -83,12 +83,12 @@ private:
 
   const SceneNode *look_up(const std::string &key) const;
   const SceneNode &demand(const std::string &key, const std::string &what) const;
-  std::string path_of(const std::string &key) const;
-  double evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
+  std::string      path_of(const std::string &key) const;
+  double           evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
 
-  const SceneNode *node_;
+  const SceneNode  *node_;
   const Parameters *parameters_;
-  std::string path_, name_;
+  std::string       path_, name_;
 };
 
 } // namespace gestell::apps

@@ -29,7 +29,7 @@ bool is_digit(unsigned char c)
 /// Characters beyond ASCII that engineers type, and what they stand for.
 struct Typed
 {
-  std::string text;
+  std::string        text;
   std::vector<Token> tokens;
 };
 const std::vector<Typed> &typed_signs()
@@ -49,8 +49,8 @@ const std::vector<Typed> &typed_signs()
 /// Length of the number at `begin`: digits, one dot, and an exponent if digits follow its e.
 std::size_t number_length(const std::string &text, std::size_t begin)
 {
-  std::size_t i  = begin;
-  const auto run = [&]
+  std::size_t i   = begin;
+  const auto  run = [&]
   {
     const std::size_t start = i;
     while (i < text.size() && is_digit(text[i]))
@@ -99,8 +99,8 @@ std::vector<Token> tokens_of(const std::string &text)
     }
     if (const auto length = number_length(text, i))
     {
-      double value    = 0.;
-      const auto read = std::from_chars(text.data() + i, text.data() + i + length, value);
+      double     value = 0.;
+      const auto read  = std::from_chars(text.data() + i, text.data() + i + length, value);
       if (read.ec != std::errc() || !std::isfinite(value))
         throw std::invalid_argument("\"" + text + "\" has a number out of range: " + text.substr(i, length));
       tokens.push_back({Token::number, text.substr(i, length), value});

@@ -15,9 +15,9 @@ struct Token
     name,
     symbol
   };
-  Kind kind = end;
+  Kind        kind = end;
   std::string text;
-  double value = 0.;
+  double      value = 0.;
 };
 
 /// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) ,  ("·" is *, "²" is ^2, "³" is ^3).

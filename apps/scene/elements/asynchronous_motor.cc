@@ -8,7 +8,7 @@ namespace gestell::apps
 /// Measure: angle of the rotor about its own axis.
 void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto &rotor = names.body(table, "on", coupling::BodyKind::rotor);
+  const auto                       &rotor = names.body(table, "on", coupling::BodyKind::rotor);
   mechanism::KlossMotor::Parameters motor;
   motor.breakdown_torque  = table.positive("breakdown_torque", kind::torque);
   motor.breakdown_slip    = table.positive("breakdown_slip", kind::number);

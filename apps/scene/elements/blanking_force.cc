@@ -8,7 +8,7 @@ namespace gestell::apps
 /// Measure: displacement of `from` against `to`; the sheet resists.
 void read_blanking_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
+  const auto                           motion = read_relative_motion(table, names);
   mechanism::BlankingForce::Parameters sheet;
   if (motion.rotation)
     throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");

@@ -11,8 +11,8 @@ void read_clearance(const SceneTable &table, const Names &names, Scene &scene)
   static const Kind dissipation{"dissipation factor", "0.3 s/m", {-1, 0, 1}};
   static const Kind torsional_dissipation{"dissipation factor", "0.3 s/rad", {0, 0, 1}};
 
-  const auto motion = read_relative_motion(table, names);
-  const bool turns  = motion.rotation;
+  const auto                       motion = read_relative_motion(table, names);
+  const bool                       turns  = motion.rotation;
   mechanism::Clearance::Parameters play;
   play.gap         = table.not_negative("gap", turns ? kind::angle : kind::length);
   play.stiffness   = table.positive("stiffness", turns ? kind::torsional_stiffness : kind::stiffness);

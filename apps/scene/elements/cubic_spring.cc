@@ -7,8 +7,8 @@ namespace gestell::apps
 
 void read_cubic_spring(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
-  const bool turns  = motion.rotation;
+  const auto                         motion = read_relative_motion(table, names);
+  const bool                         turns  = motion.rotation;
   mechanism::CubicSpring::Parameters spring;
   spring.stiffness = table.number("stiffness", turns ? kind::torsional_stiffness : kind::stiffness, spring.stiffness);
   spring.cubic     = table.number("cubic", turns ? kind::torsional_cubic_stiffness : kind::cubic_stiffness);

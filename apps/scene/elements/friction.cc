@@ -7,8 +7,8 @@ namespace gestell::apps
 
 void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
-  const bool turns  = motion.rotation;
+  const auto                                 motion = read_relative_motion(table, names);
+  const bool                                 turns  = motion.rotation;
   mechanism::RegularisedFriction::Parameters friction;
   friction.force = table.not_negative("force", turns ? kind::torque : kind::force);
   friction.speed = table.positive("speed", turns ? kind::angular_speed : kind::speed, friction.speed);

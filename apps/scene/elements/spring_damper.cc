@@ -6,8 +6,8 @@ namespace gestell::apps
 /// F = preload + c (u - rest) + b u' acts on `to` along the direction, on `from` against it.
 void read_spring_damper(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
-  const bool turns  = motion.rotation;
+  const auto    motion = read_relative_motion(table, names);
+  const bool    turns  = motion.rotation;
   LinearRequest spring;
   spring.name       = table.name();
   spring.u          = motion.u;
