@@ -18,6 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double massless = 1e-13; // mu relative to the largest, below which a mode has no mass
+constexpr double cancelled = 1e-12; // share of v^T C v left of its terms, below which v is a rigid motion
 constexpr double rigid    = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
@@ -26,21 +27,30 @@ VectorXd unit_diagonal(const MatrixXd &A)
   return A.diagonal().unaryExpr([](double a) { return a > 0. ? 1. / std::sqrt(a) : 1.; });
 }
 
-bool is_regular(const MatrixXd &A)
+/// Smallest C_ii / M_ii that is more than rounding beside the largest; an upper bound of the lowest omega^2 that is not 0.
+/// `floating` tells whether smaller ones were left out.
+double lowest_quotient(const MatrixXd &C, const MatrixXd &M, bool &floating)
 {
-  const VectorXd d = unit_diagonal(A);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * A * d.asDiagonal(), Eigen::EigenvaluesOnly);
-  return scaled.eigenvalues().minCoeff() > rigid;
+  VectorXd quotients(C.rows());
+  int      n = 0;
+  for (int i = 0; i < C.rows(); ++i)
+    if (M(i, i) > 0.)
+      quotients(n++) = C(i, i) / M(i, i);
+  const double largest = n > 0 ? quotients.head(n).maxCoeff() : 0.;
+  double       s       = largest;
+  for (int i = 0; i < n; ++i)
+    if (quotients(i) > cancelled * largest)
+      s = std::min(s, quotients(i));
+    else
+      floating = true;
+  return s > 0. ? s : 1.;
 }
 
-/// The lowest C_ii / M_ii, an upper bound of the lowest omega^2.
-double lowest_quotient(const MatrixXd &C, const MatrixXd &M)
+bool is_regular(const MatrixXd &C)
 {
-  double s = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < C.rows(); ++i)
-    if (C(i, i) > 0. && M(i, i) > 0.)
-      s = std::min(s, C(i, i) / M(i, i));
-  return std::isfinite(s) ? s : 1.;
+  const VectorXd                                d = unit_diagonal(C);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
+  return scaled.eigenvalues().minCoeff() > rigid;
 }
 
 void require_motion(const MatrixXd &A, const Eigen::LLT<MatrixXd> &factor)
@@ -60,7 +70,9 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M)
 {
   if (C.rows() == 0)
     return {};
-  const double   s = is_regular(C) ? 0. : lowest_quotient(C, M);
+  bool           floating = false;
+  const double   lowest   = lowest_quotient(C, M, floating);
+  const double   s        = !floating && is_regular(C) ? 0. : lowest;
   const MatrixXd A = C + s * M;
   const VectorXd d = unit_diagonal(A);
   const MatrixXd scaled = d.asDiagonal() * A * d.asDiagonal();
@@ -86,8 +98,7 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M)
       auto v = modes.V.col(j);
       v /= std::sqrt(v.dot(M * v));
       const double square = v.dot(C * v);
-      // a rigid motion: stiffness cancels down to rounding
-      const double rounding = 1e-13 * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
+      const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
       modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
     }
   return modes;

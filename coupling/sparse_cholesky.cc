@@ -162,7 +162,7 @@ void SparseCholesky::solve(const double *rhs, double *x) const
 
 double SparseCholesky::pivot_ratio() const
 {
-  return std::pow(cholmod_rcond(factor_->L, &factor_->common), 2);
+  return cholmod_rcond(factor_->L, &factor_->common);
 }
 
 int SparseCholesky::weakest_row() const

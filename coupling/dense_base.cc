@@ -1,0 +1,262 @@
+#include "coupling/dense_base.h"
+
+#include "coupling/dense_modes.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double negligible = 1e-12; // entry relative to the roots of its diagonal entries that counts as zero
+constexpr double regular    = 1e-14; // smallest pivot of a matrix scaled to unit diagonal
+
+bool is_zero(const MatrixXd &A)
+{
+  return A.size() == 0 || A.cwiseAbs().maxCoeff() == 0.;
+}
+
+bool is_diagonal(const MatrixXd &A)
+{
+  return is_zero(A - MatrixXd(A.diagonal().asDiagonal()));
+}
+
+void require(bool condition, const std::string &message)
+{
+  if (!condition)
+    throw std::invalid_argument("DenseBase: " + message);
+}
+
+[[noreturn]] void refuse_singular(int coordinate)
+{
+  throw std::invalid_argument("DenseBase: the matrix of the time step is singular at coordinate " +
+                              std::to_string(coordinate) +
+                              ": it has neither mass nor damping nor stiffness of its own; give it one of them or remove it");
+}
+
+/**
+ * A^-1 of a symmetric matrix: scaled to unit diagonal, inverted by Cholesky (or by LU if A is indefinite), and improved by
+ * one step of Newton's iteration X <- X (2 E - A X), which squares what rounding left.
+ *
+ * @param names of the coordinates the rows of A stand for, for messages.
+ */
+MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
+{
+  const auto n = A.rows();
+  if (n == 0)
+    return A;
+  const VectorXd d =
+    A.diagonal().unaryExpr([](double a) { return a != 0. && std::isfinite(a) ? 1. / std::sqrt(std::abs(a)) : 1.; });
+  const MatrixXd scaled = d.asDiagonal() * A * d.asDiagonal();
+  MatrixXd       X;
+  const Eigen::LLT<MatrixXd> cholesky(scaled);
+  if (cholesky.info() == Eigen::Success &&
+      cholesky.matrixLLT().diagonal().cwiseAbs2().minCoeff() > regular)
+    X = cholesky.solve(MatrixXd::Identity(n, n));
+  else
+    {
+      Eigen::FullPivLU<MatrixXd> lu(scaled);
+      lu.setThreshold(regular);
+      if (!scaled.allFinite() || !lu.isInvertible())
+        {
+          int worst = 0;
+          if (scaled.allFinite())
+            lu.kernel().col(0).cwiseAbs().maxCoeff(&worst);
+          refuse_singular(names[worst]);
+        }
+      X = lu.inverse();
+    }
+  X = (X * (2. * MatrixXd::Identity(n, n) - scaled * X)).eval();
+  return d.asDiagonal() * (0.5 * (X + X.transpose())) * d.asDiagonal();
+}
+
+/// x = A^-1 f with the inverse of the whole A.
+class InverseSolver final : public LinearSolver
+{
+public:
+  explicit InverseSolver(MatrixXd A_inverse)
+    : A_inverse_(std::move(A_inverse))
+  {
+  }
+  void solve(const VectorXd &f, VectorXd &x) const override { x.noalias() = A_inverse_ * f; }
+
+private:
+  MatrixXd A_inverse_;
+};
+
+/// (5.5.3/4-7) for a diagonal A_LL:  G = A_LL^-1 A_LN,  q_N = A_red^-1 (f_N - G^T f_L),  q_L = A_LL^-1 f_L - G q_N.
+class CondensedSolver final : public LinearSolver
+{
+public:
+  CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const std::vector<int> &order)
+    : order_(order)
+    , inverse_LL_(A_LL.cwiseInverse())
+    , G_(inverse_LL_.asDiagonal() * A_LN)
+    , A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order))
+    , f_(order.size())
+    , x_(order.size())
+  {
+  }
+
+  void solve(const VectorXd &f, VectorXd &x) const override
+  {
+    const auto n_L = inverse_LL_.size(), n_N = f_.size() - n_L;
+    for (Eigen::Index i = 0; i < f_.size(); ++i)
+      f_(i) = f(order_[i]);
+    f_.head(n_N).noalias() -= G_.transpose() * f_.tail(n_L);
+    x_.head(n_N).noalias() = A_red_inverse_ * f_.head(n_N);
+    x_.tail(n_L)           = inverse_LL_.cwiseProduct(f_.tail(n_L));
+    x_.tail(n_L).noalias() -= G_ * x_.head(n_N);
+    for (Eigen::Index i = 0; i < x_.size(); ++i)
+      x(order_[i]) = x_(i);
+  }
+
+private:
+  std::vector<int> order_; // N, then L
+  VectorXd         inverse_LL_;
+  MatrixXd         G_, A_red_inverse_;
+  mutable VectorXd f_, x_;
+};
+
+std::vector<int> rest_then_modal(int n, const std::vector<int> &L)
+{
+  std::vector<char> modal(n, 0);
+  for (const int i : L)
+    {
+      require(i >= 0 && i < n, "modal coordinate " + std::to_string(i) + " lies outside 0.." + std::to_string(n - 1));
+      require(!modal[i], "modal coordinate " + std::to_string(i) + " is named twice");
+      modal[i] = 1;
+    }
+  std::vector<int> order;
+  for (int i = 0; i < n; ++i)
+    if (!modal[i])
+      order.push_back(i);
+  order.insert(order.end(), L.begin(), L.end());
+  return order;
+}
+
+void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
+{
+  require(A.rows() == n && A.cols() == n, std::string(name) + " is " + std::to_string(A.rows()) + " x " +
+                                            std::to_string(A.cols()) + ", but M has " + std::to_string(n) + " rows");
+  require(A.allFinite(), std::string(name) + " holds a value that is no number");
+  require((A - A.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * A.cwiseAbs().maxCoeff(),
+          std::string(name) + " is not symmetric");
+}
+
+} // namespace
+
+DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const std::vector<int> &modal_coordinates)
+  : M_(M)
+  , B_(B)
+  , C_(C)
+  , order_(rest_then_modal(int(M.rows()), modal_coordinates))
+  , n_N_(int(M.rows() - modal_coordinates.size()))
+  , x_(M.rows())
+  , y_(M.rows())
+{
+  const auto n_L = Eigen::Index(modal_coordinates.size());
+  require(M.rows() > 0, "there are no coordinates");
+  require_symmetric(M, "M", M.rows());
+  require_symmetric(B, "B", M.rows());
+  require_symmetric(C, "C", M.rows());
+  mass_      = blocks_of(M);
+  damping_   = blocks_of(B);
+  stiffness_ = blocks_of(C);
+  require(mass_.LL.size() == 0 && (mass_.diagonal - VectorXd::Ones(n_L)).cwiseAbs().sum() <= negligible * n_L,
+          "the modal block of M must be the unit matrix");
+  require(stiffness_.LL.size() == 0 && stiffness_.LN.size() == 0,
+          "the modal block of C must be diagonal and uncoupled from the rest");
+}
+
+DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
+{
+  const std::vector<int> N(order_.begin(), order_.begin() + n_N_), L(order_.begin() + n_N_, order_.end());
+  Blocks                 blocks{A(N, N), A(L, N), A(L, L).diagonal(), A(L, L)};
+  if (is_zero(blocks.LN))
+    blocks.LN.resize(0, 0);
+  if (is_diagonal(blocks.LL))
+    blocks.LL.resize(0, 0);
+  return blocks;
+}
+
+void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
+{
+  const auto n = x_.size(), n_L = n - n_N_;
+  for (Eigen::Index i = 0; i < n; ++i)
+    x_(i) = x(order_[i]);
+  const auto x_N = x_.head(n_N_), x_L = x_.tail(n_L);
+  auto       y_N = y_.head(n_N_), y_L = y_.tail(n_L);
+
+  y_N.noalias() = A.NN * x_N;
+  if (A.LL.size() > 0)
+    y_L.noalias() = A.LL * x_L;
+  else
+    y_L = A.diagonal.cwiseProduct(x_L);
+  if (A.LN.size() > 0)
+    {
+      y_N.noalias() += A.LN.transpose() * x_L;
+      y_L.noalias() += A.LN * x_N;
+    }
+  for (Eigen::Index i = 0; i < n; ++i)
+    y(order_[i]) = y_(i);
+}
+
+void DenseBase::mass_times(const VectorXd &x, VectorXd &y) const
+{
+  multiply(mass_, x, y);
+}
+
+void DenseBase::damping_times(const VectorXd &x, VectorXd &y) const
+{
+  multiply(damping_, x, y);
+}
+
+void DenseBase::stiffness_times(const VectorXd &x, VectorXd &y) const
+{
+  multiply(stiffness_, x, y);
+}
+
+std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, double w_C) const
+{
+  const auto     n_L = Eigen::Index(order_.size()) - n_N_;
+  const MatrixXd A   = w_M * M_ + w_B * B_ + w_C * C_;
+  require(A.allFinite(), "the weights of the time step are no finite numbers");
+  if (n_L == 0 || (w_B != 0. && damping_.LL.size() > 0))
+    {
+      std::vector<int> all(order_.size());
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = int(i);
+      return std::make_unique<InverseSolver>(inverse(A, all));
+    }
+  const Blocks blocks = blocks_of(A);
+  for (Eigen::Index i = 0; i < n_L; ++i)
+    if (blocks.diagonal(i) == 0.)
+      refuse_singular(order_[n_N_ + i]);
+  const MatrixXd A_LN = blocks.LN.size() > 0 ? blocks.LN : MatrixXd(MatrixXd::Zero(n_L, n_N_));
+  return std::make_unique<CondensedSolver>(blocks.NN, A_LN, blocks.diagonal, order_);
+}
+
+std::vector<SpectrumLine> DenseBase::spectrum() const
+{
+  const DenseModes          modes = dense_modes(C_, M_);
+  std::vector<SpectrumLine> lines;
+  for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
+    {
+      const double omega = modes.omega(j), two_delta = modes.V.col(j).dot(B_ * modes.V.col(j));
+      lines.push_back({omega, omega > 0. ? two_delta / (2. * omega) : 0.});
+    }
+  return lines;
+}
+
+} // namespace gestell::coupling
