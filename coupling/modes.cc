@@ -24,7 +24,8 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p),
       Eigen::MatrixXd((-modes.omega.array().square()).matrix().asDiagonal()), -modes.V.transpose() * B * modes.V;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
-  const auto                                s = solver.eigenvalues();
+  const Eigen::VectorXcd                    s       = solver.eigenvalues();
+  const Eigen::MatrixXcd                    vectors = solver.eigenvectors();
   std::vector<bool>                         taken(2 * p, false);
   for (std::size_t j = 0; j < result.size(); ++j)
   {
@@ -34,7 +35,7 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
     {
       if (taken[k] || s[k].imag() <= 1e-9 * std::abs(s[k]))
         continue;
-      const auto   y   = solver.eigenvectors().col(k).head(p);
+      const auto   y   = vectors.col(k).head(p);
       const double own = std::norm(y[static_cast<Eigen::Index>(j)]) / y.squaredNorm();
       if (own > share)
       {

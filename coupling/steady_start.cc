@@ -133,7 +133,7 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     if (i != driver)
       equations.push_back(i);
   }
-  Eigen::VectorXd load, product, constant(n);
+  Eigen::VectorXd load, product(n), constant(n);
   machine.excitation(0., load);
   constant = load;
   machine.mass_times(acceleration, product);

@@ -1,0 +1,52 @@
+#include "apps/commands/commands.h"
+#include "apps/commands/prepared_machine.h"
+#include "apps/commands/results_path.h"
+#include "apps/output/result_folder.h"
+
+#include <iomanip>
+#include <iostream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes)
+{
+  if (modes.empty())
+    return;
+  std::cout << kind << "\n  mode   frequency [Hz]   damping ratio   effective mass x / y / z [kg]\n";
+  for (std::size_t j = 0; j < modes.size(); ++j)
+  {
+    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << modes[j].frequency_hz
+              << std::setprecision(4) << std::setw(16) << modes[j].damping_ratio << "   ";
+    for (const double mass : modes[j].effective_mass)
+      std::cout << std::setw(11) << mass;
+    std::cout << '\n';
+  }
+}
+} // namespace
+
+int modes_command(const CommonOptions &options)
+{
+  const Scene scene = read_scene(options.input, options.overrides);
+  check_scene(scene);
+  const std::filesystem::path folder = results_path(options, scene);
+  require_writable(folder);
+
+  ProgressLine          progress(options.quiet);
+  const PreparedMachine prepared = prepare_machine(scene, progress);
+  progress.show("modes");
+  Result result = begin_result(scene, "modes", prepared);
+  progress.done();
+  result.wall_s = progress.wall_seconds();
+  prepare_folder(folder);
+  write_results(folder, result);
+
+  print_modes("frame as supported, interface free", result.frame_modes);
+  print_modes("coupled machine", result.coupled_modes);
+  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  return exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,152 @@
+#include "apps/commands/prepared_machine.h"
+
+#include "apps/version.h"
+#include "coupling/frame_service_loader.h"
+#include "coupling/modes.h"
+#include "coupling/reduced_frame_file.h"
+#include "coupling/static_expansion.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+namespace
+{
+/// Modes damped in an unreduced frame with modal damping, at least.
+constexpr int damped_modes = 60;
+
+coupling::Progress progress_of(ProgressLine &line)
+{
+  return [&line](const std::string &phase, double share) { line.show(phase, share); };
+}
+
+/// M, B, C of a frame made from geometry or given by matrices.
+fem::FrameMatrices frame_matrices(const Scene &scene, ProgressLine &progress)
+{
+  if (scene.frame.source == FrameSource::matrices)
+    return scene.frame.matrices;
+  return coupling::frame_service().assemble(scene.frame.geometry, progress_of(progress));
+}
+} // namespace
+
+coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache)
+{
+  from_cache                                = false;
+  const coupling::ReductionOptions &options = scene.reduction.options;
+  const bool                        cached  = scene.frame.source == FrameSource::geometry;
+  const std::string                 key = cached ? coupling::content_key(scene.frame.geometry, options) : std::string();
+  const std::filesystem::path       file = cached ? coupling::cache_file(key) : std::filesystem::path();
+  if (cached)
+    if (auto known = coupling::read_cached_frame(file, key))
+    {
+      from_cache = true;
+      return std::move(*known);
+    }
+  coupling::ReducedFrame frame =
+      coupling::frame_service().reduce(frame_matrices(scene, progress), options, progress_of(progress));
+  if (cached)
+    coupling::write_cached_frame(file, key, frame);
+  return frame;
+}
+
+PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
+{
+  PreparedMachine prepared;
+  progress.show("frame");
+  switch (frame_path(scene))
+  {
+  case FramePath::none:
+  case FramePath::dense:
+    prepared.machine = build_machine(scene);
+    break;
+  case FramePath::from_file:
+    prepared.machine = build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
+    break;
+  case FramePath::reduce:
+    prepared.machine = build_machine(scene, reduced_frame(scene, progress, prepared.from_cache));
+    break;
+  case FramePath::sparse:
+  {
+    fem::FrameMatrices frame = frame_matrices(scene, progress);
+    prepared.companion =
+        build_machine(scene, coupling::frame_service().reduce(frame, scene.reduction.options, progress_of(progress)));
+    if (frame.modal_damping_ratio > 0.)
+    {
+      const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
+      coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress_of(progress));
+    }
+    prepared.machine = build_machine(scene, std::move(frame));
+    break;
+  }
+  }
+  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+    prepared.warnings = frame->notes;
+  return prepared;
+}
+
+Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
+{
+  Eigen::VectorXd projected = Eigen::VectorXd::Zero(companion->size());
+  const auto      n_bodies  = static_cast<Eigen::Index>(machine.bodies().size());
+  projected.tail(n_bodies)  = state.tail(n_bodies);
+  for (const fem::Interface &interface : machine.full_frame()->interfaces)
+    for (const fem::Interface &other : companion->reduced_frame()->interfaces)
+      if (interface.name == other.name)
+        for (int m = 0; m < 6; ++m)
+          if (interface.coordinate[m] >= 0)
+            projected[other.coordinate[m]] = state[interface.coordinate[m]];
+  return projected;
+}
+
+coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared)
+{
+  const coupling::InitialState state = initial_state(scene, prepared.small());
+  return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+}
+
+ModelFacts model_facts(const PreparedMachine &prepared)
+{
+  ModelFacts facts;
+  facts.dofs      = prepared.machine.size();
+  facts.nonlinear = static_cast<int>(prepared.machine.directions().cols());
+  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  {
+    facts.interface  = frame->n_interface;
+    facts.modes      = prepared.companion ? 0 : static_cast<int>(frame->M.rows()) - frame->n_interface;
+    facts.frame_dofs = frame->n_full > 0 ? frame->n_full : static_cast<int>(frame->M.rows());
+    if (frame->n_cells > 0)
+      facts.cells = frame->n_cells;
+    if (frame->mass > 0.)
+      facts.frame_mass = frame->mass;
+    if (frame->omega0.size() > 0 && !prepared.companion)
+    {
+      facts.static_residual = frame->static_residual;
+      if (frame->frequency_error.size() > 0)
+        facts.frequency_error = frame->frequency_error.maxCoeff();
+    }
+  }
+  return facts;
+}
+
+Result begin_result(const Scene &scene, const std::string &command, const PreparedMachine &prepared)
+{
+  const coupling::Machine &small = prepared.small();
+  Result                   result;
+  result.scene       = scene.name;
+  result.description = scene.description;
+  result.version     = version;
+  result.command     = command;
+  result.model       = model_facts(prepared);
+  result.frame_modes = coupling::frame_modes(small, scene.modes.number);
+  result.coupled_modes =
+      coupling::coupled_modes(small, modes_configuration(scene, small), scene.modes.open, scene.modes.number);
+  for (int i = 0; i < small.size(); ++i)
+    result.coordinate_names.push_back(small.coordinate_name(i));
+  result.warnings = prepared.warnings;
+  result.scenery  = scenery_of(small);
+  return result;
+}
+
+} // namespace gestell::apps

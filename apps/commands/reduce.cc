@@ -1,0 +1,42 @@
+#include "apps/commands/commands.h"
+#include "apps/commands/prepared_machine.h"
+
+#include <iomanip>
+#include <iostream>
+
+namespace gestell::apps
+{
+
+int reduce_command(const CommonOptions &options)
+{
+  const Scene scene = read_scene(options.input, options.overrides);
+  check_scene(scene);
+  if (frame_path(scene) != FramePath::reduce)
+    throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
+                                             "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
+  ProgressLine                 progress(options.quiet);
+  bool                         from_cache = false;
+  const coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
+  progress.done();
+
+  std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
+            << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
+            << "  mass          " << frame.mass << " kg\n"
+            << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
+            << " % (energy; exact at the interface)\n"
+            << "  supported frame, interface free:\n    mode   frequency [Hz]   estimated relative error\n";
+  for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
+  {
+    std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
+    if (j < frame.frequency_error.size())
+      std::cout << std::setprecision(3) << std::setw(27) << frame.frequency_error[j];
+    std::cout << '\n';
+  }
+  for (const std::string &note : frame.notes)
+    std::cout << "  note: " << note << '\n';
+  for (const auto &[phase, seconds] : progress.wall_seconds())
+    std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';
+  return exit_done;
+}
+
+} // namespace gestell::apps

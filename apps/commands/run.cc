@@ -1,0 +1,91 @@
+#include "apps/commands/commands.h"
+#include "apps/commands/interruption.h"
+#include "apps/commands/prepared_machine.h"
+#include "apps/commands/results_path.h"
+#include "apps/output/result_folder.h"
+#include "coupling/simulation.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+std::string settings_text(const Scene &scene)
+{
+  const coupling::RunOptions &run = scene.run.options;
+  std::ostringstream          text;
+  text << "BDF of order " << run.order << ", fixed step " << run.step << " s, from " << run.begin << " s to " << run.end
+       << " s; events located on the dense output, the integration is not restarted at them";
+  return text.str();
+}
+
+/// Pictures show the companion of an unreduced frame.
+void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &run)
+{
+  if (!prepared.companion)
+    return;
+  for (Eigen::VectorXd &state : run.picture_states)
+    state = prepared.project(state);
+}
+
+void print_answer(const coupling::RunResult &run)
+{
+  std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)
+            << "at t [s]" << std::setw(16) << "max" << std::setw(14) << "at t [s]" << '\n';
+  for (const coupling::SignalSummary &signal : run.signals)
+    std::cout << std::left << std::setw(12) << signal.name << std::right << std::setprecision(7) << std::setw(16)
+              << signal.min << std::setw(14) << signal.t_min << std::setw(16) << signal.max << std::setw(14)
+              << signal.t_max << "  " << signal.unit << '\n';
+  std::cout << run.events.size() << " events, " << run.work.steps << " steps, " << std::setprecision(3)
+            << double(run.work.newton) / std::max(1L, run.work.steps) << " Newton iterations a step, "
+            << run.work.factorisations << " factorisations, " << run.wall_s << " s\n"
+            << "energy residual " << run.energy.residual << " J of " << run.energy.input << " J supplied\n";
+}
+} // namespace
+
+int run_command(const CommonOptions &options)
+{
+  const Scene scene = read_scene(options.input, options.overrides);
+  require_run(scene);
+  check_scene(scene);
+  const std::filesystem::path folder = results_path(options, scene);
+  require_writable(folder);
+
+  ProgressLine    progress(options.quiet);
+  PreparedMachine prepared = prepare_machine(scene, progress);
+  const auto      signals  = scene_signals(scene, prepared.machine);
+  progress.show("start");
+  const coupling::InitialState initial = prepare_start(scene, prepared);
+  progress.show("modes");
+  Result result   = begin_result(scene, "run", prepared);
+  result.settings = settings_text(scene);
+
+  const coupling::RunOptions &run = scene.run.options;
+  progress.show("integration", 0.);
+  result.run = coupling::simulate(
+      prepared.machine, initial, run, signals,
+      [&](double t) { progress.show("integration", (t - run.begin) / (run.end - run.begin)); }, &interruption());
+  progress.show("results");
+  states_for_pictures(prepared, *result.run);
+  prepare_folder(folder);
+  progress.done();
+  result.wall_s = progress.wall_seconds();
+  write_results(folder, result);
+
+  print_answer(*result.run);
+  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  if (!result.run->failure.empty())
+  {
+    std::cerr << "gestell: the computation failed: " << result.run->failure << "\n  what was computed up to then is in "
+              << folder.string() << '\n';
+    return exit_failed;
+  }
+  return result.run->interrupted ? exit_interrupted : exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,90 @@
+// The program gestell: one executable with subcommands.
+
+#include "apps/commands/commands.h"
+#include "apps/version.h"
+#include "coupling/integration/second_order_system.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <thread>
+
+namespace
+{
+
+using namespace gestell::apps;
+
+CLI::App *add_command(CLI::App &program, const std::string &name, const std::string &does, const std::string &example,
+                      const std::string &input, CommonOptions &options)
+{
+  CLI::App *command = program.add_subcommand(name, does);
+  command->footer("Example:\n  " + example);
+  command->add_option(input, options.input, input == "SCENE" ? "scene file (TOML)" : "STEP, BREP, .geo or .msh file")
+      ->required();
+  command->add_option("--jobs", options.jobs, "threads that may be used")->check(CLI::PositiveNumber);
+  command->add_flag("--quiet", options.quiet, "no progress on standard error");
+  if (input == "SCENE")
+  {
+    command->add_option("-o,--output", options.folder, "folder for results (default results/<scene name>)");
+    command->add_option("--set", options.overrides, "override an entry of the scene: key.path=value")
+        ->allow_extra_args(false);
+  }
+  return command;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  CLI::App program{"Gestell computes how a machine and the frame that carries it shake each other.", "gestell"};
+  program.set_version_flag("--version", std::string("gestell ") + version);
+  program.require_subcommand(1);
+
+  CommonOptions      options;
+  MeshCommandOptions mesh;
+  CLI::App          *run = add_command(program, "run", "simulate a scene in time",
+                                       "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
+  CLI::App          *modes =
+      add_command(program, "modes", "natural frequencies and shapes of the frame and of the coupled machine",
+                  "gestell modes apps/scenes/press_minimal.toml", "SCENE", options);
+  CLI::App *reduce = add_command(program, "reduce", "build (or reuse) the reduced frame and report its error estimate",
+                                 "gestell reduce apps/scenes/press.toml --set reduction.modes=40", "SCENE", options);
+  CLI::App *check  = add_command(program, "check", "validate a scene without computing",
+                                 "gestell check apps/scenes/press.toml", "SCENE", options);
+  CLI::App *mesher = add_command(program, "mesh", "mesh a CAD file; report its quality, surfaces and solids",
+                                 "gestell mesh meshes/press_frame.step --size 0.08", "CAD", options);
+  mesher->add_option("--size", mesh.size, "element size [m]")->check(CLI::PositiveNumber);
+  mesher->add_option("--unit", mesh.unit, "length unit of a file without one [m]")->check(CLI::PositiveNumber);
+
+  try
+  {
+    program.parse(argc, argv);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    return program.exit(error) == 0 ? exit_done : exit_wrong_input;
+  }
+
+  try
+  {
+    if (run->parsed())
+      return run_command(options);
+    if (modes->parsed())
+      return modes_command(options);
+    if (reduce->parsed())
+      return reduce_command(options);
+    if (check->parsed())
+      return check_command(options);
+    return mesh_command(options, mesh);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    std::cerr << "gestell: " << error.what() << '\n';
+    return exit_wrong_input;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << "gestell: the computation failed: " << error.what() << '\n';
+    return exit_failed;
+  }
+}
