@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -32,6 +33,35 @@ std::string bytes(const std::string &path, std::uintmax_t from, std::size_t coun
   in.read(text.data(), static_cast<std::streamsize>(count));
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
+}
+
+constexpr std::size_t end_of_file = 1024; // bytes in which the first and the last words must stand
+
+std::string head_of(const std::string &path) { return bytes(path, 0, end_of_file); }
+
+std::string tail_of(const std::string &path, std::uintmax_t size)
+{
+  return bytes(path, size > end_of_file ? size - end_of_file : 0, end_of_file);
+}
+
+template <typename Refuse>
+void check_step(const std::string &path, std::uintmax_t size, const Refuse &refuse)
+{
+  if (head_of(path).find("ISO-10303-21") == std::string::npos)
+    refuse("is not a STEP file: it does not begin with \"ISO-10303-21;\"; export the model as STEP (AP203 or AP214).");
+  if (tail_of(path, size).find("END-ISO-10303-21") == std::string::npos)
+    refuse("is cut off: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
+}
+
+// OpenCASCADE never ends on a BREP file that was cut off.
+template <typename Refuse>
+void check_brep(const std::string &path, std::uintmax_t size, const Refuse &refuse)
+{
+  static const std::regex root_shape("\\*\\s*[-+ie][0-9]+ [0-9]+\\s*$");
+  if (head_of(path).find("CASCADE Topology") == std::string::npos)
+    refuse("is not a BREP file of OpenCASCADE: \"CASCADE Topology\" is missing at its head; export the model as STEP.");
+  if (!std::regex_search(tail_of(path, size), root_shape))
+    refuse("is cut off: its last line does not name the root shape (such as \"+1 0\"); copy or export it again.");
 }
 
 } // namespace
@@ -68,14 +98,10 @@ CadFile check_cad_file(const FrameSpecification &specification)
     throw std::invalid_argument(specification.place + ": unit = " + std::to_string(specification.unit) +
                                 " m; it must be > 0, or be left out.");
 
+  if (kind->second == CadFile::brep)
+    check_brep(path, size, refuse);
   if (kind->second == CadFile::step)
-  {
-    constexpr std::size_t end = 1024;
-    if (bytes(path, 0, end).find("ISO-10303-21") == std::string::npos)
-      refuse("is not a STEP file: it does not begin with \"ISO-10303-21;\"; export the model as STEP (AP203 or AP214).");
-    if (bytes(path, size > end ? size - end : 0, end).find("END-ISO-10303-21") == std::string::npos)
-      refuse("is cut off: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
-  }
+    check_step(path, size, refuse);
   return kind->second;
 }
 

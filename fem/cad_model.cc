@@ -176,7 +176,7 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
 
   session.run([&] { gmsh::open(specification.cad); },
               specification.place + ": gmsh cannot read " + specification.cad + ": ",
-              "; export the model again and see whether gmsh opens it.");
+              "; it may be damaged: export the model again, and see whether gmsh opens it.");
   if (!model.meshed)
     check_kernel(specification);
 

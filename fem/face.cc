@@ -78,7 +78,13 @@ std::string text(double value)
   return out.str();
 }
 
-std::string text(const Vector3 &v) { return "(" + text(v[0]) + " " + text(v[1]) + " " + text(v[2]) + ")"; }
+std::string text(const Vector3 &v)
+{
+  std::string words = "(";
+  for (int d = 0; d < 3; ++d) // OpenCASCADE widens boxes by 1e-7
+    words += text(std::round(v[d] * 1e6) * 1e-6) + (d < 2 ? " " : ")");
+  return words;
+}
 
 std::string describe(const Face &face)
 {

@@ -44,27 +44,17 @@ Selection select_all(const CadModel &model, const FrameSpecification &specificat
   return selection;
 }
 
-/// HXT gives the better cells in half the time, but gives up on some surfaces where Delaunay does not.
+/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
 void generate(const FrameSpecification &specification, const GmshSession &session, const MeshProgress &progress)
 {
-  constexpr int delaunay = 1, hxt = 10;
-  const auto    report = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  const auto        report = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  const std::string remedy = "; choose another mesh.size or repair the faces in the CAD program.";
   report("meshing surfaces");
-  session.run([] { gmsh::model::mesh::generate(2); }, head_of(specification) + ": gmsh cannot mesh its surfaces: ",
-              "; choose another mesh.size or repair the faces in the CAD program.");
+  session.run([] { gmsh::model::mesh::generate(2); },
+              head_of(specification) + ": gmsh cannot mesh its surfaces: ", remedy);
   report("meshing volumes");
-  gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
-  try
-  {
-    gmsh::model::mesh::generate(3);
-    return;
-  }
-  catch (...) // whatever gmsh throws: the second try decides
-  {
-    gmsh::option::setNumber("Mesh.Algorithm3D", delaunay);
-  }
-  session.run([] { gmsh::model::mesh::generate(3); }, head_of(specification) + ": gmsh cannot mesh its volume: ",
-              "; choose another mesh.size or repair the faces in the CAD program.");
+  session.run([] { gmsh::model::mesh::generate(3); },
+              head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,

@@ -18,7 +18,7 @@ using MeshProgress = std::function<void(const std::string &phase, double share)>
 /**
  * Mesh of the frame with its named surfaces.
  *
- * STEP, BREP and .geo are meshed with linear tetrahedra (HXT, else Delaunay) of specification.mesh.size, smaller on
+ * STEP, BREP and .geo are meshed with linear tetrahedra of specification.mesh.size, smaller on
  * surfaces that ask for it.  A .msh file is taken as it is: mesh.size has no meaning then, and selectors act on its
  * surfaces (of the mesh, with their physical groups) by their triangles.  Equal input gives an equal mesh; no file is
  * written; gmsh is left finalised.
