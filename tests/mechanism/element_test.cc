@@ -1,0 +1,220 @@
+// What holds for every force element.
+
+#include "mechanism/elements/blanking_force.h"
+#include "mechanism/elements/clearance.h"
+#include "mechanism/elements/connecting_rod.h"
+#include "mechanism/elements/cubic_spring.h"
+#include "mechanism/elements/cutting_force.h"
+#include "mechanism/elements/kloss_motor.h"
+#include "mechanism/elements/regularised_friction.h"
+#include "tests/mechanism/element_probe.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <ostream>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace mechanism;
+
+const ConnectingRod::Parameters rod{0.08, 0.8, 9e8, 1.8e5, 1e-4, 4e-4, 5e4};
+const BlankingForce::Parameters sheet{0.004, 0.8, 3.2e8, 0.35, 8., 0.25, 0.08, 9e9, 0.};
+
+/// An element, a motion inside one of its branches, and typical sizes of u and u' there.
+struct Case
+{
+  std::string                   name;
+  std::shared_ptr<ForceElement> element;
+  Probe                         probe;
+  double                        du = 1e-7, dv = 1e-4;
+};
+
+Probe probe1(double u, double v)
+{
+  return {0.3, Eigen::VectorXd::Constant(1, u), Eigen::VectorXd::Constant(1, v), Eigen::VectorXd::Constant(1, 0.)};
+}
+
+Probe rod_probe(double delta, double rate)
+{
+  const double phi = 2.5, y = 2e-4;
+  const double c = rod.crank_radius * std::sin(phi) + y, w = std::sqrt(rod.length * rod.length - c * c);
+  const double u = -rod.crank_radius * std::cos(phi) + w - (rod.length - rod.crank_radius);
+  return {0., Eigen::Vector3d(phi, delta - u, y), Eigen::Vector3d(3., rate, 0.02), Eigen::Vector3d::Zero()};
+}
+
+/// History of a motion that came to the probe from 10 um before it: kinks at the start of a motion lie behind.
+Eigen::VectorXd arrived(const Case &c)
+{
+  Probe earlier = c.probe;
+  earlier.u.array() -= 1e-5;
+  return started(*c.element, earlier);
+}
+
+std::vector<Case> cases()
+{
+  const auto connecting_rod = std::make_shared<ConnectingRod>(rod);
+  const auto blanking       = std::make_shared<BlankingForce>(sheet);
+  const auto clearance      = std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e9, 4.});
+  const auto cutting        = std::make_shared<CuttingForce>(CuttingForce::Parameters{5e3, 6e-4, 4e-4, 0.02});
+  return {{"rod_compressed", connecting_rod, rod_probe(3e-4, 0.1)},
+          {"rod_in_gap", connecting_rod, rod_probe(-2e-4, -0.1)},
+          {"rod_pulled", connecting_rod, rod_probe(-7e-4, 0.2)},
+          {"sheet_rising", blanking, probe1(4e-4, 0.1)},
+          {"sheet_breaking", blanking, probe1(1.9e-3, 0.1)},
+          {"slug", blanking, probe1(3.1e-3, 0.1)},
+          {"clearance_open", clearance, probe1(2e-5, 0.1)},
+          {"clearance_positive", clearance, probe1(7e-5, 0.1)},
+          {"clearance_negative", clearance, probe1(-7e-5, 0.1)},
+          {"cutting", cutting, probe1(9e-4, 0.01)},
+          {"cubic_spring", std::make_shared<CubicSpring>(CubicSpring::Parameters{1e6, 5e12}), probe1(3e-4, 0.)},
+          {"friction", std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3}),
+           probe1(0., 1e-3), 1e-7, 1e-7},
+          {"motor", std::make_shared<KlossMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}), probe1(0., 3.1)}};
+}
+
+std::ostream &operator<<(std::ostream &out, const Case &c)
+{
+  return out << c.name;
+}
+
+class Element : public ::testing::TestWithParam<Case>
+{
+};
+
+// Central quotients err by O(d^2) of the third derivative and by rounding eps |p| / d: 1e-5 covers both for the chosen
+// d.
+TEST_P(Element, TangentFromDualNumbersEqualsCentralQuotients)
+{
+  const Case           &c       = GetParam();
+  const int             k       = c.element->n_measures();
+  const Eigen::VectorXd history = arrived(c);
+  for (const TangentWeights w : {TangentWeights{1., 0., 0.}, TangentWeights{0., 1., 0.}, TangentWeights{1., 150., 2e4}})
+  {
+    Eigen::VectorXd p(k);
+    Eigen::MatrixXd dp(k, k);
+    c.element->tangent(c.probe.motion(), history.data(), w, p.data(), dp.data());
+    EXPECT_EQ((p - force(*c.element, c.probe, history.data())).norm(), 0.);
+    for (int j = 0; j < k; ++j)
+    {
+      const double d    = w.u == 0. ? c.dv : std::min(c.du, w.v > 0. ? c.dv / w.v : c.du);
+      Probe        plus = c.probe, minus = c.probe;
+      plus.u[j] += w.u * d, plus.v[j] += w.v * d, plus.a[j] += w.a * d;
+      minus.u[j] -= w.u * d, minus.v[j] -= w.v * d, minus.a[j] -= w.a * d;
+      const Eigen::VectorXd quotient =
+          (force(*c.element, plus, history.data()) - force(*c.element, minus, history.data())) / (2. * d);
+      const double scale = dp.norm() + 1e-8 * p.norm() / d + 1e-300;
+      EXPECT_LT((dp.col(j) - quotient).norm(), 1e-5 * scale) << c.name << ", measure " << j;
+    }
+  }
+}
+
+// Power p . u' plus the growth of the stored energy is what the element takes out of the motion.
+TEST_P(Element, NeverGivesMoreEnergyThanItStores)
+{
+  const Case &c = GetParam();
+  if (c.element->work() == Work::input)
+    return;
+  const Eigen::VectorXd history = arrived(c);
+  const double          dt      = 1e-9;
+  Probe                 before = c.probe, after = c.probe;
+  before.u -= 0.5 * dt * c.probe.v;
+  after.u += 0.5 * dt * c.probe.v;
+  const double growth = (c.element->stored_energy(after.motion(), history.data()) -
+                         c.element->stored_energy(before.motion(), history.data())) /
+                        dt;
+  const double power = force(*c.element, c.probe, history.data()).dot(c.probe.v);
+  EXPECT_LE(power + growth, 1e-5 * (std::abs(power) + std::abs(growth)));
+}
+
+TEST_P(Element, GuardsAreOpenWhereTheMotionStarts)
+{
+  const Case     &c       = GetParam();
+  Eigen::VectorXd history = arrived(c);
+  const auto      guards  = c.element->guards(history.data());
+  ASSERT_EQ(static_cast<int>(guards.size()), c.element->n_guards(history.data()));
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(guards.size()) + 1);
+  c.element->guard_values(c.probe.motion(), history.data(), g.data());
+  for (std::size_t i = 0; i < guards.size(); ++i)
+    EXPECT_LT((guards[i].crossing == Crossing::rising ? 1. : -1.) * g[static_cast<Eigen::Index>(i)], 0.)
+        << c.name << ": " << guards[i].kind;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Element, ::testing::ValuesIn(cases()),
+                         [](const auto &information) { return information.param.name; });
+
+TEST(CubicSpring, LosesNoEnergy)
+{
+  const CubicSpring spring({1e6, 5e12});
+  const double      u0 = -3e-4, u1 = 5e-4;
+  double            work = 0.;
+  const int         n    = 20000; // trapezoidal rule: error (u1-u0)^2/(12 n^2) |p''| of the work, < 1e-8 relative
+  for (int i = 0; i <= n; ++i)
+    work +=
+        (i == 0 || i == n ? 0.5 : 1.) * (u1 - u0) / n * force(spring, probe1(u0 + (u1 - u0) * i / n, 0.), nullptr)[0];
+  const double change =
+      spring.stored_energy(probe1(u1, 0.).motion(), nullptr) - spring.stored_energy(probe1(u0, 0.).motion(), nullptr);
+  EXPECT_NEAR(-work, change, 1e-8 * std::abs(change));
+}
+
+TEST(KlossMotor, HasItsBreakdownTorqueAtItsBreakdownSlip)
+{
+  const KlossMotor motor({240., 0.15, 157., 49.});
+  const double     shaft_speed = (1. - 0.15) * 157. / 49.;
+  EXPECT_NEAR(force(motor, probe1(0., shaft_speed), nullptr)[0], 49. * 240., 1e-8);
+  EXPECT_NEAR(force(motor, probe1(0., 157. / 49.), nullptr)[0], 0., 1e-8);
+}
+
+TEST(Clearance, IsContinuousAtTouchDownAndNeverPulls)
+{
+  const Clearance clearance({5e-5, 1e9, 4.});
+  const double    history = 1.;
+  EXPECT_NEAR(force(clearance, probe1(5e-5 + 1e-12, 0.5), &history)[0], 0., 1e-2);
+  EXPECT_EQ(force(clearance, probe1(6e-5, -0.26), &history)[0], 0.); // 1 + 4 v < 0
+  EXPECT_LT(force(clearance, probe1(6e-5, 0.1), &history)[0], 0.);
+  EXPECT_GT(force(clearance, probe1(-6e-5, -0.1), &history)[0], 0.);
+}
+
+TEST(CuttingForce, PeaksAtItsPeakPenetrationAndLetsGoOutwards)
+{
+  const CuttingForce cutting({5e3, 6e-4, 4e-4, 0.02});
+  EXPECT_NEAR(force(cutting, probe1(1e-3, 1.), nullptr)[0], -5e3, 1e-6);
+  EXPECT_NEAR(force(cutting, probe1(1e-3, -1.), nullptr)[0], 0., 1e-6);
+  EXPECT_EQ(force(cutting, probe1(3e-4, 1.), nullptr)[0], 0.);
+}
+
+TEST(Parameters, OutOfRangeAreRefusedByName)
+{
+  const auto refused = [](auto make, const std::string &word)
+  {
+    try
+    {
+      make();
+    }
+    catch (const std::invalid_argument &error)
+    {
+      return std::string(error.what()).find(word) != std::string::npos;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused([] { Clearance({-1e-5, 1e9, 0.}); }, "gap"));
+  EXPECT_TRUE(refused([] { Clearance({1e-5, 0., 0.}); }, "stiffness"));
+  EXPECT_TRUE(refused([] { Clearance({1e-5, 1e9, -1.}); }, "dissipation"));
+  EXPECT_TRUE(refused([] { KlossMotor({0., 0.15, 157., 49.}); }, "breakdown_torque"));
+  EXPECT_TRUE(refused([] { KlossMotor({240., 0., 157., 49.}); }, "breakdown_slip"));
+  EXPECT_TRUE(refused([] { KlossMotor({240., 0.15, 0., 49.}); }, "synchronous_speed"));
+  EXPECT_TRUE(refused([] { KlossMotor({240., 0.15, 157., 0.}); }, "ratio"));
+  EXPECT_TRUE(refused([] { RegularisedFriction({-1., 1e-3}); }, "force"));
+  EXPECT_TRUE(refused([] { RegularisedFriction({1., 0.}); }, "speed"));
+  EXPECT_TRUE(refused([] { CubicSpring({std::nan(""), 0.}); }, "stiffness"));
+  EXPECT_TRUE(refused([] { CuttingForce({-1., 1e-3, 0., 0.01}); }, "peak_force"));
+  EXPECT_TRUE(refused([] { CuttingForce({1., 0., 0., 0.01}); }, "peak_penetration"));
+  EXPECT_TRUE(refused([] { CuttingForce({1., 1e-3, 0., 0.}); }, "speed"));
+}
+
+} // namespace
+} // namespace gestell::tests
