@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -16,7 +17,11 @@ void use_one_blas_thread()
 {
   static const std::string library = [] {
     Dl_info found{};
-    return std::string(dladdr(reinterpret_cast<void *>(&dgemm_), &found) && found.dli_fname ? found.dli_fname : "");
+    if (!dladdr(reinterpret_cast<void *>(&dgemm_), &found) || !found.dli_fname)
+      return std::string("not known");
+    std::error_code error; // Debian chooses among libraries by links
+    const auto      file = std::filesystem::canonical(found.dli_fname, error);
+    return error ? std::string(found.dli_fname) : file.string();
   }();
   if (library.find("openblas") == std::string::npos)
     throw std::invalid_argument("reduction: BLAS is " + library + ", but Gestell needs OpenBLAS; on Debian install "
