@@ -42,16 +42,15 @@ Solid solid_of(int tag, double unit, bool meshed)
   if (solid.name.empty())
     solid.name = "solid " + std::to_string(tag);
 
+  std::vector<int> above;
+  gmsh::model::getAdjacencies(3, tag, above, solid.faces);
+  if (meshed)
+    return solid;
   auto &[x0, y0, z0] = solid.min;
   auto &[x1, y1, z1] = solid.max;
   gmsh::model::getBoundingBox(3, tag, x0, y0, z0, x1, y1, z1);
   solid.min = unit * solid.min;
   solid.max = unit * solid.max;
-
-  std::vector<int> above;
-  gmsh::model::getAdjacencies(3, tag, above, solid.faces);
-  if (meshed)
-    return solid;
   gmsh::model::occ::getMass(3, tag, solid.volume);
   solid.volume *= unit * unit * unit;
   return solid;

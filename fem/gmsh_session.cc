@@ -4,8 +4,10 @@
 
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
 
 #include <stdexcept>
+#include <typeinfo>
 #include <vector>
 
 namespace gestell::fem
@@ -21,19 +23,17 @@ void silence_opencascade()
   messenger->ChangePrinters().Clear();
 }
 
-// gmsh throws what its version likes: an integer, a string or an exception.
+// gmsh throws what its version likes: an integer, a string or an exception; OpenCASCADE throws its own.
 std::string words_of_gmsh()
 {
   try
   {
     throw;
   }
-  catch (const std::invalid_argument &)
+  catch (const std::runtime_error &error)
   {
-    throw; // ours
-  }
-  catch (const std::exception &error)
-  {
+    if (typeid(error) != typeid(std::runtime_error))
+      throw; // of the caller's progress report, such as an interruption
     return error.what();
   }
   catch (const std::string &error)
@@ -43,6 +43,10 @@ std::string words_of_gmsh()
   catch (int code)
   {
     return "code " + std::to_string(code);
+  }
+  catch (const Standard_Failure &failure)
+  {
+    return failure.GetMessageString();
   }
 }
 
@@ -58,7 +62,11 @@ GmshSession::GmshSession()
   silence_opencascade();
 }
 
-GmshSession::~GmshSession() { gmsh::finalize(); }
+GmshSession::~GmshSession()
+{
+  gmsh::logger::stop(); // else the next session would begin with our messages
+  gmsh::finalize();
+}
 
 void GmshSession::run(const std::function<void()> &action, const std::string &head, const std::string &remedy) const
 {

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double cells_per_volume = 10.; // measured: 9 to 10.5 for blocks and for welded plates
-constexpr double cells_per_area   = 3.;  // measured on plates much thinner than the size
+constexpr double cells_per_area   = 4.5; // measured on plates thinner than the size
 
 double area_of(const CadModel &model, const std::vector<int> &tags)
 {

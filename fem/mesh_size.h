@@ -18,7 +18,7 @@ constexpr double size_growth = 0.3;
 
 /**
  * Number of tetrahedra to be expected, right within a factor of about 1.5:
- *     max(10 V / h^3, 3 A / h^2),
+ *     max(10 V / h^3, 4.5 A / h^2),
  * the second where plates are thinner than h, and for a surface of size s and area a another 10 a / (2 growth s^2).
  *
  * @param surface_size  [m] per name of `selection`

@@ -9,7 +9,6 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -73,8 +72,22 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
 /// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
 void measure_solids(CadModel &model, const Mesh &mesh)
 {
+  for (Solid &solid : model.solids)
+  {
+    solid.min = model.max;
+    solid.max = model.min;
+  }
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    model.solids[mesh.cell_solid[c]].volume += six_volumes(mesh, mesh.cells[c]) / 6.;
+  {
+    Solid &solid = model.solids[mesh.cell_solid[c]];
+    solid.volume += six_volumes(mesh, mesh.cells[c]) / 6.;
+    for (const int point : mesh.cells[c])
+      for (int d = 0; d < 3; ++d)
+      {
+        solid.min[d] = std::min(solid.min[d], mesh.points[point][d]);
+        solid.max[d] = std::max(solid.max[d], mesh.points[point][d]);
+      }
+  }
 }
 
 void read_mesh(MeshedModel &result, const FrameSpecification &specification)
@@ -116,12 +129,15 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
   MeshedModel       result;
   if (progress)
     progress("reading CAD", -1.);
-  result.model = read_cad(specification, session);
-  if (result.model.meshed)
-    read_mesh(result, specification);
-  else
-    mesh_geometry(result, specification, session, missing, progress);
-  name_surfaces(result, specification);
+  const auto work = [&] {
+    result.model = read_cad(specification, session);
+    if (result.model.meshed)
+      read_mesh(result, specification);
+    else
+      mesh_geometry(result, specification, session, missing, progress);
+    name_surfaces(result, specification);
+  };
+  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
   return result;
 }
 

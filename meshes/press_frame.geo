@@ -91,8 +91,8 @@ Cylinder(v) = {0, 0, table_height - table_plate - 20, 0, 0, table_plate + 40, 13
 holes() += {v};
 For side In {-1 : 1 : 2}
   y0 = -half_depth - 20;  y1 = half_depth + 20;
-  x0 = side * 420 - 30;  x1 = side * 420 + 30;  z0 = table_height - 50;  z1 = table_height + 20;  Call Opening;
-  x0 = side * 420 - 60;  x1 = side * 420 + 60;  z0 = table_height - 90;  z1 = table_height - 50;  Call Opening;
+  x0 = side * 400 - 30;  x1 = side * 400 + 30;  z0 = table_height - 50;  z1 = table_height + 20;  Call Opening;
+  x0 = side * 400 - 60;  x1 = side * 400 + 60;  z0 = table_height - 90;  z1 = table_height - 50;  Call Opening;
 EndFor
 
 // ---- crown: a box with ribs, and bosses for the crankshaft ----------------------------------------------------------
