@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
+#include <sstream>
 #include <stdexcept>
 
 using namespace gestell;
@@ -26,14 +26,15 @@ std::size_t longest_path(const std::string &svg)
   return longest;
 }
 
-/// Smallest ordinate (the highest place) any curve reaches.
+/// Smallest ordinate (the highest place) the first curve reaches.
 double highest_place(const std::string &svg)
 {
-  const std::string path = svg.substr(svg.find("<path class=\"line s0\" d=\"M"));
-  const std::regex  point("[ML]([-0-9.]+) ([-0-9.]+)");
-  double            highest = 1e300;
-  for (std::sregex_iterator it(path.begin(), path.end(), point), end; it != end; ++it)
-    highest = std::min(highest, std::stod((*it)[2]));
+  const std::size_t  start = svg.find("<path class=\"line s0\" d=\"M") + 25;
+  std::string        path  = svg.substr(start, svg.find('"', start) - start);
+  std::istringstream points(path);
+  double             highest = 1e300, x, y;
+  for (char pen; points >> pen >> x >> y;)
+    highest = std::min(highest, y);
   return highest;
 }
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <set>
 
 using namespace gestell::apps;
@@ -14,20 +13,22 @@ namespace
 /// Name of the first element that is closed wrongly or never; empty if the markup is sound.
 std::string unbalanced(const std::string &markup)
 {
-  static const std::set<std::string> empty_elements = {"meta", "!DOCTYPE", "br"};
-  const std::regex                   tag("<(/?)([!A-Za-z0-9]+)((?:\"[^\"]*\"|[^\">])*?)(/?)>");
-  std::vector<std::string>           open;
-  std::string                        rest = markup;
-  for (const char *verbatim : {"style"})
-    rest = std::regex_replace(rest, std::regex(std::string("<") + verbatim + ">[^<]*</" + verbatim + ">"), "");
-  // Long path data only slow the search down.
-  rest = std::regex_replace(rest, std::regex(" d=\"[^\"]*\""), "");
-  for (std::sregex_iterator it(rest.begin(), rest.end(), tag), end; it != end; ++it)
+  static const std::set<std::string> empty_elements = {"meta", "!DOCTYPE"};
+
+  std::vector<std::string> open;
+  for (std::size_t i = markup.find('<'); i != std::string::npos; i = markup.find('<', i))
   {
-    const std::string name = (*it)[2];
-    if ((*it)[4].length() > 0 || empty_elements.count(name) > 0)
+    std::size_t end = i + 1;
+    for (bool quoted = false; end < markup.size() && (quoted || markup[end] != '>'); ++end)
+      quoted = markup[end] == '"' ? !quoted : quoted;
+    const bool        closes = markup[i + 1] == '/';
+    const std::size_t first  = i + (closes ? 2 : 1);
+    const std::string name   = markup.substr(first, markup.find_first_of(" />\n", first) - first);
+    const bool        whole  = markup[end - 1] == '/' || empty_elements.count(name) > 0;
+    i                        = end;
+    if (whole)
       continue;
-    if ((*it)[1].length() == 0)
+    if (!closes)
       open.push_back(name);
     else if (open.empty() || open.back() != name)
       return name;
@@ -35,6 +36,13 @@ std::string unbalanced(const std::string &markup)
       open.pop_back();
   }
   return open.empty() ? "" : open.back();
+}
+
+std::string without(std::string text, const std::string &part)
+{
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part))
+    text.erase(i, part.size());
+  return text;
 }
 
 std::size_t place(const std::string &html, const std::string &text)
@@ -62,8 +70,7 @@ TEST(Report, IsSoundMarkupAndSoAreItsPictures)
 
 TEST(Report, NeedsNothingFromOutside)
 {
-  std::string html = make_report(example_result()).html;
-  html             = std::regex_replace(html, std::regex("xmlns=\"[^\"]*\""), "");
+  const std::string html = without(make_report(example_result()).html, "xmlns=\"http://www.w3.org/2000/svg\"");
   for (const char *reference : {"http:", "https:", "src=", "url(", "@import", "<script", "<link"})
     EXPECT_EQ(html.find(reference), std::string::npos) << reference;
 }
