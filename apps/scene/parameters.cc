@@ -16,6 +16,14 @@ namespace
   throw std::invalid_argument(value.place.text() + ": parameters." + written_key(name) + ": " + what);
 }
 
+std::vector<std::string> table_names(const SceneNode &table)
+{
+  std::vector<std::string> names;
+  for (const auto &entry : table.entries)
+    names.push_back(entry.first);
+  return names;
+}
+
 void check_name(const SceneNode &value, const std::string &name)
 {
   if (!is_identifier(name))
@@ -65,13 +73,15 @@ Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &n
   else
     try
     {
-      result = parse_quantity(value.text,
-                              [&](const std::string &other) -> std::optional<Quantity>
-                              {
-                                if (!table.find(other))
-                                  return std::nullopt;
-                                return evaluate_entry(table, other, open);
-                              });
+      result = parse_quantity(
+          value.text,
+          [&](const std::string &other) -> std::optional<Quantity>
+          {
+            if (!table.find(other))
+              return std::nullopt;
+            return evaluate_entry(table, other, open);
+          },
+          table_names(table));
     }
     catch (const std::invalid_argument &e)
     {
@@ -103,7 +113,8 @@ std::vector<std::string> Parameters::names() const
 Quantity Parameters::evaluate(const SceneNode &value) const
 {
   if (value.type == SceneNode::Type::text)
-    return parse_quantity(value.text, [this](const std::string &name) { return find(name); });
+    return parse_quantity(
+        value.text, [this](const std::string &name) { return find(name); }, names());
   return Quantity{value.number, {}, false, Counts::nothing};
 }
 

@@ -56,9 +56,11 @@ Quantity to_power(const Quantity &a, double exponent)
 class Parser
 {
 public:
-  Parser(const std::string &text, const NameLookup &parameters)
-      : text_(text), parameters_(parameters), tokens_(tokens_of(text))
+  Parser(const std::string &text, const NameLookup &parameters, const std::vector<std::string> &names)
+      : text_(text), parameters_(parameters), known_names_(names), tokens_(tokens_of(text))
   {
+    const auto unit_list = unit_names();
+    known_names_.insert(known_names_.end(), unit_list.begin(), unit_list.end());
   }
 
   Quantity whole()
@@ -210,7 +212,7 @@ private:
       number_with_unit_ = false;
       return q;
     }
-    fail("names '" + name + "', which is neither a parameter nor a unit" + near(name, unit_names()) +
+    fail("names '" + name + "', which is neither a parameter nor a unit" + near(name, known_names_) +
          "; parameters are declared in [parameters]");
   }
 
@@ -306,22 +308,23 @@ private:
          name + ")\"; for the unit use another one or rename the parameter");
   }
 
-  const std::string  text_;
-  const NameLookup  &parameters_;
-  std::vector<Token> tokens_;
-  Token              end_;
-  std::size_t        next_             = 0;
-  bool               number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
+  const std::string        text_;
+  const NameLookup        &parameters_;
+  std::vector<std::string> known_names_; ///< parameters and units
+  std::vector<Token>       tokens_;
+  Token                    end_;
+  std::size_t              next_             = 0;
+  bool                     number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
 };
 
 } // namespace
 
-Quantity parse_quantity(const std::string &text, const NameLookup &parameters)
+Quantity parse_quantity(const std::string &text, const NameLookup &parameters, const std::vector<std::string> &names)
 {
   if (text.size() > longest_text)
     throw std::invalid_argument("\"" + text.substr(0, 40) + "...\" is longer than " + std::to_string(longest_text) +
                                 " characters; split it into parameters");
-  return Parser(text, parameters).whole();
+  return Parser(text, parameters, names).whole();
 }
 
 bool is_reserved_name(const std::string &name)

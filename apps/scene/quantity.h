@@ -91,9 +91,11 @@ using NameLookup = std::function<std::optional<Quantity>(const std::string &name
  * an operand is expected a parameter comes before a unit of the same name.  "1/min" after a number means turns per
  * minute of a shaft, 2 pi/60 rad/s, as on every name plate; a full list of units is in docs/scene.md.
  *
+ * @param names  of all parameters, for suggestions.
  * @throws std::invalid_argument with what was expected and where in the text.
  */
-Quantity parse_quantity(const std::string &text, const NameLookup &parameters);
+Quantity parse_quantity(const std::string &text, const NameLookup &parameters,
+                        const std::vector<std::string> &names = {});
 
 /// Value of `quantity` if it is of `kind`; throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
 double value_as(const Quantity &quantity, const Kind &kind, const std::string &text);

@@ -103,6 +103,14 @@ std::string type_name(Type type)
   return "";
 }
 
+std::string described(const SceneNode &value)
+{
+  if (value.type == Type::text)
+    return "the text \"" + value.text + "\"";
+  return value.type == Type::table || value.type == Type::array || value.type == Type::date ? type_name(value.type)
+                                                                                            : value.text;
+}
+
 std::string written_key(const std::string &key)
 {
   const bool bare =

@@ -52,6 +52,9 @@ struct SceneNode
 /// "a table", "text", "a whole number" ...
 std::string type_name(SceneNode::Type type);
 
+/// A value as messages quote it: its text, or what it is.
+std::string described(const SceneNode &value);
+
 /// Key as it must be written in TOML: bare, or in quotes.
 std::string written_key(const std::string &key);
 

@@ -22,7 +22,7 @@ SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, cons
 {
   node.used = true;
   if (node.type != Type::table)
-    throw error("needs a table of keys, got " + type_name(node.type) + " " + node.text);
+    throw error("needs a table of keys, got " + described(node));
 }
 
 // --- places and errors
@@ -121,7 +121,7 @@ double SceneTable::evaluate(const std::string &key, const SceneNode &value, cons
   const std::string at = value.place.text() + ": " + path_of(key) + ": ";
   if (value.type != Type::text && value.type != Type::integer && value.type != Type::real)
     throw std::invalid_argument(at + "needs a " + kind.name + " such as \"" + kind.example + "\", got " +
-                                type_name(value.type) + " " + value.text);
+                                described(value));
   try
   {
     const double result = value_as(parameters_->evaluate(value), kind, value.text);
@@ -205,8 +205,7 @@ std::vector<double> SceneTable::numbers(const std::string &key, const Kind &kind
 {
   const SceneNode &value = demand(key, "an array of values");
   if (value.type != Type::array)
-    throw error(key, "needs an array such as [\"" + kind.example + "\", 0], got " + type_name(value.type) + " " +
-                         value.text);
+    throw error(key, "needs an array such as [\"" + kind.example + "\", 0], got " + described(value));
   std::vector<double> result;
   for (const auto &element : value.elements)
     result.push_back(evaluate(key, element, kind));
@@ -269,7 +268,7 @@ std::string SceneTable::text(const std::string &key) const
 {
   const SceneNode &value = demand(key, "text in quotes");
   if (value.type != Type::text)
-    throw error(key, "needs text in quotes, got " + type_name(value.type) + " " + value.text);
+    throw error(key, "needs text in quotes, got " + described(value));
   if (value.text.empty())
     throw error(key, "needs text, got an empty one");
   return value.text;
@@ -302,8 +301,7 @@ std::vector<std::string> SceneTable::texts(const std::string &key) const
   for (const auto &element : value.elements)
   {
     if (element.type != Type::text || element.text.empty())
-      throw error(key,
-                  "needs an array of texts in quotes, got " + type_name(element.type) + " " + element.text + " in it");
+      throw error(key, "needs an array of texts in quotes, got " + described(element) + " in it");
     result.push_back(element.text);
   }
   if (result.empty())
