@@ -34,7 +34,7 @@ private:
   void close(char bracket);
   void start_member(const std::string &name);
 
-  std::string document_;
+  std::string       document_;
   std::vector<bool> has_members_; // one per open bracket
 };
 

@@ -15,10 +15,10 @@ namespace gestell::apps
 /// in `displacement`, so that bodies stay on a frame whose small displacements are drawn enlarged.
 struct Shape
 {
-  std::string name;
-  std::vector<Eigen::Vector3d> points;       ///< [m]
-  std::vector<Eigen::Vector3d> displacement; ///< [m] of each point
-  std::vector<std::array<int, 3>> triangles; ///< into points, outside counter-clockwise
+  std::string                     name;
+  std::vector<Eigen::Vector3d>    points;       ///< [m]
+  std::vector<Eigen::Vector3d>    displacement; ///< [m] of each point
+  std::vector<std::array<int, 3>> triangles;    ///< into points, outside counter-clockwise
 };
 
 /**

@@ -17,7 +17,7 @@ std::string short_text(double x, int digits = 4);
 /// A unit as shown: value in SI times `factor` is the number in `unit`.
 struct DisplayUnit
 {
-  double factor = 1.;
+  double      factor = 1.;
   std::string unit;
 };
 

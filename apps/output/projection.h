@@ -30,14 +30,14 @@ public:
 private:
   Eigen::Vector3d right_, up_, towards_; // unit vectors
   Eigen::Vector2d low_, high_;           // of what is to be seen
-  double scale_;
+  double          scale_;
 };
 
 /// A triangle ready to be drawn.
 struct Facet
 {
   std::array<Eigen::Vector3d, 3> corners; ///< as View gives them
-  std::string colour;                     ///< #rrggbb
+  std::string                    colour;  ///< #rrggbb
 
   double depth() const { return corners[0][2] + corners[1][2] + corners[2][2]; }
 };
@@ -55,12 +55,12 @@ public:
   std::vector<Facet> visible(const std::vector<Facet> &facets) const;
 
 private:
-  void draw(const std::array<Eigen::Vector3d, 3> &corners, int facet);
+  void        draw(const std::array<Eigen::Vector3d, 3> &corners, int facet);
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i); }
 
-  int columns_, rows_;
+  int                 columns_, rows_;
   std::vector<double> depth_;
-  std::vector<int> facet_; // -1: none
+  std::vector<int>    facet_; // -1: none
 };
 
 using Colour = std::array<double, 3>; ///< red, green, blue, 0 to 255

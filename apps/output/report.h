@@ -12,7 +12,7 @@ namespace gestell::apps
 /// The report and its pictures, each (file name without ending, SVG).
 struct Report
 {
-  std::string html;
+  std::string                                      html;
   std::vector<std::pair<std::string, std::string>> charts;
 };
 

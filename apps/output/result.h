@@ -37,14 +37,14 @@ struct Result
   std::string command;     ///< "run", "modes"
   std::string settings;    ///< how it was computed, plain text for the report, may be empty
 
-  ModelFacts model;
+  ModelFacts                                  model;
   std::vector<std::pair<std::string, double>> wall_s; ///< phase, seconds; in the order of the work
-  std::optional<coupling::RunResult> run;             ///< absent where only modes were computed
-  std::vector<coupling::Mode> frame_modes;
-  std::vector<coupling::Mode> coupled_modes;
-  std::vector<std::string> coordinate_names; ///< of the machine, for mode shapes without a picture
-  std::vector<std::string> warnings;         ///< beyond those of the run
-  Scenery scenery;
+  std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed
+  std::vector<coupling::Mode>                 frame_modes;
+  std::vector<coupling::Mode>                 coupled_modes;
+  std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
+  std::vector<std::string>                    warnings;         ///< beyond those of the run
+  Scenery                                     scenery;
 };
 
 /// Warnings of the result and of its run, each once, in this order; an early end of the run comes first.

@@ -18,7 +18,7 @@ namespace
 [[noreturn]] void refuse(const fs::path &folder, const std::string &reason)
 {
   throw std::invalid_argument("result folder " + folder.string() + ": " + reason +
-                              "; nothing was computed. Name a folder that can be written with -o DIR.");
+                              "; name a folder that can be written with -o DIR.");
 }
 
 /// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
@@ -45,6 +45,18 @@ void remove_earlier_results(const fs::path &folder)
     }
 }
 
+/// Writes and removes a file in the folder; why that failed, or nothing.
+std::string probe(const fs::path &folder)
+{
+  const fs::path path     = folder / ".gestell-probe";
+  errno                   = 0;
+  const bool      written = static_cast<bool>(std::ofstream(path) << "probe" << std::flush);
+  const int       reason  = errno;
+  std::error_code error;
+  fs::remove(path, error);
+  return written ? "" : std::strerror(reason);
+}
+
 } // namespace
 
 void write_file(const fs::path &path, const std::string &content)
@@ -60,27 +72,36 @@ void write_file(const fs::path &path, const std::string &content)
                              "; free some space or name another folder with -o DIR.");
 }
 
-void prepare_folder(const fs::path &folder)
+void require_writable(const fs::path &folder)
 {
   if (folder.empty())
     refuse(folder, "the name is empty");
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     refuse(folder, "this is a file, not a folder");
+
+  // What is missing on the way is made for the test and taken away again, the innermost first.
+  std::vector<fs::path> made;
+  for (fs::path path = fs::absolute(folder); !fs::exists(path, error) && path.has_relative_path();
+       path          = path.parent_path())
+    made.push_back(path);
   fs::create_directories(folder, error);
-  if (error)
-    refuse(folder, "it cannot be created (" + error.message() + ")");
+  const std::string not_created = error ? error.message() : "";
+  const std::string not_written = error ? "" : probe(folder);
+  for (const fs::path &path : made)
+    fs::remove(path, error);
+  if (!not_created.empty())
+    refuse(folder, "it cannot be created (" + not_created + ")");
+  if (!not_written.empty())
+    refuse(folder, "it cannot be written (" + not_written + ")");
+}
 
-  const fs::path probe = folder / ".gestell-probe";
-  errno                = 0;
-  const bool written   = static_cast<bool>(std::ofstream(probe) << "probe" << std::flush);
-  const int  reason    = errno;
-  fs::remove(probe, error);
-  if (!written)
-    refuse(folder, std::string("it cannot be written (") + std::strerror(reason) + ")");
-
+void prepare_folder(const fs::path &folder)
+{
+  require_writable(folder);
   try
   {
+    fs::create_directories(folder);
     remove_earlier_results(folder);
   }
   catch (const fs::filesystem_error &problem)

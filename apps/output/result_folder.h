@@ -9,10 +9,13 @@
 namespace gestell::apps
 {
 
+/// Makes sure, before anything is computed, that results could be written into `folder`; leaves everything as it was.
+/// @throws std::invalid_argument with path, reason and remedy.
+void require_writable(const std::filesystem::path &folder);
+
 /**
- * Makes sure, before anything is computed, that results can be written into `folder`: creates it with its parents,
- * writes and removes a file in it, and removes what an earlier run of ours left there (nothing else), so that no old
- * result survives beside a new one.
+ * Makes `folder` ready for results: as require_writable(), then creates it with its parents and removes what an
+ * earlier run of ours left there (nothing else), so that no old result survives beside a new one.
  *
  * @throws std::invalid_argument with path, reason and remedy.
  */

@@ -18,15 +18,15 @@ struct Scenery
 {
   int n_frame = 0; ///< coordinates of the frame, the first ones of q
 
-  std::vector<std::array<double, 3>> points; ///< skin of the frame [m]; empty if it has none
-  std::vector<std::array<int, 3>> triangles; // into points, outside counter-clockwise
+  std::vector<std::array<double, 3>> points;    ///< skin of the frame [m]; empty if it has none
+  std::vector<std::array<int, 3>>    triangles; // into points, outside counter-clockwise
   /// Displacement [3 points; m] of the skin for the frame's coordinates [n_frame]; not called without points.
   std::function<Eigen::VectorXd(const Eigen::VectorXd &)> displacement;
 
-  std::vector<coupling::Marker> interfaces;
+  std::vector<coupling::Marker>                              interfaces;
   std::vector<std::pair<std::string, std::array<double, 3>>> interface_positions; ///< one per marker [m]
-  std::vector<coupling::Body> bodies;
-  std::vector<coupling::DrawnRod> rods;
+  std::vector<coupling::Body>                                bodies;
+  std::vector<coupling::DrawnRod>                            rods;
 
   bool has_skin() const { return !points.empty(); }
 };

@@ -21,13 +21,13 @@ enum class ChartTopic
 struct SignalChart
 {
   std::string name, title, svg;
-  ChartTopic topic;
+  ChartTopic  topic;
 };
 
 /// Columns of a history that share a chart.
 struct SignalGroup
 {
-  std::string unit;
+  std::string              unit;
   std::vector<std::size_t> columns;
 };
 

@@ -11,9 +11,9 @@ namespace gestell::apps
 /// A surface of triangles with a displacement at each point.
 struct Skin
 {
-  std::vector<Eigen::Vector3d> points;       ///< [m]
-  std::vector<Eigen::Vector3d> displacement; ///< [m], as many as points
-  std::vector<std::array<int, 3>> triangles; ///< outside counter-clockwise
+  std::vector<Eigen::Vector3d>    points;       ///< [m]
+  std::vector<Eigen::Vector3d>    displacement; ///< [m], as many as points
+  std::vector<std::array<int, 3>> triangles;    ///< outside counter-clockwise
 
   /// Length [m] of the diagonal of the box around the points.
   double size() const;

@@ -184,6 +184,20 @@ TEST_F(ResultFolder, ThatCannotBeWrittenIsRefusedWithPathReasonAndRemedy)
   }
 }
 
+TEST_F(ResultFolder, IsTestedWithoutLeavingATrace)
+{
+  fs::create_directories(folder);
+  std::ofstream(folder / "summary.json") << "old";
+  require_writable(folder);
+  EXPECT_EQ(read("summary.json"), "old");
+  require_writable(folder / "deep" / "er" / "");
+  EXPECT_FALSE(fs::exists(folder / "deep"));
+  fs::current_path(folder);
+  require_writable("results/press");
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  fs::current_path(GESTELL_BINARY_DIR);
+}
+
 TEST_F(ResultFolder, HoldsEveryFileOfTheContractAfterARun)
 {
   prepare_folder(folder);
