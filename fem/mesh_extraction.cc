@@ -1,5 +1,6 @@
 #include "fem/mesh_extraction.h"
 
+#include "fem/mesh_quality.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
@@ -15,8 +16,6 @@ namespace gestell::fem
 
 namespace
 {
-
-constexpr double flattest = 1e-5; // quality; flatter cells spoil the condition of C
 
 using Triangle = std::array<int, 3>;
 
@@ -59,6 +58,15 @@ public:
     if (is_new)
       points.push_back(unit * position_.at(tag));
     return entry->second;
+  }
+
+  /// Tag of each point.
+  std::vector<std::size_t> tags() const
+  {
+    std::vector<std::size_t> tags(index_.size());
+    for (const auto &[tag, index] : index_)
+      tags[index] = tag;
+    return tags;
   }
 
   /// Index of a node that a cell uses, -1 for others.
@@ -114,20 +122,6 @@ void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Me
     mesh.cell_solid.resize(mesh.cells.size(), static_cast<int>(mesh.solids.size()));
     mesh.solids.push_back(solid.name);
   }
-}
-
-void check_flatness(const Mesh &mesh, const std::string &head)
-{
-  for (const auto &cell : mesh.cells)
-    if (quality(mesh, cell) < flattest)
-    {
-      Vector3 centre{};
-      for (const int point : cell)
-        centre = centre + 0.25 * mesh.points[point];
-      throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " +
-                                  text(quality(mesh, cell)) + ", needed " + text(flattest) +
-                                  "); choose another mesh.size, or a smaller one on the surface there.");
-    }
 }
 
 std::vector<CellFace> sorted_faces(const Mesh &mesh)
@@ -204,43 +198,13 @@ void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::strin
 
 } // namespace
 
-double six_volumes(const Mesh &mesh, const std::array<int, 4> &cell)
-{
-  const Vector3 &p = mesh.points[cell[0]];
-  return dot(cross(mesh.points[cell[1]] - p, mesh.points[cell[2]] - p), mesh.points[cell[3]] - p);
-}
-
-double quality(const Mesh &mesh, const std::array<int, 4> &cell)
-{
-  double squares = 0.;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < i; ++j)
-    {
-      const Vector3 edge = mesh.points[cell[i]] - mesh.points[cell[j]];
-      squares += dot(edge, edge);
-    }
-  return 12. * std::pow(std::max(0., six_volumes(mesh, cell)) / 2., 2. / 3.) / squares;
-}
-
-int number_of_edges(const Mesh &mesh)
-{
-  std::vector<std::array<int, 2>> edges;
-  edges.reserve(6 * mesh.cells.size());
-  for (const auto &cell : mesh.cells)
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < i; ++j)
-        edges.push_back({std::min(cell[i], cell[j]), std::max(cell[i], cell[j])});
-  std::sort(edges.begin(), edges.end());
-  return static_cast<int>(std::unique(edges.begin(), edges.end()) - edges.begin());
-}
-
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head)
 {
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
   Nodes         nodes;
   read_cells(model, head, nodes, mesh);
-  check_flatness(mesh, head);
+  result.node = nodes.tags();
 
   std::vector<int> parent(mesh.cells.size());
   std::iota(parent.begin(), parent.end(), 0);

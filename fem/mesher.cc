@@ -3,8 +3,11 @@
 #include "fem/gmsh_faces.h"
 #include "fem/gmsh_session.h"
 #include "fem/mesh_extraction.h"
+#include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
+#include "fem/point_freedom.h"
 #include "fem/surface_selection.h"
+#include "fem/vector3.h"
 
 #include <gmsh.h>
 
@@ -18,6 +21,7 @@ namespace
 {
 
 constexpr double cells_by_default = 25000.;
+constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
 
 enum class MissingSize
 {
@@ -67,6 +71,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   set_mesh_sizes(result.model, options, result.selection);
   generate(specification, session, progress);
   result.extracted = extract_mesh(result.model, head_of(specification));
+  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
 }
 
 /// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
@@ -123,6 +128,20 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
+void check_flatness(const Mesh &mesh, const std::string &head)
+{
+  for (const auto &cell : mesh.cells)
+    if (quality(mesh, cell) < flattest)
+    {
+      Vector3 centre{};
+      for (const int point : cell)
+        centre = centre + 0.25 * mesh.points[point];
+      throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " +
+                                  text(quality(mesh, cell)) + ", needed " + text(flattest) +
+                                  "); choose another mesh.size, or a smaller one on the surface there.");
+    }
+}
+
 MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const MeshProgress &progress)
 {
   const GmshSession session;
@@ -135,6 +154,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
       read_mesh(result, specification);
     else
       mesh_geometry(result, specification, session, missing, progress);
+    check_flatness(result.extracted.mesh, head_of(specification));
     name_surfaces(result, specification);
   };
   session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
