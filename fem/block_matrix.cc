@@ -47,8 +47,7 @@ std::vector<int> partners(int n_nodes, const int *elements, std::size_t n_elemen
 } // namespace
 
 BlockMatrix::BlockMatrix(int block_size, int n_nodes, const int *elements, std::size_t n_elements, std::size_t n)
-  : block_size_(block_size)
-  , n_nodes_(n_nodes)
+    : block_size_(block_size), n_nodes_(n_nodes)
 {
   petsc_session();
   const std::vector<int> count = partners(n_nodes, elements, n_elements, n);
@@ -64,9 +63,7 @@ BlockMatrix::~BlockMatrix()
 }
 
 BlockMatrix::BlockMatrix(BlockMatrix &&other) noexcept
-  : block_size_(other.block_size_)
-  , n_nodes_(other.n_nodes_)
-  , matrix_(std::exchange(other.matrix_, nullptr))
+    : block_size_(other.block_size_), n_nodes_(other.n_nodes_), matrix_(std::exchange(other.matrix_, nullptr))
 {
 }
 
@@ -88,9 +85,9 @@ void BlockMatrix::finish()
 
 BlockMatrix::Rows BlockMatrix::rows() const
 {
-  Rows        rows{};
-  PetscInt    n       = 0;
-  PetscBool   done    = PETSC_FALSE;
+  Rows         rows{};
+  PetscInt     n      = 0;
+  PetscBool    done   = PETSC_FALSE;
   PetscScalar *values = nullptr;
   check(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &n, &rows.begin, &rows.columns, &done));
   check(MatSeqBAIJGetArray(matrix_, &values));

@@ -19,7 +19,7 @@ public:
   /// Room for all pairs of nodes that share an element.
   template <std::size_t n>
   BlockMatrix(int block_size, int n_nodes, const std::vector<std::array<int, n>> &elements)
-    : BlockMatrix(block_size, n_nodes, elements.empty() ? nullptr : elements[0].data(), elements.size(), n)
+      : BlockMatrix(block_size, n_nodes, elements.empty() ? nullptr : elements[0].data(), elements.size(), n)
   {
   }
   ~BlockMatrix();

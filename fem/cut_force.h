@@ -13,11 +13,11 @@ namespace gestell::fem
  *
  *     F = - n . sum_i (C_above u)_i
  *
- * C_above holds the cells whose centroid lies on the side n points to, i runs over the nodes they share with the others.
- * C_above u at these nodes is what the part below does to the part above, F the component in n of the opposite.  A
- * translation of the cells above costs nothing, so F equals the sum of all loads in n that act on their other nodes:
- * equilibrium holds exactly for any mesh and plane.  The elastic part only; cells have no dampers.  A force that a rigid
- * interface or a support carries across the plane by itself is not contained.
+ * C_above holds the cells whose centroid lies on the side n points to, i runs over the nodes they share with the
+ * others. C_above u at these nodes is what the part below does to the part above, F the component in n of the opposite.
+ * A translation of the cells above costs nothing, so F equals the sum of all loads in n that act on their other nodes:
+ * equilibrium holds exactly for any mesh and plane.  The elastic part only; cells have no dampers.  A force that a
+ * rigid interface or a support carries across the plane by itself is not contained.
  *
  * @throws std::invalid_argument for a normal of no length and for a plane that does not divide the frame.
  */

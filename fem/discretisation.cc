@@ -57,9 +57,9 @@ void weigh(const QuadraticMesh &mesh, const BlockMatrix &M, const Kinematics &ki
   frame.acceleration_load.resize(kinematics.n_coordinates(), 3);
   for (int d = 0; d < 3; ++d)
   {
-    Eigen::VectorXd load                     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-    load(Eigen::seqN(d, mesh.n_nodes(), 3))  = nodal;
-    frame.acceleration_load.col(d)           = kinematics.gather(load);
+    Eigen::VectorXd load                    = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+    load(Eigen::seqN(d, mesh.n_nodes(), 3)) = nodal;
+    frame.acceleration_load.col(d)          = kinematics.gather(load);
   }
 }
 
@@ -79,8 +79,8 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
   const QuadraticMesh               quadratic = quadratic_mesh(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   Constraints                       constraints(quadratic.n_nodes());
-  const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, specification.interfaces, constraints);
-  constraints = constrain(quadratic, supports, coupled, std::move(constraints));
+  const std::vector<CoupledPatch>   coupled = couple_patches(mesh, quadratic, specification.interfaces, constraints);
+  constraints                               = constrain(quadratic, supports, coupled, std::move(constraints));
   const Kinematics kinematics(constraints);
 
   FrameMatrices frame;

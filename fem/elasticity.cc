@@ -47,10 +47,10 @@ void require_valid(const Material &material)
 
 CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
 {
-  const Eigen::Matrix3d     J       = jacobian(mesh, mesh.cells[cell]);
-  const Eigen::Matrix3d     inverse = J.inverse();
-  const double              lambda  = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
-  const double              mu      = material.E / (2. * (1. + material.nu));
+  const Eigen::Matrix3d     J         = jacobian(mesh, mesh.cells[cell]);
+  const Eigen::Matrix3d     inverse   = J.inverse();
+  const double              lambda    = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
+  const double              mu        = material.E / (2. * (1. + material.nu));
   const ReferenceIntegrals &integrals = reference_integrals();
   const Eigen::Matrix3d     scaled    = std::abs(J.determinant()) * inverse.transpose();
 

@@ -40,6 +40,20 @@ std::string direction_name(const Eigen::Vector3d &direction)
   return triple(direction);
 }
 
+/// sum_ij |z_i| |C_ij| |z_j| for every column z: the energies that cancel in a free motion.
+Eigen::VectorXd cancelling_energy(const Eigen::SparseMatrix<double> &C, const Eigen::MatrixXd &Z)
+{
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(Z.cols());
+  for (int column = 0; column < C.outerSize(); ++column)
+  {
+    Eigen::VectorXd partners = Eigen::VectorXd::Zero(Z.cols());
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(C, column); entry; ++entry)
+      partners += std::abs(entry.value()) * Z.row(entry.row()).cwiseAbs().transpose();
+    sum += partners.cwiseProduct(Z.row(column).cwiseAbs().transpose());
+  }
+  return sum;
+}
+
 /// Free motions as columns (u0, theta L), orthonormal [6 x k].
 Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &held, double length)
 {
@@ -50,19 +64,18 @@ Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &h
   const Eigen::MatrixXd energy = Z.transpose() * (frame.C * Z);
   Eigen::MatrixXd       size   = Z.transpose() * Z;
   size.diagonal().array() += 1e-12 * size.trace(); // a motion of held coordinates only has no size
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> motions(energy, size);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> candidates(energy, size);
 
-  const Eigen::SparseMatrix<double> magnitude = frame.C.cwiseAbs();
-  Eigen::MatrixXd                   result(6, 0);
+  const Eigen::MatrixXd motions = Z * candidates.eigenvectors();
+  const Eigen::VectorXd scale   = cancelling_energy(frame.C, motions);
+  const Eigen::VectorXd value   = motions.cwiseProduct(frame.C * motions).colwise().sum();
+  Eigen::MatrixXd       result(6, 0);
   for (int k = 0; k < 6; ++k)
-  {
-    const Eigen::VectorXd z     = Z * motions.eigenvectors().col(k);
-    const double          scale = z.cwiseAbs().dot(magnitude * z.cwiseAbs());
-    if (scale > 0. && z.dot(frame.C * z) > free_share * scale)
-      continue;
-    result.conservativeResize(6, result.cols() + 1);
-    result.rightCols(1) = motions.eigenvectors().col(k);
-  }
+    if (!(value[k] > free_share * scale[k]))
+    {
+      result.conservativeResize(6, result.cols() + 1);
+      result.rightCols(1) = candidates.eigenvectors().col(k);
+    }
   if (result.cols() == 0)
     return result;
   return Eigen::HouseholderQR<Eigen::MatrixXd>(result).householderQ() * Eigen::MatrixXd::Identity(6, result.cols());
@@ -108,7 +121,7 @@ std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vec
     return names;
 
   // What remains is oblique: motions without rotation first.
-  const Eigen::MatrixXd rotations = space.bottomRows(3);
+  const Eigen::MatrixXd                   rotations = space.bottomRows(3);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotations, Eigen::ComputeFullV);
   for (int k = static_cast<int>(space.cols()) - 1; k >= 0; --k)
   {

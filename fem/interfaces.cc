@@ -51,9 +51,10 @@ void require_apart(const std::vector<CoupledPatch> &interfaces, const QuadraticM
                                     " with interface \"" + interfaces[owner[node]].specification.name +
                                     "\"; a point can follow one node only: choose surfaces that do not touch, or join "
                                     "them in one interface.");
-      if (constraints.held[3 * node] || constraints.held[3 * node + 1] || constraints.held[3 * node + 2])
+      if (const auto support = constraints.holder.find(node); support != constraints.holder.end())
         throw std::invalid_argument(head(interfaces[k].specification) + " shares the point " + place() +
-                                    " with a clamped support; choose surfaces that do not touch.");
+                                    " with the clamped support \"" + support->second +
+                                    "\"; choose surfaces that do not touch.");
       owner[node] = static_cast<int>(k);
     }
 }
@@ -67,12 +68,13 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
   std::vector<CoupledPatch> result;
   for (const InterfaceSpecification &interface : interfaces)
   {
-    CoupledPatch coupled{interface,
-                         surface_patch(mesh, quadratic, interface.surfaces, "interface \"" + interface.name + "\"",
-                                       interface.place),
-                         Eigen::Vector3d::Zero()};
-    coupled.position = interface.position ? Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(interface.position->data()))
-                                          : coupled.patch.centroid;
+    CoupledPatch coupled{
+        interface,
+        surface_patch(mesh, quadratic, interface.surfaces, "interface \"" + interface.name + "\"", interface.place),
+        Eigen::Vector3d::Zero()};
+    coupled.position = interface.position
+                           ? Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(interface.position->data()))
+                           : coupled.patch.centroid;
     require_plane(coupled, quadratic);
     result.push_back(std::move(coupled));
   }

@@ -21,7 +21,7 @@ struct CoupledPatch
 /// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
                                          const std::vector<InterfaceSpecification> &interfaces,
-                                         Constraints &constraints);
+                                         Constraints                               &constraints);
 
 /**
  * Rigid coupling (RBE2): every node at x of the patch moves as  u = u0 + theta x (x - x0).
@@ -39,9 +39,9 @@ void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first
  * the area-weighted mean (carried to x0), and a force on the node spreads as a traction linear over the surface; the
  * surface keeps its flexibility.  Six displacements are eliminated, chosen by pivoting.
  *
- * A large surface would make one dense block of all its displacements.  It is therefore cut into groups g of nodes, each
- * with six inner coordinates  m_g = W_pg^-1 W_g u_g  (p: six pivots of the group) in place of u_pg; the average becomes
- * p = sum_g W_pg m_g, which eliminates six of the m_g.  Nothing is approximated.
+ * A large surface would make one dense block of all its displacements.  It is therefore cut into groups g of nodes,
+ * each with six inner coordinates  m_g = W_pg^-1 W_g u_g  (p: six pivots of the group) in place of u_pg; the average
+ * becomes p = sum_g W_pg m_g, which eliminates six of the m_g.  Nothing is approximated.
  */
 void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints);
 

@@ -6,11 +6,7 @@
 namespace gestell::fem
 {
 
-Constraints::Constraints(int n_nodes)
-  : held(3 * n_nodes, 0)
-  , tie_of(3 * n_nodes, -1)
-{
-}
+Constraints::Constraints(int n_nodes) : held(3 * n_nodes, 0), tie_of(3 * n_nodes, -1) {}
 
 void Constraints::tie(int displacement, Combination combination)
 {
@@ -20,10 +16,8 @@ void Constraints::tie(int displacement, Combination combination)
 }
 
 Kinematics::Kinematics(const Constraints &constraints)
-  : column_(constraints.held.size(), -1)
-  , new_column_(constraints.measures.size(), -1)
-  , tied_row_(constraints.tie_of)
-  , tied_(constraints.ties.size())
+    : column_(constraints.held.size(), -1), new_column_(constraints.measures.size(), -1), tied_row_(constraints.tie_of),
+      tied_(constraints.ties.size())
 {
   for (std::size_t i = 0; i < column_.size(); ++i)
     if (tied_row_[i] >= 0)
@@ -110,7 +104,7 @@ void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, in
 Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix &A) const
 {
   // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
-  const BlockMatrix::Rows rows = A.rows();
+  const BlockMatrix::Rows rows       = A.rows();
   const auto              visit_free = [&](int i, const auto &visit)
   {
     along_row(A, rows, i / 3, i % 3,

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,11 +25,12 @@ struct Constraints
 {
   explicit Constraints(int n_nodes);
 
-  std::vector<char>        held;   ///< [3 n_nodes] displacement is zero
-  std::vector<int>         tie_of; ///< [3 n_nodes] index into ties, or -1
-  std::vector<Combination> ties;   ///< tied displacement as a combination of values that are neither tied nor held
-  std::vector<Combination> measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
-  int n_interface_coordinates = 0;   ///< the first of the new coordinates; they end up last in q
+  std::vector<char>          held;     ///< [3 n_nodes] displacement is zero
+  std::map<int, std::string> holder;   ///< name of the support that holds a node, for messages
+  std::vector<int>           tie_of;   ///< [3 n_nodes] index into ties, or -1
+  std::vector<Combination>   ties;     ///< tied displacement as a combination of values that are neither tied nor held
+  std::vector<Combination>   measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
+  int                        n_interface_coordinates = 0; ///< the first of the new coordinates; they end up last in q
 
   int  first_new() const { return static_cast<int>(held.size()); }
   void tie(int displacement, Combination combination);
@@ -61,12 +64,12 @@ public:
 private:
   Eigen::SparseMatrix<double> project_free(const BlockMatrix &A) const;
 
-  std::vector<int>            column_;     // [3 n_nodes] coordinate or -1
-  std::vector<int>            new_column_; // coordinates of the new values
-  std::vector<int>            tied_row_;   // [3 n_nodes] row of G_t or -1
-  std::vector<int>            tied_;       // displacement of every row of G_t
-  Eigen::SparseMatrix<double, Eigen::RowMajor> G_t_; // rows of the tied displacements
-  int                         n_free_ = 0, n_coordinates_ = 0;
+  std::vector<int>                             column_;     // [3 n_nodes] coordinate or -1
+  std::vector<int>                             new_column_; // coordinates of the new values
+  std::vector<int>                             tied_row_;   // [3 n_nodes] row of G_t or -1
+  std::vector<int>                             tied_;       // displacement of every row of G_t
+  Eigen::SparseMatrix<double, Eigen::RowMajor> G_t_;        // rows of the tied displacements
+  int                                          n_free_ = 0, n_coordinates_ = 0;
 };
 
 } // namespace gestell::fem

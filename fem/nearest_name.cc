@@ -36,7 +36,8 @@ std::string nearest_names(const std::string &name, const std::vector<std::string
     return "it has no named surface at all";
 
   std::vector<std::string> sorted(known);
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const std::string &a, const std::string &b)
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const std::string &a, const std::string &b)
                    { return edit_distance(name, a) < edit_distance(name, b); });
   std::string text = "the nearest names are ";
   for (std::size_t i = 0; i < std::min<std::size_t>(3, sorted.size()); ++i)

@@ -2,6 +2,8 @@
 
 #include <slepcsys.h>
 
+#include <malloc.h>
+
 #include <stdexcept>
 
 namespace gestell::fem
@@ -15,14 +17,19 @@ class Session
 public:
   Session()
   {
-    // The computer's own signal handling stays: a segmentation fault must not be turned into a page of PETSc text.
-    static char  name[]    = "gestell";
-    static char  option[]  = "-no_signal_handler";
-    static char *words[]   = {name, option, nullptr};
+    // Signals stay with the program, and no .petscrc in some working folder changes a result.
+    static char  name[] = "gestell", signals[] = "-no_signal_handler", files[] = "-skip_petscrc";
+    static char *words[]   = {name, signals, files, nullptr};
     char       **arguments = words;
-    int          count     = 2;
+    int          count     = 3;
     if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0)
       throw std::runtime_error("petsc_session: SLEPc could not be started; check the installation of libslepc-real.");
+
+    // A network library of MPI (libucm) bids malloc never to return memory, and large matrices would stay in the
+    // account of the process after their end.
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
   }
 
   ~Session()
@@ -40,6 +47,9 @@ public:
 
 } // namespace
 
-void petsc_session() { static const Session session; }
+void petsc_session()
+{
+  static const Session session;
+}
 
 } // namespace gestell::fem

@@ -118,9 +118,9 @@ QuadraticMesh quadratic_mesh(const Mesh &mesh)
     std::copy(numbers.begin(), numbers.end(), result.cells[cell->index()].begin());
     for (int k = 0; k < 4; ++k)
     {
-      const int point                  = cell->vertex_index(k);
-      result.points[numbers[k]]        = mesh.points[point];
-      result.node_of[point]            = numbers[k];
+      const int point           = cell->vertex_index(k);
+      result.points[numbers[k]] = mesh.points[point];
+      result.node_of[point]     = numbers[k];
     }
     for (int e = 0; e < 6; ++e)
     {

@@ -9,7 +9,8 @@ namespace gestell::fem
 namespace
 {
 
-// Rules of Witherden and Vincent with parameter n integrate degree 2 n - 1 exactly: n = 3 carries the masses (degree 4).
+// Rules of Witherden and Vincent with parameter n integrate degree 2 n - 1 exactly: n = 3 carries the masses (degree
+// 4).
 constexpr unsigned int rule = 3;
 
 ReferenceIntegrals integrate()
@@ -32,7 +33,7 @@ ReferenceIntegrals integrate()
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)
             result.gradients[a][b](i, j) +=
-              volume.weight(p) * tetrahedron.shape_grad(a, x)[i] * tetrahedron.shape_grad(b, x)[j];
+                volume.weight(p) * tetrahedron.shape_grad(a, x)[i] * tetrahedron.shape_grad(b, x)[j];
       }
 
   const dealii::FE_SimplexP<2>              triangle(2);
@@ -41,7 +42,7 @@ ReferenceIntegrals integrate()
     for (int a = 0; a < 6; ++a)
       for (int b = 0; b < 6; ++b)
         result.triangle_mass(a, b) +=
-          area.weight(p) * triangle.shape_value(a, area.point(p)) * triangle.shape_value(b, area.point(p));
+            area.weight(p) * triangle.shape_value(a, area.point(p)) * triangle.shape_value(b, area.point(p));
 
   // Symmetric to the last bit, as the solvers of symmetric matrices read one triangle only.
   result.mass          = 0.5 * (result.mass + result.mass.transpose()).eval();

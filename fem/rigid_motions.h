@@ -20,8 +20,8 @@ Eigen::Matrix<double, 3, 6> rigid_motions_of_point(const Point3 &x, const Centre
   const double                r[3] = {x[0] - x0[0], x[1] - x0[1], x[2] - x0[2]};
   Eigen::Matrix<double, 3, 6> R;
   R << 1., 0., 0., 0., r[2], -r[1], //
-    0., 1., 0., -r[2], 0., r[0],    //
-    0., 0., 1., r[1], -r[0], 0.;
+      0., 1., 0., -r[2], 0., r[0],  //
+      0., 0., 1., r[1], -r[0], 0.;
   return R;
 }
 

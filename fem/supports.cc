@@ -73,8 +73,8 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
   for (const Support &support : supports)
   {
     require_valid(support);
-    result.push_back({support, surface_patch(mesh, quadratic, support.surfaces, "support \"" + support.name + "\"",
-                                             support.place)});
+    result.push_back(
+        {support, surface_patch(mesh, quadratic, support.surfaces, "support \"" + support.name + "\"", support.place)});
   }
   return result;
 }
@@ -84,9 +84,12 @@ void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints)
   for (const auto &[support, patch] : supports)
     if (support.kind == SupportKind::clamped)
       for (const int node : patch.nodes)
+      {
+        constraints.holder.emplace(node, support.name);
         for (int d = 0; d < 3; ++d)
           if (support.held[d])
             constraints.held[3 * node + d] = 1;
+      }
 }
 
 void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix)

@@ -15,11 +15,11 @@ namespace gestell::fem
 /// One or more named surfaces as a set of quadratic triangles; a triangle named twice counts once.
 struct SurfacePatch
 {
-  std::vector<int>                nodes; ///< of the quadratic mesh, ascending
-  std::vector<std::array<int, 6>> faces; ///< into the quadratic mesh
-  Eigen::SparseMatrix<double>     S;     ///< int N_a N_b dA [m^2], over `nodes`
+  std::vector<int>                nodes;  ///< of the quadratic mesh, ascending
+  std::vector<std::array<int, 6>> faces;  ///< into the quadratic mesh
+  Eigen::SparseMatrix<double>     S;      ///< int N_a N_b dA [m^2], over `nodes`
   Eigen::VectorXd                 weight; ///< int N_a dA = S 1 [m^2]; 0 at corners, a third of the area at middles
-  double                          area = 0.; ///< [m^2]
+  double                          area     = 0.;                      ///< [m^2]
   Eigen::Vector3d                 centroid = Eigen::Vector3d::Zero(); ///< of the area [m]
 };
 

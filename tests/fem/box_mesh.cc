@@ -90,8 +90,8 @@ fem::Support clamped(const std::string &name, const std::vector<std::string> &su
   return support;
 }
 
-fem::Support foundation(const std::string &name, const std::vector<std::string> &surfaces, const fem::Vector3 &stiffness,
-                        const fem::Vector3 &damping)
+fem::Support foundation(const std::string &name, const std::vector<std::string> &surfaces,
+                        const fem::Vector3 &stiffness, const fem::Vector3 &damping)
 {
   fem::Support support;
   support.name      = name;

@@ -20,10 +20,10 @@ fem::Mesh box_mesh(const std::array<int, 3> &n, const std::array<double, 3> &siz
 /// Steel, no supports, no interfaces.
 fem::FrameSpecification free_steel();
 
-fem::Support clamped(const std::string &name, const std::vector<std::string> &surfaces,
-                     const std::array<bool, 3> &held = {{true, true, true}});
-fem::Support foundation(const std::string &name, const std::vector<std::string> &surfaces, const fem::Vector3 &stiffness,
-                        const fem::Vector3 &damping = {});
+fem::Support                clamped(const std::string &name, const std::vector<std::string> &surfaces,
+                                    const std::array<bool, 3> &held = {{true, true, true}});
+fem::Support                foundation(const std::string &name, const std::vector<std::string> &surfaces,
+                                       const fem::Vector3 &stiffness, const fem::Vector3 &damping = {});
 fem::InterfaceSpecification interface(const std::string &name, const std::vector<std::string> &surfaces,
                                       fem::InterfaceCoupling coupling);
 

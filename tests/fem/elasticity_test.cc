@@ -63,7 +63,7 @@ TEST(Elasticity, SixRigidMotionsCostNoEnergyAndNoOtherDoes)
 TEST(Elasticity, RigidMotionsHaveTheKineticEnergyOfTheRigidBody)
 {
   const double          a = 1., b = 0.5, c = 0.4, mass = 7850. * a * b * c;
-  const auto            frame = discretise(box_mesh({2, 2, 1}, {a, b, c}, 0.2), free_steel());
+  const auto            frame   = discretise(box_mesh({2, 2, 1}, {a, b, c}, 0.2), free_steel());
   const Eigen::MatrixXd inertia = frame.rigid_motions.transpose() * (frame.M * frame.rigid_motions);
   Eigen::VectorXd       exact(6);
   exact << mass, mass, mass, mass / 12. * (b * b + c * c), mass / 12. * (a * a + c * c), mass / 12. * (a * a + b * b);
