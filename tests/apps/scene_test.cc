@@ -8,7 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <ostream>
+#include <regex>
 
 namespace
 {
@@ -341,6 +345,46 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
     const auto message = cad_complaint(piece, replacement);
     EXPECT_NE(message.find(place), std::string::npos) << replacement << ": " << message;
     EXPECT_NE(message.find(words), std::string::npos) << replacement << ": " << message;
+  }
+}
+
+// --- documentation
+
+std::string text_of(const std::filesystem::path &path)
+{
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(SceneReference, NamesEveryKeyThatIsRead)
+{
+  const std::filesystem::path source   = GESTELL_SOURCE_DIR;
+  const std::string           document = text_of(source / "docs/scene.md");
+  const std::regex            getter(
+                 R"re(\b(?:number|positive|not_negative|integer|boolean|text|choice|texts|file|vector|direction|numbers|matrix)re"
+                            R"re(|table|optional_table|tables|marker|body|has|per_direction|read_square|read_any)\((?:\*?\w+, )?"(\w+)")re");
+  int n_keys = 0;
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(source / "apps/scene"))
+    if (entry.path().extension() == ".cc")
+    {
+      const std::string code = text_of(entry.path());
+      for (std::sregex_iterator key(code.begin(), code.end(), getter), end; key != end; ++key, ++n_keys)
+      {
+        const std::string name = (*key)[1];
+        EXPECT_TRUE(std::regex_search(document, std::regex("\\b" + name + "\\b")))
+            << "docs/scene.md lacks '" << name << "' of " << entry.path();
+      }
+    }
+  EXPECT_GT(n_keys, 80); // the pattern still finds the getters
+}
+
+TEST(SceneReference, TheScenesOfTheRepositoryAreWellFormed)
+{
+  const std::filesystem::path source = GESTELL_SOURCE_DIR;
+  for (const auto &entry : std::filesystem::directory_iterator(source / "apps/scenes"))
+  {
+    if (entry.path().extension() == ".toml")
+      EXPECT_NO_THROW(apps::check_scene(apps::read_scene(entry.path().string()))) << entry.path();
   }
 }
 
