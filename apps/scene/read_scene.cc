@@ -41,6 +41,18 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   return request;
 }
 
+/// Keys and methods of the contract that this version lacks: better said so than called unknown.
+void refuse_what_is_to_come(const SceneTable &run)
+{
+  for (const std::string key : {"tolerance", "events", "beta", "gamma", "theta", "alpha", "rho_inf", "force_unstable"})
+    if (run.has(key))
+      throw run.error(key, "is not available in this version; give 'method = \"bdf\"' with a fixed 'step'");
+  const std::string method = run.text("method", "bdf");
+  for (const std::string later : {"newmark", "wilson", "hht", "generalised-alpha", "central-difference", "exact"})
+    if (method == later)
+      throw run.error("method", "'" + method + "' is not available in this version; valid: 'bdf'");
+}
+
 RunRequest read_run(const SceneTable &scene)
 {
   RunRequest run;
@@ -48,7 +60,8 @@ RunRequest read_run(const SceneTable &scene)
   const auto table = scene.optional_table("run");
   if (!table)
     return run; // modes and reduce need none; require_run() tells those who do
-  run.place  = table->place();
+  run.place = table->place();
+  refuse_what_is_to_come(*table);
   run.method = table->choice("method", {"bdf"}, "bdf");
   auto &o    = run.options;
   o.order    = table->integer("order", o.order);
@@ -152,6 +165,10 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
     start.steady.speeds.emplace_back(speed.name, speed.value);
   if (table->has("driver"))
     start.steady.driver = names.body(*table, "driver", coupling::BodyKind::rotor).name;
+  if (start.steady.angles.size() != (start.steady.driver.empty() ? 0u : 1u))
+    throw table->error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
+                       (start.steady.driver.empty() ? "no driver" : "a driver") +
+                       "; a given angle replaces the balance of the driver, so give one of both, or none");
   return start;
 }
 

@@ -216,14 +216,21 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Run, SceneMistake,
-    ::testing::Values(Mistake{"step = \"10 us\"", "step = 0", "run.step", "above zero"},
-                      Mistake{"step = \"10 us\"", "step = \"-1 us\"", "run.step", "above zero"},
-                      Mistake{"step = \"10 us\"", "step = \"10 mm\"", "run.step", "needs a time"},
-                      Mistake{"step = \"10 us\"", "step = \"1 s\"", "run.step", "longer than the run"},
-                      Mistake{"end  = \"0.1 s\"", "end = 0", "run.end", "after 'begin'"},
-                      Mistake{"step = \"10 us\"", "method = \"newmark\"\nstep = 1e-5", "run.method", "valid: 'bdf'"},
-                      Mistake{"step = \"10 us\"", "order = 7\nstep = 1e-5", "run.order", "orders 1 to 6"},
-                      Mistake{"step = \"10 us\"", "order = 1.5\nstep = 1e-5", "run.order", "whole number"}));
+    ::testing::Values(
+        Mistake{"step = \"10 us\"", "step = 0", "run.step", "above zero"},
+        Mistake{"step = \"10 us\"", "step = \"-1 us\"", "run.step", "above zero"},
+        Mistake{"step = \"10 us\"", "step = \"10 mm\"", "run.step", "needs a time"},
+        Mistake{"step = \"10 us\"", "step = \"1 s\"", "run.step", "longer than the run"},
+        Mistake{"end  = \"0.1 s\"", "end = 0", "run.end", "after 'begin'"},
+        Mistake{"step = \"10 us\"", "method = \"newmark\"\nstep = 1e-5", "run.method", "valid: 'bdf'"},
+        Mistake{"step = \"10 us\"", "method = \"bfd\"\nstep = 1e-5", "run.method", "did you mean 'bdf'"},
+        Mistake{"step = \"10 us\"", "tolerance = 1e-3", "run.tolerance", "fixed 'step'"},
+        Mistake{"[start]", "[start]\nrule = \"steady\"\nangles = { crank = 1 }\ndriver = \"slide\"", "start.driver",
+                "is no rotor", -3},
+        Mistake{"[start]\nq = { crank = \"120 deg\", \"frame.crown.uz\" = \"-0.6 mm\" }\nv = { crank = \"30 1/min\" }",
+                "[start]\nrule = \"steady\"\nangles = { crank = 1 }", "start", "no driver"},
+        Mistake{"step = \"10 us\"", "order = 7\nstep = 1e-5", "run.order", "orders 1 to 6"},
+        Mistake{"step = \"10 us\"", "order = 1.5\nstep = 1e-5", "run.order", "whole number"}));
 
 INSTANTIATE_TEST_SUITE_P(
     MatrixFrame, SceneMistake,
@@ -384,7 +391,9 @@ TEST(SceneReference, TheScenesOfTheRepositoryAreWellFormed)
   for (const auto &entry : std::filesystem::directory_iterator(source / "apps/scenes"))
   {
     if (entry.path().extension() == ".toml")
+    {
       EXPECT_NO_THROW(apps::check_scene(apps::read_scene(entry.path().string()))) << entry.path();
+    }
   }
 }
 
