@@ -1,13 +1,13 @@
 #include "apps/commands/prepared_machine.h"
 
 #include "apps/version.h"
+#include "coupling/content_key.h"
 #include "coupling/frame_service_loader.h"
 #include "coupling/modes.h"
 #include "coupling/reduced_frame_file.h"
 #include "coupling/static_expansion.h"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace gestell::apps
 {
@@ -35,11 +35,12 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress,
 {
   from_cache                                = false;
   const coupling::ReductionOptions &options = scene.reduction.options;
-  const bool                        cached  = scene.frame.source == FrameSource::geometry;
-  const std::string                 key = cached ? coupling::content_key(scene.frame.geometry, options) : std::string();
-  const std::filesystem::path       file = cached ? coupling::cache_file(key) : std::filesystem::path();
+  // Frames given by matrices are reduced in less time than their content is compared.
+  const bool        cached = scene.frame.source == FrameSource::geometry;
+  const std::string key    = cached ? coupling::content_key(scene.frame.geometry, options) : std::string();
+  std::string       note;
   if (cached)
-    if (auto known = coupling::read_cached_frame(file, key))
+    if (auto known = coupling::find_in_cache(key, note))
     {
       from_cache = true;
       return std::move(*known);
@@ -47,7 +48,12 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress,
   coupling::ReducedFrame frame =
       coupling::frame_service().reduce(frame_matrices(scene, progress), options, progress_of(progress));
   if (cached)
-    coupling::write_cached_frame(file, key, frame);
+  {
+    const std::string kept = coupling::keep_in_cache(key, frame);
+    for (const std::string &text : {note, kept})
+      if (!text.empty())
+        frame.notes.push_back(text);
+  }
   return frame;
 }
 
