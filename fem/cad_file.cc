@@ -14,8 +14,11 @@ namespace gestell::fem
 namespace
 {
 
-const std::map<std::string, CadFile> kinds = {{".step", CadFile::step}, {".stp", CadFile::step}, {".brep", CadFile::brep},
-                                              {".geo", CadFile::geo},   {".msh", CadFile::mesh}};
+const std::map<std::string, CadFile> kinds = {{".step", CadFile::step},
+                                              {".stp", CadFile::step},
+                                              {".brep", CadFile::brep},
+                                              {".geo", CadFile::geo},
+                                              {".msh", CadFile::mesh}};
 
 std::string extension(const std::string &path)
 {
@@ -37,7 +40,10 @@ std::string bytes(const std::string &path, std::uintmax_t from, std::size_t coun
 
 constexpr std::size_t end_of_file = 1024; // bytes in which the first and the last words must stand
 
-std::string head_of(const std::string &path) { return bytes(path, 0, end_of_file); }
+std::string head_of(const std::string &path)
+{
+  return bytes(path, 0, end_of_file);
+}
 
 std::string tail_of(const std::string &path, std::uintmax_t size)
 {
@@ -75,9 +81,8 @@ bool is_step(const std::string &path)
 CadFile check_cad_file(const FrameSpecification &specification)
 {
   const std::string &path   = specification.cad;
-  const auto         refuse = [&](const std::string &why) {
-    throw std::invalid_argument(specification.place + ": " + path + " " + why);
-  };
+  const auto         refuse = [&](const std::string &why)
+  { throw std::invalid_argument(specification.place + ": " + path + " " + why); };
   std::error_code ignored;
   if (path.empty())
     throw std::invalid_argument(specification.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo or "
@@ -93,7 +98,8 @@ CadFile check_cad_file(const FrameSpecification &specification)
     refuse("cannot be read; check its permissions.");
   const auto kind = kinds.find(extension(path));
   if (kind == kinds.end())
-    refuse("ends in \"" + extension(path) + "\"; .step, .stp, .brep, .geo and .msh are read: export the model as STEP.");
+    refuse("ends in \"" + extension(path) +
+           "\"; .step, .stp, .brep, .geo and .msh are read: export the model as STEP.");
   if (specification.unit < 0.)
     throw std::invalid_argument(specification.place + ": unit = " + std::to_string(specification.unit) +
                                 " m; it must be > 0, or be left out.");

@@ -21,7 +21,10 @@ namespace
 constexpr double smallest_diagonal = 1e-3; // [m]
 constexpr double largest_diagonal  = 200.; // [m]
 
-std::string last_part(const std::string &label) { return label.substr(label.rfind('/') + 1); }
+std::string last_part(const std::string &label)
+{
+  return label.substr(label.rfind('/') + 1);
+}
 
 std::string physical_name(int dim, int tag)
 {
@@ -62,9 +65,10 @@ void check_kernel(const FrameSpecification &specification)
   gmsh::model::getEntities(of_model, 3);
   gmsh::model::occ::getEntities(of_opencascade, 3);
   if (of_model.size() != of_opencascade.size())
-    throw std::invalid_argument(specification.place + ": " + specification.cad +
-                                " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
-                                "it with SetFactory(\"OpenCASCADE\"); or give the mesh made of it as .msh.");
+    throw std::invalid_argument(
+        specification.place + ": " + specification.cad +
+        " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
+        "it with SetFactory(\"OpenCASCADE\"); or give the mesh made of it as .msh.");
 }
 
 void check_solids(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
@@ -75,8 +79,9 @@ void check_solids(const CadModel &model, const FrameSpecification &specification
     gmsh::vectorpair faces;
     gmsh::model::getEntities(faces, 2);
     const std::string said = session.errors();
-    const std::string what = faces.empty() ? "no shape" : "no closed solid, only " + std::to_string(faces.size()) +
-                                                            " faces (shells or surfaces)";
+    const std::string what =
+        faces.empty() ? "no shape"
+                      : "no closed solid, only " + std::to_string(faces.size()) + " faces (shells or surfaces)";
     throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
                                 (said.empty() ? "" : " (gmsh: " + said + ")") + "; a frame needs at least one " +
                                 (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
@@ -95,13 +100,13 @@ void check_size(const CadModel &model, const FrameSpecification &specification)
     return;
   const double likely = diagonal > largest_diagonal ? 1e-3 : 1e3;
   throw std::invalid_argument(
-    specification.place + ": " + specification.cad + " is " + text(diagonal) + " m across; frames from " +
-    text(smallest_diagonal) + " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
-    (is_step(specification.cad)
-       ? "Export it again with the right unit, or set unit to the true length of what the file calls a millimetre"
-       : "Set unit to the length of the file's unit, such as \"mm\"") +
-    " (unit = " + text(likely * (is_step(specification.cad) && specification.unit == 0. ? 1e-3 : model.unit)) +
-    " m would make it " + text(diagonal * likely) + " m).");
+      specification.place + ": " + specification.cad + " is " + text(diagonal) + " m across; frames from " +
+      text(smallest_diagonal) + " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
+      (is_step(specification.cad)
+           ? "Export it again with the right unit, or set unit to the true length of what the file calls a millimetre"
+           : "Set unit to the length of the file's unit, such as \"mm\"") +
+      " (unit = " + text(likely * (is_step(specification.cad) && specification.unit == 0. ? 1e-3 : model.unit)) +
+      " m would make it " + text(diagonal * likely) + " m).");
 }
 
 /// For every solid the lowest index of a solid it hangs together with by common faces.
@@ -140,23 +145,26 @@ void check_hanging_together(const CadModel &model, const FrameSpecification &spe
   for (std::size_t i = 0; i < model.solids.size(); ++i)
   {
     const Solid &solid = model.solids[i];
-    list += "\n  body " + std::to_string(std::distance(bodies.begin(), bodies.find(body[i])) + 1) + ": \"" + solid.name +
-            "\", " + text(solid.volume) + " m^3, from " + text(solid.min) + " to " + text(solid.max);
+    list += "\n  body " + std::to_string(std::distance(bodies.begin(), bodies.find(body[i])) + 1) + ": \"" +
+            solid.name + "\", " + text(solid.volume) + " m^3, from " + text(solid.min) + " to " + text(solid.max);
     for (std::size_t j = 0; j < i; ++j)
       touch |= body[i] != body[j] && boxes_touch(solid, model.solids[j], 1e-6 * model.diagonal());
   }
   throw std::invalid_argument(
-    specification.place + ": " + specification.cad + " holds " + std::to_string(bodies.size()) +
-    " bodies that do not hang together by common faces" +
-    (touch ? " (some touch or overlap, but each has its own copy of the face, so their meshes would not be joined)"
-           : "") +
-    "; unite them to one solid in the CAD program (boolean union), or export the frame alone. Bodies, lengths in m:" +
-    list);
+      specification.place + ": " + specification.cad + " holds " + std::to_string(bodies.size()) +
+      " bodies that do not hang together by common faces" +
+      (touch ? " (some touch or overlap, but each has its own copy of the face, so their meshes would not be joined)"
+             : "") +
+      "; unite them to one solid in the CAD program (boolean union), or export the frame alone. Bodies, lengths in m:" +
+      list);
 }
 
 } // namespace
 
-double CadModel::diagonal() const { return norm(max - min); }
+double CadModel::diagonal() const
+{
+  return norm(max - min);
+}
 
 double CadModel::volume() const
 {

@@ -24,7 +24,7 @@ struct Solid
 struct CadModel
 {
   double             unit   = 1.;    ///< length of gmsh's unit [m]
-  bool               meshed = false; ///< came as a mesh (.msh): gmsh holds tetrahedra, volumes and faces are unknown yet
+  bool               meshed = false; ///< came as a mesh (.msh): volumes and faces are not known yet
   std::vector<Solid> solids;
   std::vector<Face>  faces; ///< between the solids and the outside; faces between two solids are not among them
   Vector3            min{}, max{};

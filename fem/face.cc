@@ -38,9 +38,9 @@ Vector3 without_sense(const Vector3 &a)
  */
 bool recognise_cylinder(Face &face, double tolerance)
 {
-  const auto &first   = face.samples.front();
-  const auto  turned  = [&](const Face::Sample &sample) { return norm(cross(first.normal, sample.normal)); };
-  const auto &second  = *std::max_element(face.samples.begin(), face.samples.end(),
+  const auto  &first  = face.samples.front();
+  const auto   turned = [&](const Face::Sample &sample) { return norm(cross(first.normal, sample.normal)); };
+  const auto  &second = *std::max_element(face.samples.begin(), face.samples.end(),
                                           [&](const auto &a, const auto &b) { return turned(a) < turned(b); });
   const double slack  = face.faceted ? 0.1 : straight; // facets of a coarse mesh are not parallel to the axis
   if (turned(second) <= slack)

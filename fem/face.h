@@ -35,11 +35,11 @@ struct Face
   std::vector<std::string> groups; ///< physical groups the face belongs to
   double                   area = 0.;
   Vector3                  min{}, max{}, centre{};
-  Vector3                  direction{};      ///< plane: outward normal; cylinder: axis, first component != 0 positive
-  Vector3                  through{};        ///< plane: a point of it; cylinder: the point of the axis nearest to `centre`
-  double                   radius  = 0.;     ///< cylinder
-  bool                     faceted = false;  ///< known by triangles only, their normals are approximate
-  std::vector<Sample>      samples;          ///< points of the surface the face is cut from
+  Vector3                  direction{};     ///< plane: outward normal; cylinder: axis, first component != 0 positive
+  Vector3                  through{};       ///< plane: a point of it; cylinder: of its axis; nearest to centre
+  double                   radius  = 0.;    ///< cylinder
+  bool                     faceted = false; ///< known by triangles only, their normals are approximate
+  std::vector<Sample>      samples;         ///< points of the surface the face is cut from
 };
 
 /**

@@ -45,8 +45,8 @@ std::vector<Face::Sample> sample(int tag, double unit)
   gmsh::model::getNormal(tag, parameters, normals);
   std::vector<Face::Sample> samples;
   for (std::size_t i = 0; i + 2 < points.size(); i += 3)
-    samples.push_back({unit * Vector3{points[i], points[i + 1], points[i + 2]},
-                       Vector3{normals[i], normals[i + 1], normals[i + 2]}});
+    samples.push_back(
+        {unit * Vector3{points[i], points[i + 1], points[i + 2]}, Vector3{normals[i], normals[i + 1], normals[i + 2]}});
   return samples;
 }
 

@@ -17,7 +17,7 @@ class GmshSession
 public:
   GmshSession();
   ~GmshSession();
-  GmshSession(const GmshSession &) = delete;
+  GmshSession(const GmshSession &)            = delete;
   GmshSession &operator=(const GmshSession &) = delete;
 
   /// Runs `action`; a failure of gmsh becomes std::invalid_argument "<head><gmsh's words><remedy>", other exceptions

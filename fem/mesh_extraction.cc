@@ -95,8 +95,9 @@ void for_each_simplex(int dim, int tag, const std::string &head, const Visit &vi
     std::vector<double> local;
     gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
     if (n_corners != dim + 1)
-      throw std::invalid_argument(head + " holds elements of type \"" + name +
-                                  "\"; only tetrahedra with triangles on the surfaces are read: mesh it without recombination.");
+      throw std::invalid_argument(
+          head + " holds elements of type \"" + name +
+          "\"; only tetrahedra with triangles on the surfaces are read: mesh it without recombination.");
     for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
       visit(&nodes[i][j]);
   }
@@ -107,18 +108,21 @@ void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Me
   for (const Solid &solid : model.solids)
   {
     const std::size_t before = mesh.cells.size();
-    for_each_simplex(3, solid.tag, head, [&](const std::size_t *corner) {
-      std::array<int, 4> cell;
-      for (int i = 0; i < 4; ++i)
-        cell[i] = nodes.index(corner[i], mesh.points, model.unit);
-      if (six_volumes(mesh, cell) < 0.)
-        std::swap(cell[2], cell[3]);
-      mesh.cells.push_back(cell);
-    });
+    for_each_simplex(3, solid.tag, head,
+                     [&](const std::size_t *corner)
+                     {
+                       std::array<int, 4> cell;
+                       for (int i = 0; i < 4; ++i)
+                         cell[i] = nodes.index(corner[i], mesh.points, model.unit);
+                       if (six_volumes(mesh, cell) < 0.)
+                         std::swap(cell[2], cell[3]);
+                       mesh.cells.push_back(cell);
+                     });
     if (mesh.cells.size() == before)
       throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has no volume mesh; " +
-                                  (model.meshed ? "mesh it in 3D before saving, and save all elements."
-                                                : "its surface may cross itself: choose another mesh.size or repair it."));
+                                  (model.meshed
+                                       ? "mesh it in 3D before saving, and save all elements."
+                                       : "its surface may cross itself: choose another mesh.size or repair it."));
     mesh.cell_solid.resize(mesh.cells.size(), static_cast<int>(mesh.solids.size()));
     mesh.solids.push_back(solid.name);
   }
@@ -215,9 +219,11 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head)
   gmsh::vectorpair        surfaces;
   gmsh::model::getEntities(surfaces, 2);
   for (const auto &[dim, tag] : surfaces)
-    for_each_simplex(2, tag, head, [&, tag = tag](const std::size_t *corner) {
-      surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
-    });
+    for_each_simplex(
+        2, tag, head,
+        [&, tag = tag](const std::size_t *corner) {
+          surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
+        });
   for (const CellFace &face : skin)
   {
     const auto &[i, j, k] = outward[face.face];

@@ -13,9 +13,9 @@ namespace gestell::fem
 /// gmsh's mesh as a value, and where its skin comes from.
 struct ExtractedMesh
 {
-  Mesh             mesh;         ///< without named surfaces
-  std::vector<int> skin_surface; ///< for each triangle of the skin the tag of gmsh's surface, 0 if it has none
-  std::vector<std::size_t> node; ///< for each point gmsh's tag
+  Mesh                     mesh;         ///< without named surfaces
+  std::vector<int>         skin_surface; ///< for each triangle of the skin the tag of gmsh's surface, 0 if it has none
+  std::vector<std::size_t> node;         ///< for each point gmsh's tag
 };
 
 /**
@@ -23,8 +23,8 @@ struct ExtractedMesh
  * Of quadratic tetrahedra only the corners are kept.
  *
  * @param head  "<place>: <file>", heads messages
- * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra, more than two cells share a face, or the
- *         cells do not hang together by common faces.
+ * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra, more than two cells share a face, or
+ *         the cells do not hang together by common faces.
  */
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head);
 

@@ -11,10 +11,10 @@ namespace gestell::fem
 namespace
 {
 
-constexpr int    sweeps       = 4;   // over all bad cells; more than three changed nothing on the frames tried
-constexpr double first_step   = 0.2; // of the shortest edge at the point
-constexpr double last_step    = 0.005;
-constexpr double least_gain   = 1e-6;
+constexpr int    sweeps     = 4;   // over all bad cells; more than three changed nothing on the frames tried
+constexpr double first_step = 0.2; // of the shortest edge at the point
+constexpr double last_step  = 0.005;
+constexpr double least_gain = 1e-6;
 
 /// Cells around each point.
 std::vector<std::vector<int>> stars_of(const Mesh &mesh)

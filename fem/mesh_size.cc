@@ -41,9 +41,10 @@ double round_up_to_two_digits(double value)
 
 void check_size(const CadModel &model, const MeshOptions &options)
 {
-  const auto   refuse  = [&](const std::string &why) { throw std::invalid_argument(options.place + ": " + why); };
-  const double largest = std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
-  const double likely  = size_for_cells(model, 25000.);
+  const auto   refuse = [&](const std::string &why) { throw std::invalid_argument(options.place + ": " + why); };
+  const double largest =
+      std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
+  const double      likely = size_for_cells(model, 25000.);
   const std::string advice = "; size = " + text(likely) + " m would give about 25000 tetrahedra.";
   if (!(options.size > 0.))
     refuse("size = " + text(options.size) + " m; the element size must be > 0" + advice);
@@ -56,18 +57,18 @@ void check_surface_sizes(const MeshOptions &options, const Selection &selection)
   const auto refuse = [&](const std::string &why) { throw std::invalid_argument(options.place + ": " + why); };
   for (const auto &[pattern, size] : options.surface_size)
   {
-    const bool known = std::any_of(selection.begin(), selection.end(), [&, &pattern = pattern](const auto &surface) {
-      return fnmatch(pattern.c_str(), surface.first.c_str(), 0) == 0;
-    });
+    const bool  known = std::any_of(selection.begin(), selection.end(),
+                                    [&, &pattern = pattern](const auto &surface)
+                                    { return fnmatch(pattern.c_str(), surface.first.c_str(), 0) == 0; });
     std::string names;
     for (const auto &surface : selection)
       names += (names.empty() ? "\"" : ", \"") + surface.first + "\"";
     if (!known)
-      refuse("\"" + pattern + "\" = " + text(size) + " m names no surface; known are " + (names.empty() ? "none" : names) +
-             ".");
+      refuse("\"" + pattern + "\" = " + text(size) + " m names no surface; known are " +
+             (names.empty() ? "none" : names) + ".");
     if (!(size > 0.) || size > options.size)
-      refuse("\"" + pattern + "\" = " + text(size) + " m; the size on a surface must be > 0 and at most size = " +
-             text(options.size) + " m.");
+      refuse("\"" + pattern + "\" = " + text(size) +
+             " m; the size on a surface must be > 0 and at most size = " + text(options.size) + " m.");
   }
 }
 
@@ -77,14 +78,14 @@ void check_number_of_cells(const CadModel &model, const MeshOptions &options,
   const double all = expected_cells(model, options.size, surface_size, selection);
   if (all <= options.max_cells)
     return;
-  const double global = expected_cells(model, options.size, {}, {});
-  const std::string found = "size = " + text(options.size) + " m would give about " + text(all) +
+  const double      global = expected_cells(model, options.size, {}, {});
+  const std::string found  = "size = " + text(options.size) + " m would give about " + text(all) +
                             " tetrahedra, mesh.max_cells allows " + text(options.max_cells);
   if (global <= options.max_cells)
     throw std::invalid_argument(options.place + ": " + found + "; most of them come from the sizes on surfaces (" +
                                 text(global) + " without): enlarge those, or raise max_cells.");
-  throw std::invalid_argument(options.place + ": " + found + "; use size = " +
-                              text(size_for_cells(model, options.max_cells)) +
+  throw std::invalid_argument(options.place + ": " + found +
+                              "; use size = " + text(size_for_cells(model, options.max_cells)) +
                               " m or more, or raise max_cells. The model is " + text(model.diagonal()) + " m across, " +
                               text(model.volume()) + " m^3: if that is wrong, so is its unit.");
 }
@@ -120,7 +121,7 @@ double expected_cells(const CadModel &model, double size, const std::map<std::st
                       const Selection &selection)
 {
   const double V = model.volume();
-  double       n = std::max(cells_per_volume * V / std::pow(size, 3), cells_per_area * skin_area(model) / (size * size));
+  double n = std::max(cells_per_volume * V / std::pow(size, 3), cells_per_area * skin_area(model) / (size * size));
   for (const auto &[name, s] : surface_size)
     n += std::min(cells_per_volume * area_of(model, selection.at(name)) / (2. * size_growth * s * s),
                   cells_per_volume * V / std::pow(s, 3));

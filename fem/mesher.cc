@@ -37,7 +37,10 @@ struct MeshedModel
   double        size = 0.; ///< [m]
 };
 
-std::string head_of(const FrameSpecification &specification) { return specification.place + ": " + specification.cad; }
+std::string head_of(const FrameSpecification &specification)
+{
+  return specification.place + ": " + specification.cad;
+}
 
 Selection select_all(const CadModel &model, const FrameSpecification &specification)
 {
@@ -99,9 +102,8 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
 {
   const MeshOptions &options = specification.mesh;
   if (!options.surface_size.empty())
-    throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first +
-                                "\" has a size, but " + specification.cad +
-                                " is a mesh already; remove the size, or give the geometry.");
+    throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
+                                specification.cad + " is a mesh already; remove the size, or give the geometry.");
   result.extracted = extract_mesh(result.model, head_of(specification));
   const Mesh &mesh = result.extracted.mesh;
   if (mesh.cells.size() > options.max_cells)
@@ -123,8 +125,9 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
       if (std::binary_search(tags.begin(), tags.end(), result.extracted.skin_surface[t]))
         triangles.push_back(static_cast<int>(t));
     if (triangles.empty())
-      throw std::invalid_argument(specification.surfaces.at(name).place +
-                                  ": no triangle of the mesh lies on the faces of this surface; choose another mesh.size.");
+      throw std::invalid_argument(
+          specification.surfaces.at(name).place +
+          ": no triangle of the mesh lies on the faces of this surface; choose another mesh.size.");
   }
 }
 
@@ -148,7 +151,8 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
   MeshedModel       result;
   if (progress)
     progress("reading CAD", -1.);
-  const auto work = [&] {
+  const auto work = [&]
+  {
     result.model = read_cad(specification, session);
     if (result.model.meshed)
       read_mesh(result, specification);

@@ -17,10 +17,16 @@ namespace
 constexpr double      never            = std::numeric_limits<double>::infinity();
 constexpr std::size_t candidates_shown = 8;
 
-double extent(const Face &face) { return norm(face.max - face.min); }
+double extent(const Face &face)
+{
+  return norm(face.max - face.min);
+}
 
 /// Distance of a point from the axis through p in the unit direction a.
-double axis_distance(const Vector3 &point, const Vector3 &p, const Vector3 &a) { return norm(cross(point - p, a)); }
+double axis_distance(const Vector3 &point, const Vector3 &p, const Vector3 &a)
+{
+  return norm(cross(point - p, a));
+}
 
 /// How far [m] the face is from lying on the plane; infinite if it looks the other way.
 double violation(const Face &face, const SurfaceSelector::Plane &plane)
@@ -48,7 +54,7 @@ double violation(const Face &face, const SurfaceSelector::Cylinder &cylinder)
     if (tilt > 0.5) // also excludes a disc whose few points all lie on its rim
       return never;
     const bool tilted = !face.faceted && tilt > straight;
-    worst = std::max({worst, std::abs(axis_distance(point, cylinder.through, a) - cylinder.radius),
+    worst             = std::max({worst, std::abs(axis_distance(point, cylinder.through, a) - cylinder.radius),
                       tilted ? tilt * extent(face) : 0.});
   }
   return worst;
@@ -97,7 +103,7 @@ bool holds(const Face &face, const SurfaceSelector &selector, double tolerance)
   }
   if (selector.cylinder)
   {
-    const Vector3 a = unit(selector.cylinder->axis);
+    const Vector3 a   = unit(selector.cylinder->axis);
     double        low = never, high = -never;
     for (int corner = 0; corner < 8; ++corner)
     {
@@ -133,7 +139,8 @@ std::string wish(const SurfaceSelector &selector)
 {
   std::string words;
   if (selector.plane)
-    words += ", plane with outward normal " + text(selector.plane->normal) + " through " + text(selector.plane->through);
+    words +=
+        ", plane with outward normal " + text(selector.plane->normal) + " through " + text(selector.plane->through);
   if (selector.cylinder)
     words += ", cylinder of radius " + text(selector.cylinder->radius) + " m about the axis " +
              text(selector.cylinder->axis) + " through " + text(selector.cylinder->through);
@@ -147,12 +154,11 @@ std::string wish(const SurfaceSelector &selector)
 /// The faces that come nearest, best first; where nothing is near, those of the wanted kind.
 std::string candidates(const std::vector<Face> &faces, const SurfaceSelector &selector)
 {
-  const auto kind_fits = [&](const Face &face) {
+  const auto kind_fits = [&](const Face &face)
+  {
     return (!selector.plane || face.kind == FaceKind::plane) && (!selector.cylinder || face.kind == FaceKind::cylinder);
   };
-  const auto rank = [&](const Face &face) {
-    return std::pair(violation(face, selector), kind_fits(face) ? 0 : 1);
-  };
+  const auto rank = [&](const Face &face) { return std::pair(violation(face, selector), kind_fits(face) ? 0 : 1); };
   std::vector<const Face *> sorted;
   for (const Face &face : faces)
     sorted.push_back(&face);
@@ -212,10 +218,10 @@ std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelec
                                 text(tolerance * 1e3) + " mm." + (selector.group ? " " + groups_of(faces) : "") +
                                 " Nearest faces, lengths in m:" + candidates(faces, selector));
   if (wanted > 0 && fitting.size() != wanted)
-    throw std::invalid_argument(selector.place + ": " + std::to_string(fitting.size()) + " faces fit (" +
-                                wish(selector) + "), but faces = " + std::to_string(wanted) +
-                                "; narrow the selection, say by a box, or set faces. Candidates, lengths in m:" +
-                                candidates(faces, selector));
+    throw std::invalid_argument(
+        selector.place + ": " + std::to_string(fitting.size()) + " faces fit (" + wish(selector) +
+        "), but faces = " + std::to_string(wanted) +
+        "; narrow the selection, say by a box, or set faces. Candidates, lengths in m:" + candidates(faces, selector));
   std::vector<int> tags;
   for (const Face *face : fitting)
     tags.push_back(face->tag);

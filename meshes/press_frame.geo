@@ -10,7 +10,7 @@ Geometry.OCCAutoFix = 0;
 half_width   = 900;   // outer edges of the columns
 half_depth   = 560;   // front and rear faces
 inner        = 560;   // clear half width between the columns
-side_plate   = 80;    // thickness of the web of a column
+web_plate    = 80;    // thickness of the web of a column
 front_plate  = 80;    // thickness of the plates at the front and at the rear
 foot_height  = 80;
 bed_bottom   = 300;
@@ -43,20 +43,20 @@ Return
 For side In {-1 : 1 : 2}
   y0 = -half_depth;  y1 = half_depth;
 
-  x0 = side * inner;  x1 = side * (inner + side_plate);                             // web
+  x0 = side * inner;  x1 = side * (inner + web_plate); // web
   z0 = foot_height;  z1 = crown_top;  Call Plate;
 
-  x0 = side * inner;  x1 = side * half_width;                                     // flanges at the front and at the rear
+  x0 = side * inner;  x1 = side * half_width; // flanges at the front and at the rear
   z0 = foot_height;  z1 = crown_top;
   y0 = -half_depth;  y1 = -half_depth + front_plate;  Call Plate;
   y0 = half_depth - front_plate;  y1 = half_depth;    Call Plate;
 
-  y0 = -half_depth;  y1 = half_depth;             // bulkheads at the table and at the crown
+  y0 = -half_depth;  y1 = half_depth; // bulkheads at the table and at the crown
   z0 = table_height - 120;  z1 = table_height - 60;  Call Plate;
   z0 = crown_bottom;        z1 = crown_bottom + crown_plate;  Call Plate;
 
   // Through the web: opening at the bed, feed window, opening for the drive.
-  x0 = side * (inner - 20);  x1 = side * (inner + side_plate + 20);
+  x0 = side * (inner - 20);  x1 = side * (inner + web_plate + 20);
   y0 = -260;  y1 = 260;
   z0 = 340;   z1 = 680;   Call Opening;
   z0 = 980;   z1 = 1380;  Call Opening;
@@ -69,7 +69,7 @@ For side In {-1 : 1 : 2}
   y0 = 300;   y1 = 440;   Call Plate;
 
   // Two feet.
-  x0 = side * (inner + side_plate);  x1 = side * (half_width + 60);
+  x0 = side * (inner + web_plate);  x1 = side * (half_width + 60);
   z0 = 0;  z1 = foot_height;
   y0 = -half_depth - 40;  y1 = -half_depth + 260;  Call Plate;
   y0 = half_depth - 260;  y1 = half_depth + 40;    Call Plate;

@@ -51,7 +51,10 @@ std::string draw(const std::string &name, const std::function<void()> &draw)
   return path;
 }
 
-std::string press_frame() { return GESTELL_SOURCE_DIR "/meshes/press_frame.step"; }
+std::string press_frame()
+{
+  return GESTELL_SOURCE_DIR "/meshes/press_frame.step";
+}
 
 FrameSpecification specification(const std::string &cad, double size)
 {

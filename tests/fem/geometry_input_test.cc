@@ -3,8 +3,8 @@
 #include "fem/mesher.h"
 #include "tests/fem/cad_samples.h"
 
-#include <gmsh.h>
 #include <gmock/gmock.h>
+#include <gmsh.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -22,14 +22,19 @@ namespace
 constexpr const char *frame = "scene.toml:3: frame";
 constexpr const char *mesh  = "scene.toml:4: frame.mesh";
 
-std::string box() { return draw("box.step", [] { gmsh::model::occ::addBox(0., 0., 0., 1000., 1000., 1000.); }); }
+std::string box()
+{
+  return draw("box.step", [] { gmsh::model::occ::addBox(0., 0., 0., 1000., 1000., 1000.); });
+}
 
 std::string two_boxes(double x, const std::string &name = "two.step")
 {
-  return draw(name, [x] {
-    gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
-    gmsh::model::occ::addBox(x, 0., 0., 100., 100., 100.);
-  });
+  return draw(name,
+              [x]
+              {
+                gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
+                gmsh::model::occ::addBox(x, 0., 0., 100., 100., 100.);
+              });
 }
 
 TEST(CadFile, ThatIsMissingIsNamed)
@@ -41,7 +46,8 @@ TEST(CadFile, ThatIsMissingIsNamed)
 
 TEST(CadFile, ThatIsEmptyIsRefused)
 {
-  EXPECT_THAT(refusal(specification(write_text("empty.step", ""), 0.1)), AllOf(StartsWith(frame), HasSubstr("is empty")));
+  EXPECT_THAT(refusal(specification(write_text("empty.step", ""), 0.1)),
+              AllOf(StartsWith(frame), HasSubstr("is empty")));
 }
 
 TEST(CadFile, ThatIsAFolderIsRefused)
@@ -71,15 +77,16 @@ TEST(StepFile, WithAHoleInItsMiddleIsRefused)
 {
   const std::string text = read_text(press_frame());
   EXPECT_THAT(refusal(specification(
-                write_text("hole.step", text.substr(0, text.size() / 2) + "\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
+                  write_text("hole.step", text.substr(0, text.size() / 2) + "\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
               AllOf(StartsWith(frame), HasSubstr("hole.step")));
 }
 
 TEST(StepFile, WithoutEntitiesIsRefused)
 {
-  EXPECT_THAT(refusal(specification(
-                write_text("none.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
-              AllOf(StartsWith(frame), HasSubstr("none.step")));
+  EXPECT_THAT(
+      refusal(specification(
+          write_text("none.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
+      AllOf(StartsWith(frame), HasSubstr("none.step")));
 }
 
 TEST(StepFile, ThatHoldsOnlyFacesIsRefused)
@@ -88,11 +95,13 @@ TEST(StepFile, ThatHoldsOnlyFacesIsRefused)
   EXPECT_THAT(refusal(specification(sheet, 0.01)),
               AllOf(StartsWith(frame), HasSubstr("no closed solid, only 1 faces"), HasSubstr("sew the faces")));
 
-  const std::string open_box = draw("open.step", [] {
-    gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
-    gmsh::model::occ::remove({{3, 1}});
-    gmsh::model::occ::remove({{2, 1}});
-  });
+  const std::string open_box = draw("open.step",
+                                    []
+                                    {
+                                      gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
+                                      gmsh::model::occ::remove({{3, 1}});
+                                      gmsh::model::occ::remove({{2, 1}});
+                                    });
   EXPECT_THAT(refusal(specification(open_box, 0.01)), HasSubstr("no closed solid, only 5 faces"));
 }
 
@@ -111,8 +120,7 @@ TEST(StepFile, InAnotherUnitIsRecognisedByItsSize)
 
 TEST(BrepFile, ThatWasCutOffIsRefusedThoughOpenCascadeWouldReadItForEver)
 {
-  const std::string whole =
-    read_text(draw("box.brep", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); }));
+  const std::string whole = read_text(draw("box.brep", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); }));
   EXPECT_EQ(refusal(specification(write_text("whole.brep", whole), 0.5)), "");
   EXPECT_THAT(refusal(specification(write_text("cut.brep", whole.substr(0, whole.size() / 2)), 0.5)),
               HasSubstr("is cut off"));
@@ -122,7 +130,8 @@ TEST(BrepFile, ThatWasCutOffIsRefusedThoughOpenCascadeWouldReadItForEver)
 TEST(GeoFile, WithAnErrorInItIsRefusedWithGmshsWords)
 {
   const std::string cad = write_text("bad.geo", "SetFactory(\"OpenCASCADE\");\nBax(1) = {0, 0, 0, 1, 1, 1};\n");
-  const auto        run = [&] {
+  const auto        run = [&]
+  {
     std::cerr << refusal(specification(cad, 0.1));
     std::exit(0);
   };
@@ -153,47 +162,56 @@ TEST(Bodies, ThatTouchOrOverlapWithoutACommonFaceAreRefused)
 
 TEST(Bodies, OfAMeshWithoutCommonNodesAreRefused)
 {
-  const std::string cad = draw("two.msh", [] {
-    gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
-    gmsh::model::occ::addBox(1., 0., 0., 1., 1., 1.);
-    gmsh::model::occ::synchronize();
-    gmsh::model::mesh::generate(3);
-  });
+  const std::string cad = draw("two.msh",
+                               []
+                               {
+                                 gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+                                 gmsh::model::occ::addBox(1., 0., 0., 1., 1., 1.);
+                                 gmsh::model::occ::synchronize();
+                                 gmsh::model::mesh::generate(3);
+                               });
   EXPECT_THAT(refusal(specification(cad, 0.)), AllOf(StartsWith(frame), HasSubstr("2 bodies"), HasSubstr("cells of")));
 }
 
 TEST(MeshFile, OfASurfaceOnlyIsRefused)
 {
-  const std::string cad = draw("surface.msh", [] {
-    gmsh::model::occ::addRectangle(0., 0., 0., 1., 1.);
-    gmsh::model::occ::synchronize();
-    gmsh::model::mesh::generate(2);
-  });
+  const std::string cad = draw("surface.msh",
+                               []
+                               {
+                                 gmsh::model::occ::addRectangle(0., 0., 0., 1., 1.);
+                                 gmsh::model::occ::synchronize();
+                                 gmsh::model::mesh::generate(2);
+                               });
   EXPECT_THAT(refusal(specification(cad, 0.)), AllOf(StartsWith(frame), HasSubstr("no tetrahedra")));
 }
 
 TEST(MeshFile, WhoseSolidHasNoVolumeMeshIsRefused)
 {
-  const std::string cad = draw("hollow.msh", [] {
-    gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
-    gmsh::model::occ::synchronize();
-    gmsh::model::mesh::generate(2);
-  });
-  EXPECT_THAT(refusal(specification(cad, 0.)), AllOf(StartsWith(frame), HasSubstr("solid 1"), HasSubstr("no volume mesh")));
+  const std::string cad = draw("hollow.msh",
+                               []
+                               {
+                                 gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+                                 gmsh::model::occ::synchronize();
+                                 gmsh::model::mesh::generate(2);
+                               });
+  EXPECT_THAT(refusal(specification(cad, 0.)),
+              AllOf(StartsWith(frame), HasSubstr("solid 1"), HasSubstr("no volume mesh")));
 }
 
 TEST(MeshFile, OfHexahedraIsRefused)
 {
-  const std::string cad = draw("hexahedra.msh", [] {
-    namespace occ = gmsh::model::occ;
-    gmsh::vectorpair swept;
-    occ::addRectangle(0., 0., 0., 1., 1.);
-    occ::extrude({{2, 1}}, 0., 0., 1., swept, {2}, {}, true);
-    occ::synchronize();
-    gmsh::model::mesh::setTransfiniteSurface(1);
-    gmsh::model::mesh::setRecombine(2, 1);
-    gmsh::model::mesh::generate(3);
-  });
+  const std::string cad = draw("hexahedra.msh",
+                               []
+                               {
+                                 namespace occ = gmsh::model::occ;
+                                 gmsh::vectorpair swept;
+                                 occ::addRectangle(0., 0., 0., 1., 1.);
+                                 occ::extrude({{2, 1}}, 0., 0., 1., swept, {2}, {}, true);
+                                 occ::synchronize();
+                                 gmsh::model::mesh::setTransfiniteSurface(1);
+                                 gmsh::model::mesh::setRecombine(2, 1);
+                                 gmsh::model::mesh::generate(3);
+                               });
   EXPECT_THAT(refusal(specification(cad, 0.)), HasSubstr("only tetrahedra"));
 }
 
@@ -217,9 +235,9 @@ TEST(ElementSize, ThatWouldGiveTooManyCellsIsRefusedBeforeMeshing)
 
 TEST(ElementSize, OnAnUnknownSurfaceIsRefused)
 {
-  FrameSpecification s   = specification(box(), 0.2);
-  s.surfaces["top"]      = plane({0., 0., 1.}, {0., 0., 1.});
-  s.mesh.surface_size    = {{"topp", 0.1}};
+  FrameSpecification s = specification(box(), 0.2);
+  s.surfaces["top"]    = plane({0., 0., 1.}, {0., 0., 1.});
+  s.mesh.surface_size  = {{"topp", 0.1}};
   EXPECT_THAT(refusal(s), AllOf(StartsWith(mesh), HasSubstr("\"topp\""), HasSubstr("known are \"top\"")));
   s.mesh.surface_size = {{"top", 0.3}};
   EXPECT_THAT(refusal(s), AllOf(HasSubstr("\"top\" = 0.3 m"), HasSubstr("at most size = 0.2 m")));
@@ -231,8 +249,9 @@ TEST(Selection, WithoutAFaceListsTheNearestOnes)
 {
   FrameSpecification s = specification(press_frame(), 0.1);
   s.surfaces["bore"]   = cylinder({0., 1., 0.}, {0., 0.52, 2.58}, 0.12);
-  EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:8: frame.surface: no face fits"), HasSubstr("cylinder of radius 0.12 m"),
-                                HasSubstr("through (0 0.52 2.56), radius 0.12"), HasSubstr("off by 20 mm")));
+  EXPECT_THAT(refusal(s),
+              AllOf(StartsWith("scene.toml:8: frame.surface: no face fits"), HasSubstr("cylinder of radius 0.12 m"),
+                    HasSubstr("through (0 0.52 2.56), radius 0.12"), HasSubstr("off by 20 mm")));
 }
 
 TEST(Selection, OfAnotherNumberOfFacesThanWantedListsThem)
@@ -244,10 +263,10 @@ TEST(Selection, OfAnotherNumberOfFacesThanWantedListsThem)
 
 TEST(Selection, OfAGroupThatDoesNotExistListsTheGroupsThatDo)
 {
-  const std::string cad = write_text("named.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
-                                                  "Physical Surface(\"foot\") = {5};\n");
-  FrameSpecification s  = specification(cad, 0.5);
-  s.surfaces["feet"]    = group("feet");
+  const std::string  cad = write_text("named.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+                                                    "Physical Surface(\"foot\") = {5};\n");
+  FrameSpecification s   = specification(cad, 0.5);
+  s.surfaces["feet"]     = group("feet");
   EXPECT_THAT(refusal(s), AllOf(HasSubstr("group \"feet\""), HasSubstr("The model names \"foot\"")));
 }
 

@@ -45,7 +45,7 @@ Vector3 area_vector(const Mesh &mesh, const std::string &surface)
   for (const int t : mesh.surfaces.at(surface))
   {
     const auto &[a, b, c] = mesh.skin[t];
-    sum = sum + 0.5 * cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+    sum                   = sum + 0.5 * cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
   }
   return sum;
 }
@@ -67,12 +67,12 @@ std::string box_of_1200_500_300_mm()
 FrameSpecification press(double size)
 {
   FrameSpecification s = specification(press_frame(), size);
-  s.surfaces = {{"crown bearing front", cylinder({0., 1., 0.}, {0., -0.52, 2.56}, 0.12)},
-                {"crown bearing rear", cylinder({0., 1., 0.}, {0., 0.52, 2.56}, 0.12)},
-                {"guides left", plane({1., 0., 0.}, {-0.48, 0., 1.78}, 2)},
-                {"guides right", plane({-1., 0., 0.}, {0.48, 0., 1.78}, 2)},
-                {"table", plane({0., 0., 1.}, {0., 0., 0.9}, 3)},
-                {"feet", plane({0., 0., -1.}, {0., 0., 0.}, 4)}};
+  s.surfaces           = {{"crown bearing front", cylinder({0., 1., 0.}, {0., -0.52, 2.56}, 0.12)},
+                          {"crown bearing rear", cylinder({0., 1., 0.}, {0., 0.52, 2.56}, 0.12)},
+                          {"guides left", plane({1., 0., 0.}, {-0.48, 0., 1.78}, 2)},
+                          {"guides right", plane({-1., 0., 0.}, {0.48, 0., 1.78}, 2)},
+                          {"table", plane({0., 0., 1.}, {0., 0., 0.9}, 3)},
+                          {"feet", plane({0., 0., -1.}, {0., 0., 0.}, 4)}};
   return s;
 }
 
@@ -117,20 +117,23 @@ TEST(BoxMesh, UnitOverridesTheMillimetreOfAStepFile)
 
 TEST(BoxMesh, PlaneThatTheFileCallsASplineIsFoundAsAPlane)
 {
-  const std::string cad = draw("dilated.step", [] {
-    const int box = gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
-    gmsh::model::occ::dilate({{3, box}}, 0., 0., 0., 2., 1., 1.);
-  });
-  FrameSpecification s = specification(cad, 0.05);
-  s.surfaces           = {{"end", plane({1., 0., 0.}, {0.2, 0., 0.})}};
+  const std::string  cad = draw("dilated.step",
+                                []
+                                {
+                                 const int box = gmsh::model::occ::addBox(0., 0., 0., 100., 100., 100.);
+                                 gmsh::model::occ::dilate({{3, box}}, 0., 0., 0., 2., 1., 1.);
+                               });
+  FrameSpecification s   = specification(cad, 0.05);
+  s.surfaces             = {{"end", plane({1., 0., 0.}, {0.2, 0., 0.})}};
   EXPECT_NEAR(norm(area_vector(make_mesh(s), "end") - Vector3{0.01, 0., 0.}), 0., 1e-12);
 }
 
 TEST(TwoSolids, WithACommonFaceAreOneMeshWhoseSkinLeavesThatFaceOut)
 {
-  const std::string cad = write_text("two.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
-                                                "Box(2) = {1, 0, 0, 2, 1, 1};\nCoherence;\n"
-                                                "Physical Volume(\"short\") = {1};\nPhysical Volume(\"long\") = {2};\n");
+  const std::string cad =
+      write_text("two.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+                            "Box(2) = {1, 0, 0, 2, 1, 1};\nCoherence;\n"
+                            "Physical Volume(\"short\") = {1};\nPhysical Volume(\"long\") = {2};\n");
   const Mesh mesh = make_mesh(specification(cad, 0.4));
   ASSERT_EQ(mesh.solids, (std::vector<std::string>{"short", "long"}));
   double V[2] = {0., 0.};
@@ -145,21 +148,24 @@ TEST(TwoSolids, WithACommonFaceAreOneMeshWhoseSkinLeavesThatFaceOut)
 
 TEST(MeshFile, KeepsItsGroupsAndAnswersSelectorsByItsTriangles)
 {
-  const std::string cad = draw("tube.msh", [] {
-    namespace occ   = gmsh::model::occ;
-    const int block = occ::addBox(0., 0., 0., 400., 400., 200.);
-    const int hole  = occ::addCylinder(200., 200., 0., 0., 0., 200., 100.);
-    gmsh::vectorpair                   solid;
-    std::vector<gmsh::vectorpair>      map;
-    occ::cut({{3, block}}, {{3, hole}}, solid, map);
-    occ::synchronize();
-    gmsh::vectorpair faces;
-    gmsh::model::getEntitiesInBoundingBox(-1., -1., -1., 401., 401., 1., faces, 2);
-    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {faces.at(0).second}), "bottom");
-    gmsh::option::setNumber("Mesh.SaveAll", 1);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", 50.);
-    gmsh::model::mesh::generate(3);
-  });
+  const std::string cad =
+      draw("tube.msh",
+           []
+           {
+             namespace occ                       = gmsh::model::occ;
+             const int                     block = occ::addBox(0., 0., 0., 400., 400., 200.);
+             const int                     hole  = occ::addCylinder(200., 200., 0., 0., 0., 200., 100.);
+             gmsh::vectorpair              solid;
+             std::vector<gmsh::vectorpair> map;
+             occ::cut({{3, block}}, {{3, hole}}, solid, map);
+             occ::synchronize();
+             gmsh::vectorpair faces;
+             gmsh::model::getEntitiesInBoundingBox(-1., -1., -1., 401., 401., 1., faces, 2);
+             gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {faces.at(0).second}), "bottom");
+             gmsh::option::setNumber("Mesh.SaveAll", 1);
+             gmsh::option::setNumber("Mesh.MeshSizeMax", 50.);
+             gmsh::model::mesh::generate(3);
+           });
   FrameSpecification s = specification(cad, 0.);
   s.unit               = 1e-3;
   s.surfaces           = {{"bore", cylinder({0., 0., 1.}, {0.2, 0.2, 0.}, 0.1)},
@@ -200,10 +206,10 @@ TEST(PressFrame, SkinEnclosesTheCellsAndItsPlanesHaveTheirCadArea)
 
 TEST(PressFrame, MeshIsFineOnTheBearingsAndCoarseElsewhere)
 {
-  FrameSpecification s                = press(0.1);
-  const std::size_t  n_coarse         = make_mesh(s).cells.size();
+  FrameSpecification s                   = press(0.1);
+  const std::size_t  n_coarse            = make_mesh(s).cells.size();
   s.mesh.surface_size["crown bearing *"] = 0.03;
-  const Mesh mesh                     = make_mesh(s);
+  const Mesh mesh                        = make_mesh(s);
   EXPECT_LT(longest_edge(mesh, "crown bearing front"), 1.6 * 0.03); // a Delaunay mesh keeps edges below sqrt(2) size
   EXPECT_LT(longest_edge(mesh, "crown bearing rear"), 1.6 * 0.03);
   EXPECT_GT(longest_edge(mesh, "feet"), 0.07);
@@ -226,8 +232,8 @@ TEST(PressFrame, HasTheExpectedNumberOfCellsWithinAFactorOfOneAndAHalf)
   {
     const GeometryReport report = report_geometry(press(size));
     CadModel             model;
-    model.solids = report.solids;
-    model.faces  = report.faces;
+    model.solids          = report.solids;
+    model.faces           = report.faces;
     const double expected = expected_cells(model, size, {}, {});
     EXPECT_LT(report.n_cells, 1.5 * expected) << size;
     EXPECT_GT(report.n_cells, expected / 1.5) << size;
@@ -246,14 +252,14 @@ TEST(CellQuality, OfABlockWithAMisplacedPointIsMendedWithoutChangingTheBlock)
     mesh.points.push_back({i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 1. : -1.});
   mesh.points.push_back({0.999, 0.9, 0.9});
   for (const auto &[a, b, c, d] : std::vector<std::array<int, 4>>{
-         {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
     for (std::array<int, 4> cell : {std::array<int, 4>{a, b, c, 8}, std::array<int, 4>{a, c, d, 8}})
     {
       if (six_volumes(mesh, cell) < 0.)
         std::swap(cell[0], cell[1]);
       mesh.cells.push_back(cell);
     }
-  const auto corners = std::vector<Point3>(mesh.points.begin(), mesh.points.end() - 1);
+  const auto           corners = std::vector<Point3>(mesh.points.begin(), mesh.points.end() - 1);
   std::vector<Freedom> freedom(9);
   freedom[8] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
 
