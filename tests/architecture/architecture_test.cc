@@ -32,15 +32,22 @@ const std::vector<std::string> everywhere = {""};
   return result;
 }
 
+/// Lines of the file at `path`; none if there is no such file.
+std::vector<std::string> lines_of(const std::string &path)
+{
+  for (const auto &file : tree())
+    if (file.path == path)
+      return file.lines;
+  return {};
+}
+
 /// First group of `pattern` on the first line of the file at `path` that matches; empty if none does.
 std::string first_match(const std::string &path, const std::string &pattern)
 {
   const std::regex expression(pattern);
-  for (const auto &file : tree())
-    if (file.path == path)
-      for (const auto &line : file.lines)
-        if (std::smatch match; std::regex_search(line, match, expression))
-          return match[1];
+  for (const auto &line : lines_of(path))
+    if (std::smatch match; std::regex_search(line, match, expression))
+      return match[1];
   return "";
 }
 
@@ -118,6 +125,25 @@ TEST(House, HasOneLicence)
   EXPECT_EQ(first_match("LICENSE", "^(MIT License)$"), "MIT License");
   EXPECT_EQ(first_match("LICENSE", "^Copyright \\(c\\) [0-9]+ (.*)$"), "the Gestell developers");
   EXPECT_EQ(first_match("CITATION.cff", "^license: (.*)$"), "MIT");
+}
+
+TEST(Readme, QuotesTheSceneOfThePressAsItStands)
+{
+  const std::vector<std::string> scene  = lines_of("apps/scenes/press.toml");
+  auto                           place  = scene.begin();
+  int                            quoted = 0;
+  bool                           inside = false;
+  for (const std::string &line : lines_of("README.md"))
+    if (line == "```toml" || line == "```")
+      inside = line == "```toml";
+    else if (inside && !line.empty())
+    {
+      const auto found = std::find(place, scene.end(), line);
+      EXPECT_NE(found, scene.end()) << "not in the scene, or not in this order: " << line;
+      place = found == scene.end() ? place : found + 1;
+      ++quoted;
+    }
+  EXPECT_GT(quoted, 10);
 }
 
 TEST(Text, NamesNoPathOfAMachine)

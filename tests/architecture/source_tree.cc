@@ -36,7 +36,7 @@ std::vector<std::string> read_lines(const fs::path &path)
     return {};
 
   std::vector<std::string> lines;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream            file(path, std::ios::binary);
   for (std::string line; std::getline(file, line); lines.push_back(line))
     if (line.find('\0') != std::string::npos)
       return {};
@@ -82,7 +82,7 @@ std::vector<std::string> lines_matching(const std::vector<SourceFile> &files, co
   return findings;
 }
 
-std::vector<std::string> includes_matching(const std::vector<SourceFile> &files,
+std::vector<std::string> includes_matching(const std::vector<SourceFile>  &files,
                                            const std::vector<std::string> &folders,
                                            const std::vector<std::string> &except, const std::string &forbidden)
 {

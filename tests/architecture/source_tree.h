@@ -12,7 +12,7 @@ namespace gestell::tests
 /// A text file of the project.
 struct SourceFile
 {
-  std::string path; ///< relative to the top, with slashes
+  std::string              path; ///< relative to the top, with slashes
   std::vector<std::string> lines;
 };
 
@@ -29,7 +29,7 @@ std::vector<std::string> lines_matching(const std::vector<SourceFile> &files, co
                                         const std::vector<std::string> &except, const std::regex &pattern);
 
 /// The same for #include lines: findings are includes that match `forbidden`.
-std::vector<std::string> includes_matching(const std::vector<SourceFile> &files,
+std::vector<std::string> includes_matching(const std::vector<SourceFile>  &files,
                                            const std::vector<std::string> &folders,
                                            const std::vector<std::string> &except, const std::string &forbidden);
 
