@@ -134,7 +134,7 @@ Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eig
   add_disc(shape, centre, pose.pin, pose.ahead, pose.axis, r);
   // The rib stands out on both sides of the disc and shows the angle.
   add_box(shape, centre + 0.5 * r * pose.pin, 0.5 * r * pose.pin, 0.09 * r * pose.ahead,
-          0.75 * disc_width * r * pose.axis);
+          disc_width * r * pose.axis);
   shape.displacement.assign(shape.points.size(), translation(rotor.marker, q));
   return shape;
 }

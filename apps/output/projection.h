@@ -19,8 +19,9 @@ public:
   /// Coordinates in the picture, to the right and down, and depth (larger is nearer) [units].
   Eigen::Vector3d operator()(const Eigen::Vector3d &x) const;
 
-  double width() const;  ///< [units]
-  double height() const; ///< [units]
+  double width() const;                   ///< [units]
+  double height() const;                  ///< [units]
+  double scale() const { return scale_; } ///< units per metre
 
   bool faces_viewer(const Eigen::Vector3d &normal) const { return normal.dot(towards_) > 0.; }
   /// Brightness of a face of this outward normal under a lamp above and right of the viewer; of few steps, since few

@@ -271,8 +271,11 @@ std::string contents(const std::string &body)
 
 } // namespace
 
-Report make_report(const Result &result)
+Report make_report(const Result &full)
 {
+  Result result  = full;
+  result.scenery = for_pictures(full.scenery);
+
   Report                         report;
   const std::vector<SignalChart> charts = result.run ? signal_charts(*result.run) : std::vector<SignalChart>();
   for (const SignalChart &chart : charts)

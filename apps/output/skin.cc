@@ -21,28 +21,30 @@ Vector3d normal(const Skin &skin, const std::array<int, 3> &t)
   return (skin.points[t[1]] - a).cross(skin.points[t[2]] - a).normalized();
 }
 
-/// The directions, roughly rounded, in which the faces around every point look: one on a plane, two on an edge, three
-/// at a corner.
-std::vector<std::set<std::array<int, 3>>> looks_of(const Skin &skin)
+/// The plane of a face, roughly: where it looks, and its distance from the origin.
+using Plane = std::array<long, 4>;
+
+/// The planes of the faces around every point: one inside a plane, two on an edge, three at a corner.
+std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
 {
-  std::vector<std::set<std::array<int, 3>>> looks(skin.points.size());
+  std::vector<std::set<Plane>> planes(skin.points.size());
   for (const auto &t : skin.triangles)
   {
-    const Vector3d           n       = normal(skin, t);
-    const std::array<int, 3> rounded = {static_cast<int>(std::lround(2. * n[0])),
-                                        static_cast<int>(std::lround(2. * n[1])),
-                                        static_cast<int>(std::lround(2. * n[2]))};
+    const Vector3d n     = normal(skin, t);
+    const double   level = n.dot(skin.points[t[0]]);
+    const Plane    plane = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
+                            std::lround(level / tolerance)};
     for (const int i : t)
-      looks[i].insert(rounded);
+      planes[i].insert(plane);
   }
-  return looks;
+  return planes;
 }
 
-/// Number of the group of every point, numbered as they are met: points in one cell of a grid with the same looks.
+/// Number of the group of every point, numbered as they are met: points in one cell of a grid on the same planes.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
-  using Key        = std::pair<std::array<long, 3>, std::set<std::array<int, 3>>>;
-  const auto looks = looks_of(skin);
+  using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;
+  const auto planes = planes_of(skin, 0.25 * edge);
 
   std::map<Key, int> numbers;
   std::vector<int>   group;
@@ -50,7 +52,7 @@ std::vector<int> groups_of(const Skin &skin, double edge)
   for (std::size_t i = 0; i < skin.points.size(); ++i)
   {
     const Vector3d place = skin.points[i] / edge;
-    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, looks[i]};
+    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, planes[i]};
     group.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
   }
   return group;
@@ -79,10 +81,10 @@ double Skin::largest_displacement() const
   return largest;
 }
 
-Skin coarsened(const Skin &skin, double edge)
+CoarseMesh coarse_mesh(const Skin &skin, double edge)
 {
-  if (skin.points.empty() || !(edge > 0.))
-    return skin;
+  if (skin.points.empty())
+    return {};
   const std::vector<int> group    = groups_of(skin, edge);
   const std::size_t      n_groups = static_cast<std::size_t>(*std::max_element(group.begin(), group.end())) + 1;
 
@@ -98,12 +100,8 @@ Skin coarsened(const Skin &skin, double edge)
     if (int &best = nearest[group[i]]; best < 0 || distance(i) < distance(static_cast<std::size_t>(best)))
       best = static_cast<int>(i);
 
-  Skin coarse;
-  for (const int i : nearest)
-  {
-    coarse.points.push_back(skin.points[i]);
-    coarse.displacement.push_back(skin.displacement[i]);
-  }
+  CoarseMesh coarse;
+  coarse.points = nearest;
   for (const auto &t : skin.triangles)
   {
     const std::array<int, 3> c = {group[t[0]], group[t[1]], group[t[2]]};
@@ -111,6 +109,42 @@ Skin coarsened(const Skin &skin, double edge)
       coarse.triangles.push_back(c);
   }
   return coarse;
+}
+
+Skin refined(const Skin &skin, double edge)
+{
+  using Corner   = std::pair<Vector3d, Vector3d>; // point and displacement
+  using Triangle = std::array<Corner, 3>;
+
+  std::vector<Triangle> open;
+  for (const auto &t : skin.triangles)
+    open.push_back({Corner{skin.points[t[0]], skin.displacement[t[0]]},
+                    Corner{skin.points[t[1]], skin.displacement[t[1]]},
+                    Corner{skin.points[t[2]], skin.displacement[t[2]]}});
+  Skin fine;
+  while (!open.empty())
+  {
+    const Triangle t = open.back();
+    open.pop_back();
+    const auto    length  = [&](int i) { return (t[(i + 1) % 3].first - t[i].first).norm(); };
+    const int     longest = length(0) >= std::max(length(1), length(2)) ? 0 : length(1) >= length(2) ? 1 : 2;
+    const Corner &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+    if (length(longest) > edge)
+    {
+      const Corner middle(0.5 * (a.first + b.first), 0.5 * (a.second + b.second));
+      open.push_back({a, middle, c});
+      open.push_back({middle, b, c});
+      continue;
+    }
+    const int first = static_cast<int>(fine.points.size());
+    for (const Corner &corner : t)
+    {
+      fine.points.push_back(corner.first);
+      fine.displacement.push_back(corner.second);
+    }
+    fine.triangles.push_back({first, first + 1, first + 2});
+  }
+  return fine;
 }
 
 std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)

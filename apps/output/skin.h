@@ -21,10 +21,20 @@ struct Skin
   double largest_displacement() const;
 };
 
-/// The skin on fewer points: those in one cell of a cubic grid of the given edge length whose faces look the same ways
-/// are drawn together to the one nearest to their mean, and triangles that become lines vanish.  Planes stay plane,
-/// straight edges straight, corners where they are.
-Skin coarsened(const Skin &skin, double edge);
+/// A choice of the points of a skin, and triangles between them.
+struct CoarseMesh
+{
+  std::vector<int>                points;    ///< of the skin
+  std::vector<std::array<int, 3>> triangles; ///< into this choice
+};
+
+/// The skin on fewer points: those in one cell of a cubic grid of the given edge length whose faces lie in the same
+/// planes are drawn together to the one nearest to their mean, and triangles that become lines vanish.  Planes stay
+/// plane, straight edges straight, corners where they are.
+CoarseMesh coarse_mesh(const Skin &skin, double edge);
+
+/// The skin in triangles whose edges are no longer than `edge`, by halving the longest; points are not shared.
+Skin refined(const Skin &skin, double edge);
 
 /// Edges (pairs of points) where neighbouring triangles meet at more than `degrees`, or that have one triangle only.
 std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees);

@@ -15,9 +15,10 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_triangles = 14000; ///< of a closed skin; about a third of them is seen
+constexpr std::size_t most_triangles = 20000; ///< of a closed skin; about a third of them is seen
 constexpr double      shown_size     = 0.05;  ///< largest displacement as part of the frame's size
 constexpr double      picture_size   = 400.;  ///< units of the picture's longer side
+constexpr double      piece          = 7.;    ///< longest edge of a body's triangles in a picture [units]
 constexpr double      sharp          = 35.;   ///< degrees
 
 /// Facets of the skin, moved by enlargement times displacement; `colour_of` gives the colour of a triangle.
@@ -54,16 +55,6 @@ std::string edge_path(const Skin &skin, double enlargement, const View &view, co
     append_coordinate(svg += ' ', q[1]);
   }
   return svg;
-}
-
-/// The skin with so few points that the picture stays small.
-Skin fit_for_picture(const Skin &skin)
-{
-  Skin   coarse = skin;
-  double edge   = skin.size() / 150.;
-  for (; coarse.triangles.size() > most_triangles; edge *= 1.2)
-    coarse = coarsened(skin, edge);
-  return coarse;
 }
 
 const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke:currentColor;stroke-width:1.2;"
@@ -103,42 +94,66 @@ Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
   return skin;
 }
 
+Scenery for_pictures(const Scenery &scenery)
+{
+  if (scenery.triangles.size() <= most_triangles)
+    return scenery;
+  const Skin skin   = skin_of(scenery, Eigen::VectorXd::Zero(scenery.n_frame));
+  double     edge   = skin.size() / 100.;
+  CoarseMesh coarse = coarse_mesh(skin, edge);
+  while (coarse.triangles.size() > most_triangles)
+    coarse = coarse_mesh(skin, edge *= 1.4);
+
+  Scenery light   = scenery;
+  light.triangles = coarse.triangles;
+  light.points.clear();
+  for (const int i : coarse.points)
+    light.points.push_back(scenery.points[i]);
+  light.displacement = [all = scenery.displacement, chosen = coarse.points](const Eigen::VectorXd &p) -> Eigen::VectorXd
+  {
+    const Eigen::VectorXd u = all(p);
+    Eigen::VectorXd       few(3 * static_cast<long>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      few.segment<3>(3 * static_cast<long>(i)) = u.segment<3>(3 * chosen[i]);
+    return few;
+  };
+  return light;
+}
+
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle)
 {
-  const Skin   coarse      = fit_for_picture(skin);
   const double largest     = skin.largest_displacement();
   const double enlargement = largest > 0. ? shown_size * skin.size() / largest : 0.;
 
-  std::vector<Vector3d>       seen     = coarse.points;
-  const std::vector<Vector3d> deformed = moved_points(coarse, enlargement);
+  std::vector<Vector3d>       seen     = skin.points;
+  const std::vector<Vector3d> deformed = moved_points(skin, enlargement);
   seen.insert(seen.end(), deformed.begin(), deformed.end());
   const View view(seen, picture_size);
 
   const auto colour = [&](const std::array<int, 3> &t)
   {
     const double mean =
-        (coarse.displacement[t[0]].norm() + coarse.displacement[t[1]].norm() + coarse.displacement[t[2]].norm()) / 3.;
+        (skin.displacement[t[0]].norm() + skin.displacement[t[1]].norm() + skin.displacement[t[2]].norm()) / 3.;
     return scale_colour(largest > 0. ? mean / largest : 0.);
   };
-  const std::vector<Facet> facets = facets_of(coarse, enlargement, view, colour);
+  const std::vector<Facet> facets = facets_of(skin, enlargement, view, colour);
   const DepthRaster        raster(facets, view);
 
   const double width = std::max(view.width() + 24., 190.), height = view.height() + 62.;
   return svg_head(width, height, title) + face_style + svg_text(12., 19., title, "title") +
          svg_text(12., 35., subtitle, "small") +
          shifted(0.5 * (width - view.width()), 48.,
-                 "<path class=\"outline\" d=\"" + edge_path(coarse, 0., view, nullptr) + "\"/>\n<g class=\"faces\">" +
+                 "<path class=\"outline\" d=\"" + edge_path(skin, 0., view, nullptr) + "\"/>\n<g class=\"faces\">" +
                      facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
-                     edge_path(coarse, enlargement, view, &raster) + "\"/>\n") +
+                     edge_path(skin, enlargement, view, &raster) + "\"/>\n") +
          "</svg>\n";
 }
 
 std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title)
 {
   static const std::array<Colour, 4> body_colours = {{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {176, 80, 143}}};
-  const Skin                         coarse       = fit_for_picture(skin);
 
-  std::vector<Vector3d> seen = coarse.points;
+  std::vector<Vector3d> seen = skin.points;
   for (const Shape &shape : shapes)
     seen.insert(seen.end(), shape.points.begin(), shape.points.end());
   if (seen.empty())
@@ -146,15 +161,16 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
   const View view(seen, picture_size);
 
   const auto               pale   = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
-  const std::vector<Facet> facets = facets_of(coarse, 0., view, pale);
+  const std::vector<Facet> facets = facets_of(skin, 0., view, pale);
   const DepthRaster        raster(facets, view);
   std::vector<Facet>       bodies;
   std::string              names;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const Colour colour = body_colours[i % body_colours.size()];
-    const auto   own    = facets_of(Skin{shapes[i].points, shapes[i].displacement, shapes[i].triangles}, 0., view,
-                                    [&](const std::array<int, 3> &) { return colour; });
+    // Bodies pass through each other: only small triangles can be put in the order of their depth.
+    const Skin small = refined({shapes[i].points, shapes[i].displacement, shapes[i].triangles}, piece / view.scale());
+    const auto own   = facets_of(small, 0., view, [&](const std::array<int, 3> &) { return colour; });
     bodies.insert(bodies.end(), own.begin(), own.end());
     const double y = 26. + 18. * static_cast<double>(i);
     names += "<g class=\"faces\"><path color=\"" + hex(colour, 1.) + "\" d=\"M0 " +
@@ -166,7 +182,7 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
   return svg_head(width, height, title) + face_style +
          shifted(12., 12.,
                  "<g class=\"faces\">" + facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
-                     edge_path(coarse, 0., view, &raster) + "\"/>\n<g class=\"faces\" opacity=\".82\">" +
+                     edge_path(skin, 0., view, &raster) + "\"/>\n<g class=\"faces\" opacity=\".82\">" +
                      facet_paths(seen_bodies) + "</g>\n") +
          shifted(view.width() + 28., 12., names) + "</svg>\n";
 }

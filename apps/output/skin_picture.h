@@ -12,9 +12,11 @@ namespace gestell::apps
 /// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
+/// The scenery with a skin of so few triangles (20 000) that a picture stays below 300 kB.
+Scenery for_pictures(const Scenery &scenery);
+
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
-/// undeformed edges.  Seen in parallel projection from front right and above; at most some thousand triangles, a few
-/// hundred kB.
+/// undeformed edges.  Seen in parallel projection from front right and above.
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle);
 
 /// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass.

@@ -77,7 +77,7 @@ TEST(MechanismShapes, AreClosedAndLookOutwards)
   const auto shapes = mechanism_shapes(example_result().scenery, state(0., 0., 0.7, 0.02));
   ASSERT_EQ(shapes.size(), 3u);
   const double disc = 18. * std::sin(M_PI / 18.) * 0.3 * 0.3 * 0.25 * 0.3; // 36 corners, a quarter of the radius wide
-  const double rib  = 0.3 * (0.18 * 0.3) * (1.5 * 0.25 * 0.3);
+  const double rib  = 0.3 * (0.18 * 0.3) * (2. * 0.25 * 0.3);
   EXPECT_NEAR(volume(named(shapes, "crank")), disc + rib, 1e-12);
   EXPECT_NEAR(volume(named(shapes, "slide")), 0.5 * 0.4 * 0.3, 1e-12);
   EXPECT_GT(volume(named(shapes, "rod")), 0.);
@@ -129,15 +129,33 @@ TEST(MechanismShapes, BodiesOfNoSizeAreLeftOut)
   EXPECT_TRUE(mechanism_shapes(scenery, state(0., 0., 0., 0.)).empty());
 }
 
-TEST(Skin, CoarsenedKeepsPlanesCornersAndVolume)
+TEST(CoarseMesh, KeepsPlanesAndIsMuchSmaller)
 {
-  const Skin  fine = cube(20), coarse = coarsened(fine, 0.3);
-  const Shape before{"", fine.points, {}, fine.triangles}, after{"", coarse.points, {}, coarse.triangles};
+  const Skin       fine   = cube(20);
+  const CoarseMesh coarse = coarse_mesh(fine, 0.3);
   EXPECT_LT(coarse.triangles.size(), fine.triangles.size() / 10);
-  for (const Vector3d &x : coarse.points)
-    EXPECT_LT((x.array() * (1. - x.array())).abs().minCoeff(), 1e-12) << "a point left the faces";
-  EXPECT_NEAR(volume(before), 1., 1e-12);
-  EXPECT_EQ(coarse.displacement.size(), coarse.points.size());
+  for (const auto &t : coarse.triangles)
+  {
+    // All three corners on one face of the cube.
+    Vector3d low = Vector3d::Ones(), high = Vector3d::Zero();
+    for (const int i : t)
+    {
+      low  = low.cwiseMin(fine.points[coarse.points[i]]);
+      high = high.cwiseMax(fine.points[coarse.points[i]]);
+    }
+    EXPECT_EQ((high - low).minCoeff(), 0.);
+  }
+  EXPECT_TRUE(coarse_mesh(Skin(), 0.3).points.empty());
+}
+
+TEST(Skin, RefinedHasShortEdgesAndTheSameVolume)
+{
+  const Skin fine = refined(cube(1), 0.21);
+  for (const auto &t : fine.triangles)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LE((fine.points[t[i]] - fine.points[t[(i + 1) % 3]]).norm(), 0.21);
+  EXPECT_NEAR(volume({"", fine.points, {}, fine.triangles}), 1., 1e-12);
+  EXPECT_EQ(fine.displacement.size(), fine.points.size());
 }
 
 TEST(Skin, SharpEdgesOfACubeAreItsTwelve)
@@ -176,7 +194,23 @@ TEST(Projection, HidesWhatStandsBehind)
 
 TEST(ModePicture, StaysSmallForAFineSkin)
 {
-  const std::string svg = mode_picture_svg(cube(150), "fine", "");
+  const Skin fine = cube(120); // 172 800 triangles
+  Scenery    scenery;
+  for (const Vector3d &x : fine.points)
+    scenery.points.push_back({x[0], x[1], x[2]});
+  scenery.triangles    = fine.triangles;
+  scenery.displacement = [&](const Eigen::VectorXd &) -> Eigen::VectorXd
+  {
+    Eigen::VectorXd u(3 * static_cast<long>(fine.points.size()));
+    for (std::size_t i = 0; i < fine.points.size(); ++i)
+      u.segment<3>(3 * static_cast<long>(i)) = fine.points[i];
+    return u;
+  };
+  const Scenery light = for_pictures(scenery);
+  const Skin    skin  = skin_of(light, Eigen::VectorXd());
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+    ASSERT_EQ(skin.points[i], skin.displacement[i]);
+  const std::string svg = mode_picture_svg(skin, "fine", "");
   EXPECT_LT(svg.size(), 300000u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
