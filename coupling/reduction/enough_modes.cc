@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double two_pi          = 6.283185307179586;
-constexpr int    first_modes     = 20;
+constexpr int    first_modes     = 30;
 constexpr int    most_modes      = 200;
 constexpr double growth          = 1.5;
 constexpr double reach           = 1.5; // highest fixed-interface mode over the limit, at least
@@ -101,7 +101,7 @@ void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::Fr
       return;
     }
   const auto inverse = [&](const double *f, double *x) { held.solve(f, x); };
-  const auto modes   = lowest_modes(frame.M, inverse, n_modes - old, basis.fixed_modes());
+  const auto modes   = lowest_modes(frame.C, frame.M, inverse, n_modes - old, basis.fixed_modes());
   basis.append(frame.M, modes.V, modes.omega);
 }
 

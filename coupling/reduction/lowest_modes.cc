@@ -168,8 +168,8 @@ LowestModes read_modes(EPS eps, int count, int n)
 
 } // namespace
 
-LowestModes lowest_modes(const Eigen::SparseMatrix<double> &M, const InverseStiffness &inverse, int count,
-                         const Eigen::Ref<const MatrixXd> &known)
+LowestModes lowest_modes(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
+                         const InverseStiffness &inverse, int count, const Eigen::Ref<const MatrixXd> &known)
 {
   const int n = int(M.rows());
   if (count == 0)
@@ -177,10 +177,7 @@ LowestModes lowest_modes(const Eigen::SparseMatrix<double> &M, const InverseStif
   fem::petsc_session();
   const QuietErrors quiet;
 
-  const Owned<Mat> mass = view_of(M);
-  Mat              stiffness_handle; // only its inverse is ever applied
-  require_success(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, nullptr, &stiffness_handle));
-  const Owned<Mat> stiffness(stiffness_handle);
+  const Owned<Mat> mass = view_of(M), stiffness = view_of(C);
 
   EPS handle;
   require_success(EPSCreate(PETSC_COMM_SELF, &handle));

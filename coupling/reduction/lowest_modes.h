@@ -23,12 +23,13 @@ struct LowestModes
  *
  * A solver that holds some coordinates (returns zero for them) gives the modes of the held structure.
  *
- * @param M        [n x n] symmetric, both triangles stored.
+ * @param C, M     [n x n] symmetric, both triangles stored.
  * @param count    number of modes wanted, 0 <= count <= n.
  * @param known    [n x k] modes found before, M-orthonormal: only higher ones are looked for.
  * @throws ConvergenceFailure with the number found.
  */
-LowestModes lowest_modes(const Eigen::SparseMatrix<double> &M, const InverseStiffness &inverse, int count,
+LowestModes lowest_modes(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
+                         const InverseStiffness &inverse, int count,
                          const Eigen::Ref<const Eigen::MatrixXd> &known);
 
 } // namespace gestell::coupling

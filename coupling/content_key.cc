@@ -1,0 +1,182 @@
+#include "coupling/content_key.h"
+
+#include <openssl/evp.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Raise it when a frame made from the same input comes out differently.
+constexpr const char *making = "gestell 0.1 frame 1";
+
+/// Text without ambiguity: "key=value;" with length of text before it, numbers exactly in hexadecimal.
+class Canonical
+{
+public:
+  Canonical &add(const char *key, const std::string &value)
+  {
+    text_ << key << '=' << value.size() << ':' << value << ';';
+    return *this;
+  }
+  Canonical &add(const char *key, double value)
+  {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%a", value == 0. ? 0. : value); // no minus zero
+    return add(key, std::string(digits));
+  }
+  Canonical &add(const char *key, int value) { return add(key, std::to_string(value)); }
+  Canonical &add(const char *key, bool value) { return add(key, std::string(value ? "yes" : "no")); }
+  Canonical &add(const char *key, const fem::Vector3 &value)
+  {
+    return add(key, value[0]).add(key, value[1]).add(key, value[2]);
+  }
+  Canonical &add(const char *key, const std::vector<std::string> &values)
+  {
+    add(key, int(values.size()));
+    for (const auto &value : values)
+      add(key, value);
+    return *this;
+  }
+  std::string text() const { return text_.str(); }
+
+private:
+  std::ostringstream text_;
+};
+
+void add(Canonical &to, const fem::SurfaceSelector &selector)
+{
+  if (selector.cylinder)
+    to.add("axis", selector.cylinder->axis)
+      .add("through", selector.cylinder->through)
+      .add("radius", selector.cylinder->radius);
+  if (selector.plane)
+    to.add("normal", selector.plane->normal).add("through", selector.plane->through);
+  if (selector.box)
+    to.add("min", selector.box->min).add("max", selector.box->max);
+  if (selector.group)
+    to.add("group", *selector.group);
+  if (selector.tolerance)
+    to.add("tolerance", *selector.tolerance);
+  to.add("faces", selector.faces);
+}
+
+void add(Canonical &to, const fem::Support &support)
+{
+  to.add("support", support.name).add("surfaces", support.surfaces).add("kind", int(support.kind));
+  for (const bool held : support.held)
+    to.add("held", held);
+  to.add("stiffness", support.stiffness).add("damping", support.damping);
+}
+
+void add(Canonical &to, const fem::InterfaceSpecification &interface)
+{
+  to.add("interface", interface.name).add("surfaces", interface.surfaces).add("coupling", int(interface.coupling));
+  if (interface.position)
+    to.add("position", *interface.position);
+}
+
+std::string canonical(const fem::FrameSpecification &frame)
+{
+  Canonical to;
+  to.add("kind", std::filesystem::path(frame.cad).extension().string()).add("unit", frame.unit);
+  to.add("size", frame.mesh.size).add("max_cells", frame.mesh.max_cells);
+  for (const auto &[name, size] : frame.mesh.surface_size)
+    to.add("surface", name).add("size", size);
+  to.add("E", frame.material.E).add("nu", frame.material.nu).add("rho", frame.material.rho);
+  to.add("zeta", frame.modal_damping_ratio);
+  for (const auto &[name, selector] : frame.surfaces)
+    {
+      to.add("surface", name);
+      add(to, selector);
+    }
+  for (const auto &support : frame.supports)
+    add(to, support);
+  for (const auto &interface : frame.interfaces)
+    add(to, interface);
+  for (const auto &cut : frame.cuts)
+    to.add("cut", cut.name).add("through", cut.through).add("normal", cut.normal);
+  return to.text();
+}
+
+std::string canonical(const ReductionOptions &options)
+{
+  Canonical to;
+  to.add("n_modes", options.n_modes < 0 ? -1 : options.n_modes);
+  if (options.n_modes < 0)
+    to.add("tolerance", options.tolerance).add("frequency", options.frequency);
+  return to.text();
+}
+
+class Sha256
+{
+public:
+  Sha256()
+    : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free)
+  {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
+      throw std::runtime_error("content_key: SHA-256 of OpenSSL is not available");
+  }
+  void update(const void *bytes, std::size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
+  std::string hexadecimal()
+  {
+    unsigned char bytes[EVP_MAX_MD_SIZE];
+    unsigned int  size = 0;
+    EVP_DigestFinal_ex(context_.get(), bytes, &size);
+    std::string text;
+    char        digits[3];
+    for (unsigned int i = 0; i < size; ++i)
+      {
+        std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
+        text += digits;
+      }
+    return text;
+  }
+
+private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+void add_file(Sha256 &hash, const std::string &name)
+{
+  std::ifstream   file(name, std::ios::binary);
+  std::error_code error;
+  const auto      size = std::filesystem::file_size(name, error);
+  if (!file || error)
+    throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+  const std::string head = "file:" + std::to_string(size) + ";";
+  hash.update(head.data(), head.size());
+  std::vector<char> block(1 << 20);
+  while (file.read(block.data(), std::streamsize(block.size())) || file.gcount() > 0)
+    hash.update(block.data(), std::size_t(file.gcount()));
+}
+
+} // namespace
+
+std::string content_key(const std::vector<std::string> &files, const std::string &text, const ReductionOptions &options)
+{
+  Sha256 hash;
+  for (const auto &file : files)
+    add_file(hash, file);
+  Canonical head;
+  head.add("making", std::string(making)).add("text", text).add("options", canonical(options));
+  const std::string all = head.text();
+  hash.update(all.data(), all.size());
+  return hash.hexadecimal();
+}
+
+std::string content_key(const fem::FrameSpecification &frame, const ReductionOptions &options)
+{
+  return content_key({frame.cad}, canonical(frame), options);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * A small HDF5 file of named arrays and texts, open for writing or for reading; names may be paths ("outputs/0/on_q").
+ *
+ * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names the
+ * file and the array.
+ */
+class Hdf5File
+{
+public:
+  enum class Mode
+  {
+    create,
+    read
+  };
+  Hdf5File(const std::string &file, Mode mode);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File &)            = delete;
+  Hdf5File &operator=(const Hdf5File &) = delete;
+
+  /// Writes everything out; a file that is only destroyed may be incomplete.
+  void close();
+
+  bool has(const std::string &name) const;
+
+  void write(const std::string &name, const Eigen::MatrixXd &A);
+  void write(const std::string &name, const Eigen::MatrixXf &A);
+  void write(const std::string &name, const Eigen::MatrixXi &A);
+  void write(const std::string &name, const std::string &text);
+
+  Eigen::MatrixXd read_matrix(const std::string &name) const;
+  Eigen::VectorXd read_vector(const std::string &name) const; ///< a matrix of one column
+  Eigen::MatrixXf read_floats(const std::string &name) const;
+  Eigen::MatrixXi read_integers(const std::string &name) const;
+  std::string     read_text(const std::string &name) const;
+  double          read_number(const std::string &name) const;
+
+private:
+  template <typename Matrix>
+  void write_array(const std::string &name, const Matrix &A, std::int64_t type);
+  template <typename Matrix>
+  Matrix read_array(const std::string &name, std::int64_t type, int type_class) const;
+
+  std::string  file_;
+  std::int64_t handle_ = -1;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,234 @@
+#include "coupling/matrix_market.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+std::string lower_case(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+/// The file, line by line, with messages that say where.
+class Reader
+{
+public:
+  explicit Reader(const std::string &name)
+    : name_(name)
+    , file_(name)
+  {
+    if (!file_)
+      throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+  }
+
+  [[noreturn]] void fail(const std::string &expected) const
+  {
+    std::string shown = line_.substr(0, 60) + (line_.size() > 60 ? "..." : "");
+    throw std::invalid_argument(name_ + ":" + std::to_string(number_) + ": '" + shown + "': " + expected);
+  }
+
+  [[noreturn]] void fail_at_end(const std::string &expected) const
+  {
+    throw std::invalid_argument(name_ + ":" + std::to_string(number_) + ": the file ends here, but " + expected);
+  }
+
+  /// Next line, carriage return removed; false at the end.
+  bool next()
+  {
+    if (!std::getline(file_, line_))
+      return false;
+    ++number_;
+    if (!line_.empty() && line_.back() == '\r')
+      line_.pop_back();
+    rest_ = line_.c_str();
+    return true;
+  }
+
+  /// Next line that is neither empty nor a comment.
+  bool next_entry()
+  {
+    while (next())
+      if (line_.find_first_not_of(" \t") != std::string::npos && line_[0] != '%')
+        return true;
+    return false;
+  }
+
+  const std::string &line() const { return line_; }
+
+  int integer(const char *expected)
+  {
+    char      *end;
+    const long value = std::strtol(rest_, &end, 10);
+    if (end == rest_ || value < 0 || value > std::numeric_limits<int>::max())
+      fail(expected);
+    rest_ = end;
+    return int(value);
+  }
+
+  double real(const char *expected)
+  {
+    char        *end;
+    const double value = std::strtod(rest_, &end);
+    if (end == rest_ || !std::isfinite(value))
+      fail(expected);
+    rest_ = end;
+    return value;
+  }
+
+  void end_of_line(const char *expected) const
+  {
+    for (const char *c = rest_; *c; ++c)
+      if (!std::isspace(static_cast<unsigned char>(*c)))
+        fail(expected);
+  }
+
+private:
+  std::string   name_;
+  std::ifstream file_;
+  std::string   line_;
+  const char   *rest_   = nullptr;
+  long          number_ = 0;
+};
+
+struct Header
+{
+  bool coordinate, symmetric;
+};
+
+Header read_header(Reader &reader)
+{
+  const char *expected = "expected the head line of a MatrixMarket file, "
+                         "'%%MatrixMarket matrix coordinate|array real|integer general|symmetric'";
+  if (!reader.next())
+    reader.fail_at_end(expected);
+  std::istringstream         words(reader.line());
+  std::array<std::string, 5> word;
+  for (auto &w : word)
+    words >> w;
+  for (std::size_t i = 1; i < word.size(); ++i)
+    word[i] = lower_case(word[i]);
+  if (word[0] != "%%MatrixMarket" || word[1] != "matrix" || (word[2] != "coordinate" && word[2] != "array"))
+    reader.fail(expected);
+  if (word[3] != "real" && word[3] != "integer")
+    reader.fail("only real and integer matrices are read, not '" + word[3] + "'");
+  if (word[4] != "general" && word[4] != "symmetric")
+    reader.fail("only general and symmetric matrices are read, not '" + word[4] + "'");
+  return {word[2] == "coordinate", word[4] == "symmetric"};
+}
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+void add(Entries &entries, int row, int column, double value, bool symmetric)
+{
+  entries.emplace_back(row, column, value);
+  if (symmetric && row != column)
+    entries.emplace_back(column, row, value);
+}
+
+void read_coordinates(Reader &reader, int rows, int columns, int count, bool symmetric, Entries &entries)
+{
+  const char *expected = "expected 'row column value'";
+  entries.reserve(std::min<std::size_t>(std::size_t(count) * (symmetric ? 2 : 1), 100000000));
+  for (int k = 0; k < count; ++k)
+    {
+      if (!reader.next_entry())
+        reader.fail_at_end(std::to_string(count) + " entries are announced and " + std::to_string(k) + " were found");
+      const int    row = reader.integer(expected), column = reader.integer(expected);
+      const double value = reader.real(expected);
+      reader.end_of_line(expected);
+      if (row < 1 || row > rows || column < 1 || column > columns)
+        reader.fail("row and column count from 1 to " + std::to_string(rows) + " and " + std::to_string(columns));
+      if (symmetric && column > row)
+        reader.fail("a symmetric file holds the lower triangle, row >= column");
+      add(entries, row - 1, column - 1, value, symmetric);
+    }
+}
+
+void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &entries)
+{
+  for (int column = 0; column < columns; ++column)
+    for (int row = symmetric ? column : 0; row < rows; ++row)
+      {
+        if (!reader.next_entry())
+          reader.fail_at_end("values from row " + std::to_string(row + 1) + " of column " + std::to_string(column + 1) +
+                             " on are missing");
+        const double value = reader.real("expected one value");
+        reader.end_of_line("expected one value");
+        if (value != 0.)
+          add(entries, row, column, value, symmetric);
+      }
+}
+
+} // namespace
+
+Matrix read_matrix_market(const std::string &file)
+{
+  Reader       reader(file);
+  const Header header   = read_header(reader);
+  const char  *expected = header.coordinate ? "expected 'rows columns entries'" : "expected 'rows columns'";
+  if (!reader.next_entry())
+    reader.fail_at_end(std::string(expected + 9) + " is missing");
+  const int rows = reader.integer(expected), columns = reader.integer(expected);
+  const int count = header.coordinate ? reader.integer(expected) : 0;
+  reader.end_of_line(expected);
+  if (header.symmetric && rows != columns)
+    reader.fail("a symmetric matrix must be square");
+
+  Entries entries;
+  if (header.coordinate)
+    read_coordinates(reader, rows, columns, count, header.symmetric, entries);
+  else
+    read_array(reader, rows, columns, header.symmetric, entries);
+  if (reader.next_entry())
+    reader.fail("more entries than announced");
+  Matrix A(rows, columns);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+void write_matrix_market(const std::string &file, const Matrix &A, Symmetry symmetry, const std::string &remark)
+{
+  const bool lower = symmetry == Symmetry::symmetric;
+  long       count = 0;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Matrix::InnerIterator a(A, j); a; ++a)
+      count += !lower || a.row() >= j;
+
+  std::ofstream out(file);
+  out << "%%MatrixMarket matrix coordinate real " << (lower ? "symmetric" : "general") << '\n';
+  std::istringstream lines(remark);
+  for (std::string line; std::getline(lines, line);)
+    out << "% " << line << '\n';
+  out << A.rows() << ' ' << A.cols() << ' ' << count << '\n';
+  char digits[40];
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Matrix::InnerIterator a(A, j); a; ++a)
+      if (!lower || a.row() >= j)
+        {
+          std::snprintf(digits, sizeof digits, "%.17g", a.value());
+          out << a.row() + 1 << ' ' << j + 1 << ' ' << digits << '\n';
+        }
+  out.close();
+  if (!out)
+    throw std::runtime_error(file + ": cannot be written; check the folder, its permissions and the space left");
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * Reads a matrix in the exchange format MatrixMarket: coordinate or array, real or integer, general or symmetric.  A
+ * symmetric file holds one triangle; both come back.  Entries named twice are added.
+ *
+ * @throws std::invalid_argument with file and line, the offending text and what was expected.
+ */
+Eigen::SparseMatrix<double> read_matrix_market(const std::string &file);
+
+enum class Symmetry
+{
+  general,
+  symmetric ///< only the lower triangle is written
+};
+
+/// Writes in coordinate form with all digits; entries column by column.  `remark` becomes a comment.
+/// @throws std::runtime_error if the file cannot be written.
+void write_matrix_market(const std::string &file, const Eigen::SparseMatrix<double> &A, Symmetry symmetry,
+                         const std::string &remark = {});
+
+} // namespace gestell::coupling
