@@ -40,8 +40,8 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
 /// q [n] of the configuration that modes are asked for.
 Eigen::VectorXd modes_configuration(const Scene &scene, const coupling::Machine &machine);
 
-/// Builds the machine on a frame that only has the right names, and with it all signals and states: what is wrong in a
-/// scene beyond read_scene() comes up here.  Computes nothing.  Frames from a reduced file are not checked.
+/// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
+/// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.
 void check_scene(const Scene &scene);
 
 /// Refuses a scene without what `gestell run` needs.

@@ -1,48 +1,71 @@
 #include "apps/scene/build_machine.h"
+#include "coupling/reduced_frame_file.h"
+
+#include <utility>
 
 namespace gestell::apps
 {
 namespace
 {
 
-/// A frame that has the interfaces and outputs of the scene and no physics.
-coupling::ReducedFrame stand_in_frame(const fem::FrameSpecification &specification)
+/// A frame that has these interfaces and outputs, and no physics.
+coupling::ReducedFrame stand_in_frame(std::vector<fem::Interface> interfaces, const std::vector<std::string> &outputs)
 {
   coupling::ReducedFrame frame;
-  const int              n = 6 * specification.interfaces.size();
+  int                    n = 0;
+  for (auto &interface : interfaces)
+    for (int &coordinate : interface.coordinate)
+      coordinate = coordinate < 0 ? -1 : n++;
   frame.M = frame.C       = Eigen::MatrixXd::Identity(n, n);
   frame.B                 = Eigen::MatrixXd::Zero(n, n);
   frame.n_interface       = n;
   frame.translations_load = Eigen::MatrixXd::Zero(n, 3);
-  for (const auto &interface : specification.interfaces)
-  {
-    fem::Interface own;
-    own.name     = interface.name;
-    own.position = interface.position.value_or(fem::Vector3{});
-    for (int i = 0; i < 6; ++i)
-      own.coordinate[i] = 6 * frame.interfaces.size() + i;
-    frame.interfaces.push_back(own);
-  }
-  const auto add_output = [&](const std::string &name) {
+  frame.interfaces        = std::move(interfaces);
+  for (const auto &name : outputs)
     frame.outputs.push_back({name, "N", Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)});
-  };
+  return frame;
+}
+
+coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification)
+{
+  std::vector<fem::Interface> interfaces;
+  for (const auto &interface : specification.interfaces)
+    interfaces.push_back(
+        {interface.name, interface.position.value_or(fem::Vector3{}), {0, 1, 2, 3, 4, 5}, {1., 1., 1., 1., 1., 1.}});
+  std::vector<std::string> outputs;
   for (const auto &cut : specification.cuts)
-    add_output("cut." + cut.name);
+    outputs.push_back("cut." + cut.name);
   for (const auto &support : specification.supports)
     for (const std::string direction : {"x", "y", "z"})
-      add_output("support." + support.name + "." + direction);
-  return frame;
+      outputs.push_back("support." + support.name + "." + direction);
+  return stand_in_frame(interfaces, outputs);
+}
+
+/// Only the sizes of matrices that are too large to be looked at in no time.
+coupling::ReducedFrame stand_in_for(const fem::FrameMatrices &matrices)
+{
+  std::vector<std::string> outputs;
+  for (const auto &output : matrices.outputs)
+    outputs.push_back(output.name);
+  return stand_in_frame(matrices.interfaces, outputs);
+}
+
+coupling::Machine machine_to_check(const Scene &scene)
+{
+  const FramePath path = frame_path(scene);
+  if (path == FramePath::none || path == FramePath::dense)
+    return build_machine(scene);
+  if (path == FramePath::from_file)
+    return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
+  return build_machine(scene, scene.frame.source == FrameSource::geometry ? stand_in_for(scene.frame.geometry)
+                                                                          : stand_in_for(scene.frame.matrices));
 }
 
 } // namespace
 
 void check_scene(const Scene &scene)
 {
-  const FrameSource source = scene.frame.source;
-  if (source == FrameSource::reduced_file)
-    return;
-  auto machine = source == FrameSource::geometry ? build_machine(scene, stand_in_frame(scene.frame.geometry))
-                                                 : build_machine(scene);
+  auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
   modes_configuration(scene, machine);
   if (scene.start.rule == StartRule::given)

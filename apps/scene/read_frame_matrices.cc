@@ -1,6 +1,7 @@
 #include "apps/scene/names.h"
 #include "apps/scene/nearest_name.h"
 #include "apps/scene/read_frame.h"
+#include "coupling/matrix_market.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -38,7 +39,15 @@ Sparse read_any(const SceneTable &frame, const std::string &key, const Kind &kin
 {
   if (!frame.is_text(key))
     return dense(frame.matrix(key, kind)).sparseView();
-  throw frame.error(key, "matrices from files cannot be read yet; write the rows inline");
+  const std::string path = frame.file(key);
+  try
+  {
+    return coupling::read_matrix_market(path);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw frame.error(key, e.what());
+  }
 }
 
 void check_symmetry(const SceneTable &frame, const std::string &key, const Sparse &A)

@@ -355,6 +355,26 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
   }
 }
 
+TEST(SceneFrame, MatricesFromFilesAreThoseWrittenInline)
+{
+  const SceneFolder folder;
+  folder.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 9500\n2 2 13000\n");
+  folder.write("bad.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 9500\n");
+  const std::string inline_mass = "[[\"9.5 t\", 0], [0, \"13 t\"]]";
+  const auto        scene       = apps::read_scene(folder.write("scene.toml", small_scene(inline_mass, "\"M.mtx\"")));
+  EXPECT_EQ(Eigen::MatrixXd(scene.frame.matrices.M), Eigen::MatrixXd(read(small_scene()).frame.matrices.M));
+  EXPECT_THROW(apps::read_scene(folder.write("bad.toml", small_scene(inline_mass, "\"bad.mtx\""))),
+               std::invalid_argument);
+}
+
+TEST(SceneFrame, OfMatricesToBeReducedIsCheckedByItsNames)
+{
+  const std::string reduction = "[reduction]\nmethod = \"craig-bampton\"\n[run]";
+  EXPECT_EQ(complaint(small_scene("[run]", reduction)), "");
+  EXPECT_NE(complaint(small_scene("[run]", reduction), {"output.signals.x1=frame.crwn.uz"}).find("frame.crown.uz"),
+            std::string::npos);
+}
+
 // --- documentation
 
 std::string text_of(const std::filesystem::path &path)
