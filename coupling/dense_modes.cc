@@ -18,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double massless = 1e-13; // mu relative to the largest, below which a mode has no mass
-constexpr double cancelled = 1e-12; // share of v^T C v left of its terms, below which v is a rigid motion
 constexpr double rigid    = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
@@ -29,7 +28,7 @@ VectorXd unit_diagonal(const MatrixXd &A)
 
 /// Smallest C_ii / M_ii that is more than rounding beside the largest; an upper bound of the lowest omega^2 that is not 0.
 /// `floating` tells whether smaller ones were left out.
-double lowest_quotient(const MatrixXd &C, const MatrixXd &M, bool &floating)
+double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, bool &floating)
 {
   VectorXd quotients(C.rows());
   int      n = 0;
@@ -66,12 +65,12 @@ void require_motion(const MatrixXd &A, const Eigen::LLT<MatrixXd> &factor)
 
 } // namespace
 
-DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M)
+DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
 {
   if (C.rows() == 0)
     return {};
   bool           floating = false;
-  const double   lowest   = lowest_quotient(C, M, floating);
+  const double   lowest   = lowest_quotient(C, M, cancelled, floating);
   const double   s        = !floating && is_regular(C) ? 0. : lowest;
   const MatrixXd A = C + s * M;
   const VectorXd d = unit_diagonal(A);

@@ -19,14 +19,6 @@ MatrixXd symmetric(const MatrixXd &A)
   return 0.5 * (A + A.transpose());
 }
 
-MatrixXd rows(const MatrixXd &A, const std::vector<int> &index)
-{
-  MatrixXd picked(index.size(), A.cols());
-  for (std::size_t i = 0; i < index.size(); ++i)
-    picked.row(i) = A.row(index[i]);
-  return picked;
-}
-
 } // namespace
 
 MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X)
@@ -85,7 +77,7 @@ ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix
   star.M.bottomLeftCorner(m, n1) = star.M.topRightCorner(n1, m).transpose();
 
   star.C                           = MatrixXd::Zero(n1 + m, n1 + m);
-  star.C.topLeftCorner(n1, n1)     = symmetric(rows(symmetric_product(C, Psi), basis.q1));
+  star.C.topLeftCorner(n1, n1)     = symmetric(Psi.transpose() * symmetric_product(C, Psi));
   star.C.bottomRightCorner(m, m).diagonal() = basis.omega0.cwiseAbs2();
 
   star.B = MatrixXd::Zero(n1 + m, n1 + m);

@@ -40,7 +40,9 @@ struct ReducedMatrices
  * M*, B*, C* by the blocks of (5.5.3/20): M*_22 = E, C*_12 = 0 and C*_22 = diag(omega0^2) are not computed but known.
  * With Psi the constraint modes and V the fixed-interface modes, both padded as in ReductionBasis,
  *
- *     M*_11 = Psi^T M Psi,   M*_12 = (M Psi)^T V,   C*_11 = C11 + C12 Psi2,   B* = T^T B T.
+ *     M*_11 = Psi^T M Psi,   M*_12 = (M Psi)^T V,   C*_11 = Psi^T C Psi,   B* = T^T B T.
+ *
+ * C*_11 = C11 - C12 C22^-1 C21 is taken as this energy because errors of Psi enter it squared: rigid motions stay free.
  */
 ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B,
                                  const Eigen::SparseMatrix<double> &C);

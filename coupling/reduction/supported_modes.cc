@@ -15,7 +15,8 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double singular = 1e-11; // eigenvalue of S scaled to unit diagonal, below which a motion is rigid
+constexpr double cancelled = 1e-10; // as `cancelled` of dense_modes(): C*_11 is the difference of far larger matrices
+constexpr double singular  = 1e-11; // eigenvalue of S scaled to unit diagonal, below which a motion is rigid
 
 /// S^-1, on the complement of the null space if S is singular.
 MatrixXd pseudo_inverse(const MatrixXd &S)
@@ -36,7 +37,7 @@ SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basi
                                const Eigen::SparseMatrix<double> &M)
 {
   const int        n1   = basis.n1();
-  const DenseModes ritz = dense_modes(star.C, star.M);
+  const DenseModes ritz = dense_modes(star.C, star.M, cancelled);
 
   SupportedModes modes;
   modes.n_rigid        = int((ritz.omega.array() == 0.).count());
@@ -65,7 +66,7 @@ FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m,
 {
   const int         n = n1 + m;
   FrequencyEstimate estimate;
-  estimate.omega = dense_modes(star.C.topLeftCorner(n, n), star.M.topLeftCorner(n, n)).omega;
+  estimate.omega = dense_modes(star.C.topLeftCorner(n, n), star.M.topLeftCorner(n, n), cancelled).omega;
   estimate.error = VectorXd::Zero(estimate.omega.size());
   for (int j = refined.n_rigid; j < estimate.omega.size() && j - refined.n_rigid < refined.omega.size(); ++j)
     estimate.error(j) = std::max(0., estimate.omega(j) / refined.omega(j - refined.n_rigid) - 1.);

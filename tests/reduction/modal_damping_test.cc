@@ -1,0 +1,141 @@
+#include "coupling/reduction/craig_bampton.h"
+
+#include "coupling/dense_base.h"
+#include "coupling/dense_modes.h"
+#include "coupling/reduction/held_frame.h"
+#include "coupling/reduction/supported_modes.h"
+#include "lattice.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell
+{
+namespace
+{
+
+using coupling::craig_bampton;
+using coupling::dense_modes;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::frame_of;
+using test::Lattice;
+
+coupling::ReductionOptions with_modes(int n_modes)
+{
+  coupling::ReductionOptions options;
+  options.n_modes = n_modes;
+  return options;
+}
+
+fem::FrameMatrices without_dampers(Lattice lattice)
+{
+  lattice.damper = 0.;
+  return frame_of(lattice);
+}
+
+TEST(ModalDamping, GivesEveryModeOfTheFullFrameItsRatio)
+{
+  auto frame                = without_dampers(Lattice());
+  frame.modal_damping_ratio = 0.03;
+  coupling::add_modal_damping(frame, 15);
+  const auto modes = dense_modes(frame.C, frame.M);
+  const auto ratio = [&](int j) {
+    const VectorXd z = frame.modal_damping.Z.transpose() * modes.V.col(j);
+    return z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j));
+  };
+  for (int j = 0; j < 15; ++j)
+    EXPECT_NEAR(ratio(j), 0.03, 1e-10);
+  EXPECT_NEAR(ratio(15), 0., 1e-10); // orthogonality: no mode above feels it
+}
+
+TEST(ModalDamping, ForTheSameModesIsTheSameOperatorInTheFullAndInTheReducedModel)
+{
+  auto       frame          = without_dampers(Lattice());
+  const int  n2             = int(frame.M.rows() - frame.interface_coordinates().size());
+  frame.modal_damping_ratio = 0.02;
+  const auto reduced        = craig_bampton(frame, with_modes(n2)); // all modes: T is a change of coordinates
+  const auto basis          = coupling::craig_bampton_basis(frame, n2);
+  coupling::add_modal_damping(frame, int(frame.M.rows()));
+  const auto    &damping = frame.modal_damping;
+  const MatrixXd TZ      = basis.T.transpose() * damping.Z;
+  const MatrixXd B       = TZ * damping.d.asDiagonal() * TZ.transpose();
+  EXPECT_LT((B - reduced.B).norm(), 1e-9 * B.norm());
+}
+
+TEST(ModalDamping, OfTheReducedModelIsTheRatioWithinTheErrorOfItsModes)
+{
+  auto frame                = without_dampers(Lattice());
+  frame.modal_damping_ratio = 0.02;
+  const auto reduced        = craig_bampton(frame, with_modes(40));
+  const auto lines          = coupling::DenseBase(reduced.M, reduced.B, reduced.C, {}).spectrum();
+  ASSERT_EQ(reduced.frequency_error.size(), Eigen::Index(lines.size()));
+  // a mode with frequency error e meets its refined self up to an angle of the order of sqrt(2 e)
+  for (int j = 0; j < 12; ++j)
+    EXPECT_NEAR(lines[j].zeta, 0.02, 0.02 * (1e-9 + 4. * reduced.frequency_error(j))) << "mode " << j;
+}
+
+TEST(ModalDamping, LeavesRigidMotionsOfAFloatingFrameAlone)
+{
+  Lattice lattice;
+  lattice.foundation        = 0.;
+  auto frame                = without_dampers(lattice);
+  frame.modal_damping_ratio = 0.05;
+  const auto reduced        = craig_bampton(frame, with_modes(20));
+  const auto R = coupling::craig_bampton_basis(frame, 20).T.householderQr().solve(frame.rigid_motions).eval();
+  EXPECT_LT((R.transpose() * reduced.B * R).norm(), 1e-12 * reduced.B.norm() * R.squaredNorm());
+  EXPECT_LT((R.transpose() * reduced.C * R).norm(), 1e-12 * reduced.C.norm() * R.squaredNorm());
+  EXPECT_EQ(reduced.frequencies_hz.head(6).norm(), 0.);
+  EXPECT_GT(reduced.frequencies_hz(6), 1.);
+  EXPECT_THROW(coupling::add_modal_damping(frame, 5), std::invalid_argument); // needs a support
+}
+
+TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
+{
+  const auto     frame   = frame_of(Lattice());
+  const VectorXd exact   = dense_modes(frame.C, frame.M).omega;
+  const auto     reduced = craig_bampton(frame, with_modes(12));
+  for (int j = 0; j < 10; ++j)
+    {
+      const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
+      EXPECT_LE(reduced.frequency_error(j), error * (1. + 1e-6) + 1e-10); // the refined ones come from above too
+      EXPECT_GE(reduced.frequency_error(j), 0.5 * error - 1e-10);
+    }
+}
+
+TEST(AutomaticNumber, KeepsTheFrequenciesWithinTheToleranceWithTheFewestModes)
+{
+  const auto                 frame = frame_of(Lattice());
+  const VectorXd             exact = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
+  coupling::ReductionOptions options;
+  int                        previous = 0;
+  for (const double tolerance : {0.05, 0.005, 0.0005})
+    {
+      options.tolerance  = tolerance;
+      options.frequency  = exact(14) * 1.0001;
+      const auto reduced = craig_bampton(frame, options);
+      const int  m       = int(reduced.omega0.size());
+      const auto worst   = [&](const VectorXd &found) {
+        return (found.head(15) - exact.head(15)).cwiseQuotient(exact.head(15)).maxCoeff();
+      };
+      EXPECT_LE(worst(reduced.frequencies_hz), 1.1 * tolerance); // the estimate is no bound, but close
+      EXPECT_GE(worst(craig_bampton(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
+      EXPECT_GE(m, previous);
+      EXPECT_TRUE(reduced.notes.empty());
+      previous = m;
+    }
+}
+
+TEST(AutomaticNumber, TellsWhereItStopsShort)
+{
+  coupling::ReductionOptions options;
+  options.tolerance  = 1e-9;
+  options.frequency  = 50.;
+  Lattice lattice;
+  lattice.nx = 9, lattice.ny = 5, lattice.nz = 9;
+  const auto reduced = craig_bampton(frame_of(lattice), options);
+  ASSERT_EQ(reduced.notes.size(), 1u);
+  EXPECT_NE(reduced.notes[0].find("above the tolerance"), std::string::npos) << reduced.notes[0];
+}
+
+} // namespace
+} // namespace gestell
