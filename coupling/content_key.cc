@@ -57,8 +57,8 @@ void add(Canonical &to, const fem::SurfaceSelector &selector)
 {
   if (selector.cylinder)
     to.add("axis", selector.cylinder->axis)
-      .add("through", selector.cylinder->through)
-      .add("radius", selector.cylinder->radius);
+        .add("through", selector.cylinder->through)
+        .add("radius", selector.cylinder->radius);
   if (selector.plane)
     to.add("normal", selector.plane->normal).add("through", selector.plane->through);
   if (selector.box)
@@ -95,10 +95,10 @@ std::string canonical(const fem::FrameSpecification &frame)
   to.add("E", frame.material.E).add("nu", frame.material.nu).add("rho", frame.material.rho);
   to.add("zeta", frame.modal_damping_ratio);
   for (const auto &[name, selector] : frame.surfaces)
-    {
-      to.add("surface", name);
-      add(to, selector);
-    }
+  {
+    to.add("surface", name);
+    add(to, selector);
+  }
   for (const auto &support : frame.supports)
     add(to, support);
   for (const auto &interface : frame.interfaces)
@@ -120,13 +120,12 @@ std::string canonical(const ReductionOptions &options)
 class Sha256
 {
 public:
-  Sha256()
-    : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free)
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free)
   {
     if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
       throw std::runtime_error("content_key: SHA-256 of OpenSSL is not available");
   }
-  void update(const void *bytes, std::size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
+  void        update(const void *bytes, std::size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
   std::string hexadecimal()
   {
     unsigned char bytes[EVP_MAX_MD_SIZE];
@@ -135,10 +134,10 @@ public:
     std::string text;
     char        digits[3];
     for (unsigned int i = 0; i < size; ++i)
-      {
-        std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
-        text += digits;
-      }
+    {
+      std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
+      text += digits;
+    }
     return text;
   }
 

@@ -39,14 +39,14 @@ void require(bool condition, const std::string &message)
 
 [[noreturn]] void refuse_singular(int coordinate)
 {
-  throw std::invalid_argument("DenseBase: the matrix of the time step is singular at coordinate " +
-                              std::to_string(coordinate) +
-                              ": it has neither mass nor damping nor stiffness of its own; give it one of them or remove it");
+  throw std::invalid_argument(
+      "DenseBase: the matrix of the time step is singular at coordinate " + std::to_string(coordinate) +
+      ": it has neither mass nor damping nor stiffness of its own; give it one of them or remove it");
 }
 
 /**
- * A^-1 of a symmetric matrix: scaled to unit diagonal, inverted by Cholesky (or by LU if A is indefinite), and improved by
- * one step of Newton's iteration X <- X (2 E - A X), which squares what rounding left.
+ * A^-1 of a symmetric matrix: scaled to unit diagonal, inverted by Cholesky (or by LU if A is indefinite), and improved
+ * by one step of Newton's iteration X <- X (2 E - A X), which squares what rounding left.
  *
  * @param names of the coordinates the rows of A stand for, for messages.
  */
@@ -56,26 +56,25 @@ MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
   if (n == 0)
     return A;
   const VectorXd d =
-    A.diagonal().unaryExpr([](double a) { return a != 0. && std::isfinite(a) ? 1. / std::sqrt(std::abs(a)) : 1.; });
-  const MatrixXd scaled = d.asDiagonal() * A * d.asDiagonal();
-  MatrixXd       X;
+      A.diagonal().unaryExpr([](double a) { return a != 0. && std::isfinite(a) ? 1. / std::sqrt(std::abs(a)) : 1.; });
+  const MatrixXd             scaled = d.asDiagonal() * A * d.asDiagonal();
+  MatrixXd                   X;
   const Eigen::LLT<MatrixXd> cholesky(scaled);
-  if (cholesky.info() == Eigen::Success &&
-      cholesky.matrixLLT().diagonal().cwiseAbs2().minCoeff() > regular)
+  if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().cwiseAbs2().minCoeff() > regular)
     X = cholesky.solve(MatrixXd::Identity(n, n));
   else
+  {
+    Eigen::FullPivLU<MatrixXd> lu(scaled);
+    lu.setThreshold(regular);
+    if (!scaled.allFinite() || !lu.isInvertible())
     {
-      Eigen::FullPivLU<MatrixXd> lu(scaled);
-      lu.setThreshold(regular);
-      if (!scaled.allFinite() || !lu.isInvertible())
-        {
-          int worst = 0;
-          if (scaled.allFinite())
-            lu.kernel().col(0).cwiseAbs().maxCoeff(&worst);
-          refuse_singular(names[worst]);
-        }
-      X = lu.inverse();
+      int worst = 0;
+      if (scaled.allFinite())
+        lu.kernel().col(0).cwiseAbs().maxCoeff(&worst);
+      refuse_singular(names[worst]);
     }
+    X = lu.inverse();
+  }
   X = (X * (2. * MatrixXd::Identity(n, n) - scaled * X)).eval();
   return d.asDiagonal() * (0.5 * (X + X.transpose())) * d.asDiagonal();
 }
@@ -84,10 +83,7 @@ MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
 class InverseSolver final : public LinearSolver
 {
 public:
-  explicit InverseSolver(MatrixXd A_inverse)
-    : A_inverse_(std::move(A_inverse))
-  {
-  }
+  explicit InverseSolver(MatrixXd A_inverse) : A_inverse_(std::move(A_inverse)) {}
   void solve(const VectorXd &f, VectorXd &x) const override { x.noalias() = A_inverse_ * f; }
 
 private:
@@ -99,12 +95,8 @@ class CondensedSolver final : public LinearSolver
 {
 public:
   CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const std::vector<int> &order)
-    : order_(order)
-    , inverse_LL_(A_LL.cwiseInverse())
-    , G_(inverse_LL_.asDiagonal() * A_LN)
-    , A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order))
-    , f_(order.size())
-    , x_(order.size())
+      : order_(order), inverse_LL_(A_LL.cwiseInverse()), G_(inverse_LL_.asDiagonal() * A_LN),
+        A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order)), f_(order.size()), x_(order.size())
   {
   }
 
@@ -132,11 +124,11 @@ std::vector<int> rest_then_modal(int n, const std::vector<int> &L)
 {
   std::vector<char> modal(n, 0);
   for (const int i : L)
-    {
-      require(i >= 0 && i < n, "modal coordinate " + std::to_string(i) + " lies outside 0.." + std::to_string(n - 1));
-      require(!modal[i], "modal coordinate " + std::to_string(i) + " is named twice");
-      modal[i] = 1;
-    }
+  {
+    require(i >= 0 && i < n, "modal coordinate " + std::to_string(i) + " lies outside 0.." + std::to_string(n - 1));
+    require(!modal[i], "modal coordinate " + std::to_string(i) + " is named twice");
+    modal[i] = 1;
+  }
   std::vector<int> order;
   for (int i = 0; i < n; ++i)
     if (!modal[i])
@@ -148,7 +140,7 @@ std::vector<int> rest_then_modal(int n, const std::vector<int> &L)
 void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
 {
   require(A.rows() == n && A.cols() == n, std::string(name) + " is " + std::to_string(A.rows()) + " x " +
-                                            std::to_string(A.cols()) + ", but M has " + std::to_string(n) + " rows");
+                                              std::to_string(A.cols()) + ", but M has " + std::to_string(n) + " rows");
   require(A.allFinite(), std::string(name) + " holds a value that is no number");
   require((A - A.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * A.cwiseAbs().maxCoeff(),
           std::string(name) + " is not symmetric");
@@ -157,13 +149,8 @@ void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
 } // namespace
 
 DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const std::vector<int> &modal_coordinates)
-  : M_(M)
-  , B_(B)
-  , C_(C)
-  , order_(rest_then_modal(int(M.rows()), modal_coordinates))
-  , n_N_(int(M.rows() - modal_coordinates.size()))
-  , x_(M.rows())
-  , y_(M.rows())
+    : M_(M), B_(B), C_(C), order_(rest_then_modal(int(M.rows()), modal_coordinates)),
+      n_N_(int(M.rows() - modal_coordinates.size())), x_(M.rows()), y_(M.rows())
 {
   const auto n_L = Eigen::Index(modal_coordinates.size());
   require(M.rows() > 0, "there are no coordinates");
@@ -204,10 +191,10 @@ void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
   else
     y_L = A.diagonal.cwiseProduct(x_L);
   if (A.LN.size() > 0)
-    {
-      y_N.noalias() += A.LN.transpose() * x_L;
-      y_L.noalias() += A.LN * x_N;
-    }
+  {
+    y_N.noalias() += A.LN.transpose() * x_L;
+    y_L.noalias() += A.LN * x_N;
+  }
   for (Eigen::Index i = 0; i < n; ++i)
     y(order_[i]) = y_(i);
 }
@@ -233,12 +220,12 @@ std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, doubl
   const MatrixXd A   = w_M * M_ + w_B * B_ + w_C * C_;
   require(A.allFinite(), "the weights of the time step are no finite numbers");
   if (n_L == 0 || (w_B != 0. && damping_.LL.size() > 0))
-    {
-      std::vector<int> all(order_.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = int(i);
-      return std::make_unique<InverseSolver>(inverse(A, all));
-    }
+  {
+    std::vector<int> all(order_.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = int(i);
+    return std::make_unique<InverseSolver>(inverse(A, all));
+  }
   const Blocks blocks = blocks_of(A);
   for (Eigen::Index i = 0; i < n_L; ++i)
     if (blocks.diagonal(i) == 0.)
@@ -252,10 +239,10 @@ std::vector<SpectrumLine> DenseBase::spectrum() const
   const DenseModes          modes = dense_modes(C_, M_);
   std::vector<SpectrumLine> lines;
   for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
-    {
-      const double omega = modes.omega(j), two_delta = modes.V.col(j).dot(B_ * modes.V.col(j));
-      lines.push_back({omega, omega > 0. ? two_delta / (2. * omega) : 0.});
-    }
+  {
+    const double omega = modes.omega(j), two_delta = modes.V.col(j).dot(B_ * modes.V.col(j));
+    lines.push_back({omega, omega > 0. ? two_delta / (2. * omega) : 0.});
+  }
   return lines;
 }
 

@@ -26,8 +26,8 @@ VectorXd unit_diagonal(const MatrixXd &A)
   return A.diagonal().unaryExpr([](double a) { return a > 0. ? 1. / std::sqrt(a) : 1.; });
 }
 
-/// Smallest C_ii / M_ii that is more than rounding beside the largest; an upper bound of the lowest omega^2 that is not 0.
-/// `floating` tells whether smaller ones were left out.
+/// Smallest C_ii / M_ii that is more than rounding beside the largest; an upper bound of the lowest omega^2 that is not
+/// 0. `floating` tells whether smaller ones were left out.
 double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, bool &floating)
 {
   VectorXd quotients(C.rows());
@@ -56,7 +56,7 @@ void require_motion(const MatrixXd &A, const Eigen::LLT<MatrixXd> &factor)
 {
   if (factor.info() == Eigen::Success)
     return;
-  int weakest;
+  int                                           weakest;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(A);
   modes.eigenvectors().col(0).cwiseAbs().maxCoeff(&weakest);
   throw std::invalid_argument("dense_modes: a motion of coordinate " + std::to_string(weakest) +
@@ -72,9 +72,9 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
   bool           floating = false;
   const double   lowest   = lowest_quotient(C, M, cancelled, floating);
   const double   s        = !floating && is_regular(C) ? 0. : lowest;
-  const MatrixXd A = C + s * M;
-  const VectorXd d = unit_diagonal(A);
-  const MatrixXd scaled = d.asDiagonal() * A * d.asDiagonal();
+  const MatrixXd A        = C + s * M;
+  const VectorXd d        = unit_diagonal(A);
+  const MatrixXd scaled   = d.asDiagonal() * A * d.asDiagonal();
 
   const Eigen::LLT<MatrixXd> L(scaled);
   require_motion(scaled, L);
@@ -93,13 +93,13 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
   L.matrixU().solveInPlace(modes.V);
   modes.V = d.asDiagonal() * modes.V;
   for (int j = 0; j < p; ++j)
-    {
-      auto v = modes.V.col(j);
-      v /= std::sqrt(v.dot(M * v));
-      const double square = v.dot(C * v);
-      const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
-      modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
-    }
+  {
+    auto v = modes.V.col(j);
+    v /= std::sqrt(v.dot(M * v));
+    const double square   = v.dot(C * v);
+    const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
+    modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
+  }
   return modes;
 }
 

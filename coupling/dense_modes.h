@@ -21,8 +21,8 @@ struct DenseModes
  * their own: p = rank M) and C may be singular (rigid motions).  s lies below the lowest quotient C_ii / M_ii and is
  * zero if C is regular, which keeps the low frequencies accurate; Rayleigh quotients mend the high ones.
  *
- * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without their
- *                   signs: what rounding in C leaves.
+ * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
+ * their signs: what rounding in C leaves.
  * @throws std::invalid_argument if a motion has neither stiffness nor mass, naming the coordinate it fails at.
  */
 DenseModes dense_modes(const Eigen::MatrixXd &C, const Eigen::MatrixXd &M, double cancelled = 1e-12);

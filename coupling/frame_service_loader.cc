@@ -25,9 +25,11 @@ fs::path plugin()
   const char *folder = std::getenv("GESTELL_PLUGIN_DIR");
   if (folder && fs::exists(fs::path(folder) / library, ignored))
     return fs::path(folder) / library;
-  throw std::invalid_argument("frame_service: " + beside.string() + " not found: this build of gestell cannot mesh and "
-                              "reduce frames; build it with GESTELL_FEM=ON, or set GESTELL_PLUGIN_DIR to the folder of " +
-                              library + ", or run from a reduced frame in the cache");
+  throw std::invalid_argument(
+      "frame_service: " + beside.string() +
+      " not found: this build of gestell cannot mesh and "
+      "reduce frames; build it with GESTELL_FEM=ON, or set GESTELL_PLUGIN_DIR to the folder of " +
+      library + ", or run from a reduced frame in the cache");
 }
 
 FrameService *load()

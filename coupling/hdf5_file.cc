@@ -14,11 +14,7 @@ namespace
 class Handle
 {
 public:
-  Handle(hid_t id, herr_t (*close)(hid_t))
-    : id_(id)
-    , close_(close)
-  {
-  }
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
   ~Handle()
   {
     if (id_ >= 0)
@@ -26,7 +22,7 @@ public:
   }
   Handle(const Handle &)            = delete;
   Handle &operator=(const Handle &) = delete;
-  operator hid_t() const { return id_; }
+          operator hid_t() const { return id_; }
 
 private:
   hid_t id_;
@@ -59,12 +55,11 @@ constexpr hsize_t most_values = hsize_t(1) << 31;
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::string &file, Mode mode)
-  : file_(file)
+Hdf5File::Hdf5File(const std::string &file, Mode mode) : file_(file)
 {
   const QuietErrors quiet;
-  handle_ = mode == Mode::create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT) :
-                                   H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  handle_ = mode == Mode::create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+                                 : H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (handle_ < 0)
     fail(file, mode == Mode::create ? "cannot be written" : "cannot be opened as HDF5");
 }
@@ -173,8 +168,8 @@ Eigen::MatrixXi Hdf5File::read_integers(const std::string &name) const
 
 std::string Hdf5File::read_text(const std::string &name) const
 {
-  const auto letters = read_array<Eigen::Matrix<signed char, Eigen::Dynamic, Eigen::Dynamic>>(name, H5T_NATIVE_SCHAR,
-                                                                                              H5T_INTEGER);
+  const auto letters =
+      read_array<Eigen::Matrix<signed char, Eigen::Dynamic, Eigen::Dynamic>>(name, H5T_NATIVE_SCHAR, H5T_INTEGER);
   return std::string(letters.data(), letters.data() + letters.size());
 }
 

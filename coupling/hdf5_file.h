@@ -12,8 +12,8 @@ namespace gestell::coupling
 /**
  * A small HDF5 file of named arrays and texts, open for writing or for reading; names may be paths ("outputs/0/on_q").
  *
- * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names the
- * file and the array.
+ * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names
+ * the file and the array.
  */
 class Hdf5File
 {

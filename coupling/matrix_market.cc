@@ -31,9 +31,7 @@ std::string lower_case(std::string text)
 class Reader
 {
 public:
-  explicit Reader(const std::string &name)
-    : name_(name)
-    , file_(name)
+  explicit Reader(const std::string &name) : name_(name), file_(name)
   {
     if (!file_)
       throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
@@ -148,33 +146,33 @@ void read_coordinates(Reader &reader, int rows, int columns, int count, bool sym
   const char *expected = "expected 'row column value'";
   entries.reserve(std::min<std::size_t>(std::size_t(count) * (symmetric ? 2 : 1), 100000000));
   for (int k = 0; k < count; ++k)
-    {
-      if (!reader.next_entry())
-        reader.fail_at_end(std::to_string(count) + " entries are announced and " + std::to_string(k) + " were found");
-      const int    row = reader.integer(expected), column = reader.integer(expected);
-      const double value = reader.real(expected);
-      reader.end_of_line(expected);
-      if (row < 1 || row > rows || column < 1 || column > columns)
-        reader.fail("row and column count from 1 to " + std::to_string(rows) + " and " + std::to_string(columns));
-      if (symmetric && column > row)
-        reader.fail("a symmetric file holds the lower triangle, row >= column");
-      add(entries, row - 1, column - 1, value, symmetric);
-    }
+  {
+    if (!reader.next_entry())
+      reader.fail_at_end(std::to_string(count) + " entries are announced and " + std::to_string(k) + " were found");
+    const int    row = reader.integer(expected), column = reader.integer(expected);
+    const double value = reader.real(expected);
+    reader.end_of_line(expected);
+    if (row < 1 || row > rows || column < 1 || column > columns)
+      reader.fail("row and column count from 1 to " + std::to_string(rows) + " and " + std::to_string(columns));
+    if (symmetric && column > row)
+      reader.fail("a symmetric file holds the lower triangle, row >= column");
+    add(entries, row - 1, column - 1, value, symmetric);
+  }
 }
 
 void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &entries)
 {
   for (int column = 0; column < columns; ++column)
     for (int row = symmetric ? column : 0; row < rows; ++row)
-      {
-        if (!reader.next_entry())
-          reader.fail_at_end("values from row " + std::to_string(row + 1) + " of column " + std::to_string(column + 1) +
-                             " on are missing");
-        const double value = reader.real("expected one value");
-        reader.end_of_line("expected one value");
-        if (value != 0.)
-          add(entries, row, column, value, symmetric);
-      }
+    {
+      if (!reader.next_entry())
+        reader.fail_at_end("values from row " + std::to_string(row + 1) + " of column " + std::to_string(column + 1) +
+                           " on are missing");
+      const double value = reader.real("expected one value");
+      reader.end_of_line("expected one value");
+      if (value != 0.)
+        add(entries, row, column, value, symmetric);
+    }
 }
 
 } // namespace
@@ -222,10 +220,10 @@ void write_matrix_market(const std::string &file, const Matrix &A, Symmetry symm
   for (int j = 0; j < A.outerSize(); ++j)
     for (Matrix::InnerIterator a(A, j); a; ++a)
       if (!lower || a.row() >= j)
-        {
-          std::snprintf(digits, sizeof digits, "%.17g", a.value());
-          out << a.row() + 1 << ' ' << j + 1 << ' ' << digits << '\n';
-        }
+      {
+        std::snprintf(digits, sizeof digits, "%.17g", a.value());
+        out << a.row() + 1 << ' ' << j + 1 << ' ' << digits << '\n';
+      }
   out.close();
   if (!out)
     throw std::runtime_error(file + ": cannot be written; check the folder, its permissions and the space left");

@@ -65,12 +65,12 @@ fem::Interface read_interface(const Hdf5File &file, const std::string &at)
   if (position.size() != 3 || coordinate.size() != 6 || sign.size() != 6)
     throw std::runtime_error("interface '" + interface.name + "' is incomplete");
   for (int d = 0; d < 6; ++d)
-    {
-      interface.coordinate[d] = coordinate(d);
-      interface.sign[d]       = sign(d);
-      if (d < 3)
-        interface.position[d] = position(d);
-    }
+  {
+    interface.coordinate[d] = coordinate(d);
+    interface.sign[d]       = sign(d);
+    if (d < 3)
+      interface.position[d] = position(d);
+  }
   return interface;
 }
 
@@ -98,13 +98,13 @@ void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key
   for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
     write_interface(file, "interfaces/" + std::to_string(i) + "/", frame.interfaces[i]);
   for (std::size_t i = 0; i < frame.outputs.size(); ++i)
-    {
-      const std::string at = "outputs/" + std::to_string(i) + "/";
-      file.write(at + "name", frame.outputs[i].name);
-      file.write(at + "unit", frame.outputs[i].unit);
-      file.write(at + "on_q", MatrixXd(frame.outputs[i].on_q));
-      file.write(at + "on_v", MatrixXd(frame.outputs[i].on_v));
-    }
+  {
+    const std::string at = "outputs/" + std::to_string(i) + "/";
+    file.write(at + "name", frame.outputs[i].name);
+    file.write(at + "unit", frame.outputs[i].unit);
+    file.write(at + "on_q", MatrixXd(frame.outputs[i].on_q));
+    file.write(at + "on_v", MatrixXd(frame.outputs[i].on_v));
+  }
   for (std::size_t i = 0; i < frame.notes.size(); ++i)
     file.write("notes/" + std::to_string(i), frame.notes[i]);
 }
@@ -134,11 +134,11 @@ ReducedFrame read_all(const Hdf5File &file)
   for (int i = 0; file.has("interfaces") && file.has("interfaces/" + std::to_string(i)); ++i)
     frame.interfaces.push_back(read_interface(file, "interfaces/" + std::to_string(i) + "/"));
   for (int i = 0; file.has("outputs") && file.has("outputs/" + std::to_string(i)); ++i)
-    {
-      const std::string at = "outputs/" + std::to_string(i) + "/";
-      frame.outputs.push_back({file.read_text(at + "name"), file.read_text(at + "unit"), file.read_vector(at + "on_q"),
-                               file.read_vector(at + "on_v")});
-    }
+  {
+    const std::string at = "outputs/" + std::to_string(i) + "/";
+    frame.outputs.push_back({file.read_text(at + "name"), file.read_text(at + "unit"), file.read_vector(at + "on_q"),
+                             file.read_vector(at + "on_v")});
+  }
   for (int i = 0; file.has("notes") && file.has("notes/" + std::to_string(i)); ++i)
     frame.notes.push_back(file.read_text("notes/" + std::to_string(i)));
   return frame;
@@ -147,17 +147,19 @@ ReducedFrame read_all(const Hdf5File &file)
 /// The parts must fit each other, whatever the file says.
 void require_consistent(const ReducedFrame &frame)
 {
-  const auto n = frame.M.rows();
-  const auto require = [](bool fits, const char *what) {
+  const auto n       = frame.M.rows();
+  const auto require = [](bool fits, const char *what)
+  {
     if (!fits)
       throw std::runtime_error(std::string(what) + " does not fit the matrices");
   };
-  require(frame.M.cols() == n && frame.B.rows() == n && frame.B.cols() == n && frame.C.rows() == n && frame.C.cols() == n,
+  require(frame.M.cols() == n && frame.B.rows() == n && frame.B.cols() == n && frame.C.rows() == n &&
+              frame.C.cols() == n,
           "the size of M, B or C");
   require(frame.n_interface >= 0 && frame.n_interface + frame.omega0.size() == n, "the number of modes");
   require(frame.translations_load.rows() == n && frame.translations_load.cols() == 3, "'translations_load'");
-  require(frame.displacement.size() == 0 || (frame.displacement.cols() == n &&
-                                             frame.displacement.rows() == Eigen::Index(3 * frame.points.size())),
+  require(frame.displacement.size() == 0 ||
+              (frame.displacement.cols() == n && frame.displacement.rows() == Eigen::Index(3 * frame.points.size())),
           "'displacement'");
   for (const auto &interface : frame.interfaces)
     for (const int i : interface.coordinate)
@@ -190,24 +192,24 @@ ReducedFrame read_checked(const std::string &name, const std::string *key)
 
 void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const std::string &key)
 {
-  const fs::path path(name), beside = path.string() + ".part" + std::to_string(getpid());
+  const fs::path  path(name), beside = path.string() + ".part" + std::to_string(getpid());
   std::error_code error;
   if (path.has_parent_path())
     fs::create_directories(path.parent_path(), error);
   if (error)
     throw std::runtime_error(name + ": its folder cannot be made: " + error.message());
   try
-    {
-      Hdf5File file(beside.string(), Hdf5File::Mode::create);
-      write_all(file, frame, key);
-      file.close();
-      fs::rename(beside, path);
-    }
+  {
+    Hdf5File file(beside.string(), Hdf5File::Mode::create);
+    write_all(file, frame, key);
+    file.close();
+    fs::rename(beside, path);
+  }
   catch (const std::exception &failure)
-    {
-      fs::remove(beside, error);
-      throw std::runtime_error(name + ": cannot be written: " + failure.what());
-    }
+  {
+    fs::remove(beside, error);
+    throw std::runtime_error(name + ": cannot be written: " + failure.what());
+  }
 }
 
 ReducedFrame read_reduced_frame(const std::string &file)
@@ -216,19 +218,20 @@ ReducedFrame read_reduced_frame(const std::string &file)
   if (!fs::is_regular_file(file, error))
     throw std::invalid_argument(file + ": no such file; make it with `gestell reduce`");
   try
-    {
-      return read_checked(file, nullptr);
-    }
+  {
+    return read_checked(file, nullptr);
+  }
   catch (const std::runtime_error &failure)
-    {
-      throw std::invalid_argument(file + ": not a whole reduced frame (" + failure.what() +
-                                  "); make it anew with `gestell reduce`");
-    }
+  {
+    throw std::invalid_argument(file + ": not a whole reduced frame (" + failure.what() +
+                                "); make it anew with `gestell reduce`");
+  }
 }
 
 std::string cache_folder()
 {
-  const auto variable = [](const char *name) {
+  const auto variable = [](const char *name)
+  {
     const char *value = std::getenv(name);
     return std::string(value ? value : "");
   };
@@ -252,27 +255,27 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
   if (!fs::exists(file, error))
     return {};
   try
-    {
-      return read_checked(file, &key);
-    }
+  {
+    return read_checked(file, &key);
+  }
   catch (const std::runtime_error &failure)
-    {
-      note += "cache: " + std::string(failure.what()) + "; the frame is reduced anew";
-      return {};
-    }
+  {
+    note += "cache: " + std::string(failure.what()) + "; the frame is reduced anew";
+    return {};
+  }
 }
 
 std::string keep_in_cache(const std::string &key, const ReducedFrame &frame)
 {
   try
-    {
-      write_reduced_frame(cache_file(key), frame, key);
-      return {};
-    }
+  {
+    write_reduced_frame(cache_file(key), frame, key);
+    return {};
+  }
   catch (const std::exception &failure)
-    {
-      return "cache: the reduced frame is not kept for the next run: " + std::string(failure.what());
-    }
+  {
+    return "cache: the reduced frame is not kept for the next run: " + std::string(failure.what());
+  }
 }
 
 } // namespace gestell::coupling

@@ -32,15 +32,14 @@ void require_size(const SparseBase::Matrix &A, const char *name, Eigen::Index n)
 class SparseSolver final : public LinearSolver
 {
 public:
-  SparseSolver(const SparseBase::Matrix &S, double w_B, const fem::ModalDamping &modal)
-    : factor_(S)
+  SparseSolver(const SparseBase::Matrix &S, double w_B, const fem::ModalDamping &modal) : factor_(S)
   {
     for (Eigen::Index j = 0; j < modal.d.size(); ++j)
       if (w_B * modal.d(j) > 0.)
-        {
-          Z_.conservativeResize(S.rows(), Z_.cols() + 1);
-          Z_.rightCols(1) = modal.Z.col(j) * std::sqrt(w_B * modal.d(j)); // then the operator is Z Z^T
-        }
+      {
+        Z_.conservativeResize(S.rows(), Z_.cols() + 1);
+        Z_.rightCols(1) = modal.Z.col(j) * std::sqrt(w_B * modal.d(j)); // then the operator is Z Z^T
+      }
     if (Z_.cols() == 0)
       return;
     Y_ = Z_;
@@ -69,11 +68,7 @@ private:
 } // namespace
 
 SparseBase::SparseBase(Matrix M, Matrix B, Matrix C, fem::ModalDamping modal_damping)
-  : M_(std::move(M))
-  , B_(std::move(B))
-  , C_(std::move(C))
-  , modal_(std::move(modal_damping))
-  , work_(modal_.d.size())
+    : M_(std::move(M)), B_(std::move(B)), C_(std::move(C)), modal_(std::move(modal_damping)), work_(modal_.d.size())
 {
   require_size(M_, "M", M_.rows());
   require_size(B_, "B", M_.rows());
@@ -111,15 +106,15 @@ std::unique_ptr<LinearSolver> SparseBase::factorise(double w_M, double w_B, doub
 {
   const Matrix S = w_M * M_ + w_B * B_ + w_C * C_;
   try
-    {
-      return std::make_unique<SparseSolver>(S, w_B, modal_);
-    }
+  {
+    return std::make_unique<SparseSolver>(S, w_B, modal_);
+  }
   catch (const NotPositiveDefinite &failure)
-    {
-      throw std::invalid_argument("SparseBase: the matrix of the time step is not positive definite at coordinate " +
-                                  std::to_string(failure.row) +
-                                  ": it has neither mass nor stiffness of its own, or negative ones");
-    }
+  {
+    throw std::invalid_argument("SparseBase: the matrix of the time step is not positive definite at coordinate " +
+                                std::to_string(failure.row) +
+                                ": it has neither mass nor stiffness of its own, or negative ones");
+  }
 }
 
 SpectrumLine SparseBase::line_of(double omega, const VectorXd &mode) const

@@ -85,30 +85,29 @@ void for_each_pivot(const cholmod_factor &L, const Visit &visit)
 {
   const auto *super = static_cast<const int *>(L.super), *rows = static_cast<const int *>(L.pi),
              *start = static_cast<const int *>(L.px), *order = static_cast<const int *>(L.Perm);
-  const auto *x     = static_cast<const double *>(L.x);
+  const auto *x = static_cast<const double *>(L.x);
   for (std::size_t s = 0; s < L.nsuper; ++s)
     for (int k = super[s]; k < super[s + 1]; ++k)
-      {
-        const std::size_t height = rows[s + 1] - rows[s], column = k - super[s];
-        visit(order[k], x[start[s] + column * (height + 1)]);
-      }
+    {
+      const std::size_t height = rows[s + 1] - rows[s], column = k - super[s];
+      visit(order[k], x[start[s] + column * (height + 1)]);
+    }
 }
 
 } // namespace
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A)
-  : factor_(std::make_unique<Factor>())
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : factor_(std::make_unique<Factor>())
 {
   if (A.rows() != A.cols())
     throw std::invalid_argument("SparseCholesky: the matrix has " + std::to_string(A.rows()) + " rows and " +
                                 std::to_string(A.cols()) + " columns; it must be square");
   if (!A.isCompressed())
-    {
-      Eigen::SparseMatrix<double> compressed = A;
-      compressed.makeCompressed();
-      *this = SparseCholesky(compressed);
-      return;
-    }
+  {
+    Eigen::SparseMatrix<double> compressed = A;
+    compressed.makeCompressed();
+    *this = SparseCholesky(compressed);
+    return;
+  }
   Factor        &f    = *factor_;
   cholmod_sparse view = lower_triangle_of(A);
   f.n                 = int(A.rows());
@@ -119,10 +118,12 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A)
     throw std::bad_alloc();
   if (f.L->minor < std::size_t(f.n))
     throw NotPositiveDefinite(static_cast<const int *>(f.L->Perm)[f.L->minor]);
-  for_each_pivot(*f.L, [](int row, double pivot) {
-    if (!std::isfinite(pivot))
-      throw NotPositiveDefinite(row);
-  });
+  for_each_pivot(*f.L,
+                 [](int row, double pivot)
+                 {
+                   if (!std::isfinite(pivot))
+                     throw NotPositiveDefinite(row);
+                 });
 }
 
 SparseCholesky::~SparseCholesky()                                     = default;
@@ -139,16 +140,16 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   Factor &f = *factor_;
   eigen_assert(X.rows() == f.n);
   for (int first = 0; first < X.cols(); first += block_width)
-    {
-      const int     width   = std::min(block_width, int(X.cols()) - first);
-      cholmod_dense columns = columns_at(X.col(first).data(), f.n, width);
-      columns.d             = X.outerStride();
-      columns.nzmax         = columns.d * width;
-      if (!cholmod_solve2(CHOLMOD_A, f.L, &columns, nullptr, &f.X, nullptr, &f.Y, &f.E, &f.common))
-        throw std::bad_alloc();
-      const auto *solution = static_cast<const double *>(f.X->x);
-      X.middleCols(first, width) = Eigen::Map<const Eigen::MatrixXd>(solution, f.n, width);
-    }
+  {
+    const int     width   = std::min(block_width, int(X.cols()) - first);
+    cholmod_dense columns = columns_at(X.col(first).data(), f.n, width);
+    columns.d             = X.outerStride();
+    columns.nzmax         = columns.d * width;
+    if (!cholmod_solve2(CHOLMOD_A, f.L, &columns, nullptr, &f.X, nullptr, &f.Y, &f.E, &f.common))
+      throw std::bad_alloc();
+    const auto *solution       = static_cast<const double *>(f.X->x);
+    X.middleCols(first, width) = Eigen::Map<const Eigen::MatrixXd>(solution, f.n, width);
+  }
 }
 
 void SparseCholesky::solve(const double *rhs, double *x) const
@@ -169,10 +170,12 @@ int SparseCholesky::weakest_row() const
 {
   int    weakest  = 0;
   double smallest = INFINITY;
-  for_each_pivot(*factor_->L, [&](int row, double pivot) {
-    if (pivot < smallest)
-      smallest = pivot, weakest = row;
-  });
+  for_each_pivot(*factor_->L,
+                 [&](int row, double pivot)
+                 {
+                   if (pivot < smallest)
+                     smallest = pivot, weakest = row;
+                 });
   return weakest;
 }
 

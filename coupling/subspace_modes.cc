@@ -45,24 +45,24 @@ struct Shifted
 Shifted first_shift(const SparseMatrix &C, const SparseMatrix &M)
 {
   try
-    {
-      SparseCholesky factor(C);
-      if (factor.pivot_ratio() > regular_pivots)
-        return {0., std::move(factor)};
-    }
+  {
+    SparseCholesky factor(C);
+    if (factor.pivot_ratio() > regular_pivots)
+      return {0., std::move(factor)};
+  }
   catch (const NotPositiveDefinite &)
-    {
-    }
+  {
+  }
   const double s = first_share * lowest_quotient(C, M);
   try
-    {
-      return {s, SparseCholesky(C + s * M)};
-    }
+  {
+    return {s, SparseCholesky(C + s * M)};
+  }
   catch (const NotPositiveDefinite &failure)
-    {
-      throw std::invalid_argument("subspace_modes: a motion of coordinate " + std::to_string(failure.row) +
-                                  " has neither stiffness nor mass; give it one of them or leave the coordinate out");
-    }
+  {
+    throw std::invalid_argument("subspace_modes: a motion of coordinate " + std::to_string(failure.row) +
+                                " has neither stiffness nor mass; give it one of them or leave the coordinate out");
+  }
 }
 
 /// Rayleigh quotients of M-normal columns; 0 for rigid motions, of which v^T C v is what rounding left.
@@ -70,11 +70,11 @@ VectorXd frequencies(const Eigen::Ref<const MatrixXd> &V, const SparseMatrix &C,
 {
   VectorXd omega(V.cols());
   for (Eigen::Index j = 0; j < V.cols(); ++j)
-    {
-      const VectorXd v = V.col(j), size = v.cwiseAbs();
-      const double   square = v.dot(C * v);
-      omega(j)              = square > cancelled * size.dot(magnitude * size) ? std::sqrt(square) : 0.;
-    }
+  {
+    const VectorXd v = V.col(j), size = v.cwiseAbs();
+    const double   square = v.dot(C * v);
+    omega(j)              = square > cancelled * size.dot(magnitude * size) ? std::sqrt(square) : 0.;
+  }
   return omega;
 }
 
@@ -103,28 +103,28 @@ DenseModes subspace_modes(const SparseMatrix &C, const SparseMatrix &M, int coun
   const auto n = C.rows(), k = std::min<Eigen::Index>(n, std::max(2 * count, count + 8));
   if (count == 0)
     return {VectorXd(0), MatrixXd(n, 0)};
-  Shifted  shifted = first_shift(C, M);
-  MatrixXd X       = irregular(n, k);
+  Shifted            shifted   = first_shift(C, M);
+  MatrixXd           X         = irregular(n, k);
   const SparseMatrix magnitude = C.cwiseAbs();
-  VectorXd previous;
+  VectorXd           previous;
   for (int iteration = 0; iteration < max_iterations; ++iteration)
-    {
-      MatrixXd Y = M * X;
-      shifted.factor.solve_in_place(Y);
-      const MatrixXd YMY = Y.transpose() * (M * Y), YCY = Y.transpose() * (C * Y);
-      const DenseModes ritz = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
-      X = Y * ritz.V;
-      const auto found =  std::min<Eigen::Index>(count, ritz.omega.size());
-      const VectorXd omega   = frequencies(X.leftCols(found), C, magnitude);
-      const bool     settled = iteration > 2 && previous.size() == found &&
-                           ((omega - previous).cwiseAbs().array() <= tolerance * omega.array()).all();
-      if (settled || k == n)
-        return {omega, X.leftCols(found)};
-      previous = omega;
-      const double wanted = wanted_share * lowest_elastic_square(omega);
-      if (wanted > 0. && shifted.s > 10. * wanted)
-        shifted = {wanted, SparseCholesky(C + wanted * M)};
-    }
+  {
+    MatrixXd Y = M * X;
+    shifted.factor.solve_in_place(Y);
+    const MatrixXd   YMY = Y.transpose() * (M * Y), YCY = Y.transpose() * (C * Y);
+    const DenseModes ritz  = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
+    X                      = Y * ritz.V;
+    const auto     found   = std::min<Eigen::Index>(count, ritz.omega.size());
+    const VectorXd omega   = frequencies(X.leftCols(found), C, magnitude);
+    const bool     settled = iteration > 2 && previous.size() == found &&
+                         ((omega - previous).cwiseAbs().array() <= tolerance * omega.array()).all();
+    if (settled || k == n)
+      return {omega, X.leftCols(found)};
+    previous            = omega;
+    const double wanted = wanted_share * lowest_elastic_square(omega);
+    if (wanted > 0. && shifted.s > 10. * wanted)
+      shifted = {wanted, SparseCholesky(C + wanted * M)};
+  }
   throw ConvergenceFailure("subspace_modes: the " + std::to_string(count) + " lowest frequencies still change after " +
                            std::to_string(max_iterations) + " iterations; ask for more or fewer modes");
 }

@@ -24,24 +24,24 @@ MatrixXd symmetric(const MatrixXd &A)
 MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X)
 {
   assert(A.isCompressed() && A.cols() == X.rows());
-  const auto  n     = A.cols();
-  const int  *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
-  const auto *a     = A.valuePtr();
-  MatrixXd    Y(n, X.cols());
+  const auto                                   n     = A.cols();
+  const int                                   *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
+  const auto                                  *a = A.valuePtr();
+  MatrixXd                                     Y(n, X.cols());
   Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)
+  {
+    const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
+    x.setZero();
+    x.topRows(width) = X.middleCols(first, width).transpose();
+    for (Eigen::Index j = 0; j < n; ++j)
     {
-      const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
-      x.setZero();
-      x.topRows(width) = X.middleCols(first, width).transpose();
-      for (Eigen::Index j = 0; j < n; ++j)
-        {
-          Eigen::Matrix<double, lanes, 1> sum = Eigen::Matrix<double, lanes, 1>::Zero();
-          for (int k = start[j]; k < start[j + 1]; ++k)
-            sum += a[k] * x.col(row[k]);
-          Y.row(j).segment(first, width) = sum.head(width).transpose();
-        }
+      Eigen::Matrix<double, lanes, 1> sum = Eigen::Matrix<double, lanes, 1>::Zero();
+      for (int k = start[j]; k < start[j + 1]; ++k)
+        sum += a[k] * x.col(row[k]);
+      Y.row(j).segment(first, width) = sum.head(width).transpose();
     }
+  }
   return Y;
 }
 
@@ -67,17 +67,17 @@ void ReductionBasis::truncate(int m)
 ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix &B, const SparseMatrix &C)
 {
   const int  n1 = basis.n1(), m = basis.m();
-  const auto Psi = basis.constraint_modes();
+  const auto Psi   = basis.constraint_modes();
   const auto M_Psi = basis.MT.leftCols(n1);
 
   ReducedMatrices star;
-  star.M                        = MatrixXd::Identity(n1 + m, n1 + m);
-  star.M.topLeftCorner(n1, n1)  = symmetric(Psi.transpose() * M_Psi);
-  star.M.topRightCorner(n1, m)  = M_Psi.transpose() * basis.fixed_modes();
+  star.M                         = MatrixXd::Identity(n1 + m, n1 + m);
+  star.M.topLeftCorner(n1, n1)   = symmetric(Psi.transpose() * M_Psi);
+  star.M.topRightCorner(n1, m)   = M_Psi.transpose() * basis.fixed_modes();
   star.M.bottomLeftCorner(m, n1) = star.M.topRightCorner(n1, m).transpose();
 
-  star.C                           = MatrixXd::Zero(n1 + m, n1 + m);
-  star.C.topLeftCorner(n1, n1)     = symmetric(Psi.transpose() * symmetric_product(C, Psi));
+  star.C                                    = MatrixXd::Zero(n1 + m, n1 + m);
+  star.C.topLeftCorner(n1, n1)              = symmetric(Psi.transpose() * symmetric_product(C, Psi));
   star.C.bottomRightCorner(m, m).diagonal() = basis.omega0.cwiseAbs2();
 
   star.B = MatrixXd::Zero(n1 + m, n1 + m);

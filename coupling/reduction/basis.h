@@ -58,7 +58,6 @@ Eigen::VectorXd project_initial(const ReductionBasis &basis, const Eigen::Sparse
                                 const Eigen::VectorXd &q);
 
 /// A X for a symmetric sparse A (both triangles stored) and several columns, passing through A once per eight of them.
-Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double> &A,
-                                  const Eigen::Ref<const Eigen::MatrixXd> &X);
+Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X);
 
 } // namespace gestell::coupling

@@ -31,7 +31,7 @@ void require_valid(const fem::FrameMatrices &frame, const std::vector<int> &q1, 
   for (const auto *A : {&frame.M, &frame.B, &frame.C})
     require(A->rows() == n && A->cols() == n, options,
             "M, B and C must be square and of one size; found " + std::to_string(A->rows()) + " x " +
-              std::to_string(A->cols()) + " beside " + std::to_string(n) + " x " + std::to_string(n));
+                std::to_string(A->cols()) + " beside " + std::to_string(n) + " x " + std::to_string(n));
   require(frame.M.isCompressed() && frame.C.isCompressed() && frame.B.isCompressed(), options,
           "M, B and C must be compressed");
   require(q1.empty() || (q1.front() >= 0 && q1.back() < n), options, "an interface coordinate lies outside the frame");
@@ -39,7 +39,8 @@ void require_valid(const fem::FrameMatrices &frame, const std::vector<int> &q1, 
           "two interfaces share a coordinate; give each its own node");
   require(options.n_modes <= n2, options,
           std::to_string(options.n_modes) + " modes requested, but only " + std::to_string(n2) +
-            " internal coordinates remain once the interface is held; ask for fewer modes or keep fewer interface points");
+              " internal coordinates remain once the interface is held; ask for fewer modes or keep fewer interface "
+              "points");
   require(options.n_modes >= 0 || options.tolerance > 0., options,
           "tolerance is " + std::to_string(options.tolerance) + "; the automatic number of modes needs one above zero");
   require(std::isfinite(options.frequency) && options.frequency >= 0., options,
@@ -64,8 +65,7 @@ ReductionBasis basis_without_modes(const HeldFrame &held, const fem::FrameMatric
 /// Load of a unit acceleration field in x, y, z.
 MatrixXd acceleration_load(const fem::FrameMatrices &frame)
 {
-  return frame.acceleration_load.rows() > 0 ? frame.acceleration_load :
-                                              symmetric_product(frame.M, frame.translations);
+  return frame.acceleration_load.rows() > 0 ? frame.acceleration_load : symmetric_product(frame.M, frame.translations);
 }
 
 /// Interfaces with their coordinates counted in p.
@@ -92,13 +92,13 @@ double static_residual(const HeldFrame &held, const ReductionBasis &basis, const
   held.solve_in_place(u2);
   double worst = 0.;
   for (int d = 0; d < load.cols(); ++d)
-    {
-      const double energy  = f2.col(d).dot(u2.col(d));
-      const auto   modal   = (basis.fixed_modes().transpose() * f2.col(d)).cwiseQuotient(basis.omega0);
-      const double carried = modal.squaredNorm();
-      if (energy > 0.)
-        worst = std::max(worst, std::sqrt(std::max(0., 1. - carried / energy)));
-    }
+  {
+    const double energy  = f2.col(d).dot(u2.col(d));
+    const auto   modal   = (basis.fixed_modes().transpose() * f2.col(d)).cwiseQuotient(basis.omega0);
+    const double carried = modal.squaredNorm();
+    if (energy > 0.)
+      worst = std::max(worst, std::sqrt(std::max(0., 1. - carried / energy)));
+  }
   return worst;
 }
 
@@ -116,12 +116,12 @@ void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Redu
   reduced.n_interface = basis.n1();
   reduced.omega0      = basis.omega0;
   for (const auto &output : frame.outputs)
-    {
-      auto row = output;
-      row.on_q = basis.T.transpose() * output.on_q;
-      row.on_v = basis.T.transpose() * output.on_v;
-      reduced.outputs.push_back(row);
-    }
+  {
+    auto row = output;
+    row.on_q = basis.T.transpose() * output.on_q;
+    row.on_v = basis.T.transpose() * output.on_v;
+    reduced.outputs.push_back(row);
+  }
   reduced.points    = frame.picture.points;
   reduced.triangles = frame.picture.triangles;
   if (frame.picture.displacement.rows() > 0)
@@ -159,16 +159,16 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
   if (options.n_modes < 0)
     refined = enough_modes(basis, held, frame, options, progress, reduced.notes);
   else
-    {
-      tell(progress, "fixed-interface modes");
-      add_fixed_modes(basis, held, frame, options.n_modes);
-    }
+  {
+    tell(progress, "fixed-interface modes");
+    add_fixed_modes(basis, held, frame, options.n_modes);
+  }
   ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-    {
-      tell(progress, "error estimate");
-      refined = supported_modes(held, basis, star, frame.M);
-    }
+  {
+    tell(progress, "error estimate");
+    refined = supported_modes(held, basis, star, frame.M);
+  }
   const auto estimate     = frequency_estimate(star, basis.n1(), basis.m(), refined);
   reduced.frequencies_hz  = estimate.omega / two_pi;
   reduced.frequency_error = estimate.error;
@@ -180,12 +180,12 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
   reduced.B = star.B;
   reduced.C = star.C;
   if (frame.translations.rows() > 0)
-    {
-      const MatrixXd load       = acceleration_load(frame);
-      reduced.translations_load = basis.T.transpose() * load;
-      reduced.total_mass        = frame.translations.transpose() * load;
-      reduced.static_residual   = static_residual(held, basis, load);
-    }
+  {
+    const MatrixXd load       = acceleration_load(frame);
+    reduced.translations_load = basis.T.transpose() * load;
+    reduced.total_mass        = frame.translations.transpose() * load;
+    reduced.static_residual   = static_residual(held, basis, load);
+  }
   else
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   describe(reduced, frame, basis);

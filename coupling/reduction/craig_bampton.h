@@ -16,7 +16,8 @@ namespace gestell::coupling
  * interface loads is exact for any number of modes.  One Cholesky factor of C22 serves all steps.
  *
  * A modal damping ratio zeta refers to the modes of the supported frame with free interface, refined (SupportedModes),
- * and enters as  B* = T^T B T + P diag(2 zeta omega) P^T,  P = T^T M Phi: what add_modal_damping() does to a full frame.
+ * and enters as  B* = T^T B T + P diag(2 zeta omega) P^T,  P = T^T M Phi: what add_modal_damping() does to a full
+ * frame.
  *
  * Automatic number of modes (options.n_modes < 0): see enough_modes().
  *

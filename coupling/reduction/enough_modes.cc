@@ -39,11 +39,11 @@ double largest_error(const FrequencyEstimate &estimate, const SupportedModes &re
 {
   double largest = 0.;
   for (int j = 0; j < refined.omega.size() && refined.omega(j) <= limit; ++j)
-    {
-      if (j + refined.n_rigid >= estimate.error.size())
-        return INFINITY; // the model has no such mode at all
-      largest = std::max(largest, estimate.error(j + refined.n_rigid));
-    }
+  {
+    if (j + refined.n_rigid >= estimate.error.size())
+      return INFINITY; // the model has no such mode at all
+    largest = std::max(largest, estimate.error(j + refined.n_rigid));
+  }
   return largest;
 }
 
@@ -52,11 +52,11 @@ int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &r
 {
   int low = -1, high = int(star.M.rows()) - n1; // high is good, low is not
   while (high - low > 1)
-    {
-      const int middle = (low + high) / 2;
-      const auto error  = largest_error(frequency_estimate(star, n1, middle, refined), refined, limit);
-      (error <= tolerance ? high : low) = middle;
-    }
+  {
+    const int  middle                 = (low + high) / 2;
+    const auto error                  = largest_error(frequency_estimate(star, n1, middle, refined), refined, limit);
+    (error <= tolerance ? high : low) = middle;
+  }
   return high;
 }
 
@@ -71,9 +71,10 @@ LowestModes dense_fixed_modes(const fem::FrameMatrices &frame, const std::vector
   const MatrixXd M = frame.M, C = frame.C;
   const auto     modes = dense_modes(C(q2, q2), M(q2, q2));
   if (modes.omega.size() < n_modes)
-    throw ConvergenceFailure("fixed-interface modes: " + std::to_string(n_modes) + " asked for, but the mass matrix of the "
-                             "internal coordinates has rank " + std::to_string(modes.omega.size()) +
-                             "; ask for fewer modes");
+    throw ConvergenceFailure("fixed-interface modes: " + std::to_string(n_modes) +
+                             " asked for, but the mass matrix of the "
+                             "internal coordinates has rank " +
+                             std::to_string(modes.omega.size()) + "; ask for fewer modes");
   LowestModes lowest{modes.omega.head(n_modes), MatrixXd::Zero(n, n_modes)};
   lowest.V(q2, Eigen::all) = modes.V.leftCols(n_modes);
   return lowest;
@@ -95,11 +96,11 @@ void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::Fr
   if (n_modes <= old)
     return;
   if (n2 <= dense_limit)
-    {
-      const auto modes = dense_fixed_modes(frame, basis.q1, n_modes);
-      basis.append(frame.M, modes.V.rightCols(n_modes - old), modes.omega.tail(n_modes - old));
-      return;
-    }
+  {
+    const auto modes = dense_fixed_modes(frame, basis.q1, n_modes);
+    basis.append(frame.M, modes.V.rightCols(n_modes - old), modes.omega.tail(n_modes - old));
+    return;
+  }
   const auto inverse = [&](const double *f, double *x) { held.solve(f, x); };
   const auto modes   = lowest_modes(frame.C, frame.M, inverse, n_modes - old, basis.fixed_modes());
   basis.append(frame.M, modes.V, modes.omega);
@@ -110,29 +111,29 @@ SupportedModes enough_modes(ReductionBasis &basis, const HeldFrame &held, const 
 {
   const int n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
-    {
-      if (progress)
-        progress("fixed-interface modes", double(m) / most);
-      add_fixed_modes(basis, held, frame, m);
-      if (progress)
-        progress("error estimate", -1.);
-      const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
-      SupportedModes        refined = supported_modes(held, basis, star, frame.M);
-      const double          within  = limit(options, refined);
-      const double          error   = largest_error(frequency_estimate(star, basis.n1(), m, refined), refined, within);
-      const double          highest = m > 0 ? basis.omega0(m - 1) : INFINITY;
+  {
+    if (progress)
+      progress("fixed-interface modes", double(m) / most);
+    add_fixed_modes(basis, held, frame, m);
+    if (progress)
+      progress("error estimate", -1.);
+    const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
+    SupportedModes        refined = supported_modes(held, basis, star, frame.M);
+    const double          within  = limit(options, refined);
+    const double          error   = largest_error(frequency_estimate(star, basis.n1(), m, refined), refined, within);
+    const double          highest = m > 0 ? basis.omega0(m - 1) : INFINITY;
 
-      const bool good = error <= options.tolerance && (highest >= reach * within || m == n2);
-      if (!good && m < most && highest < rule * within)
-        continue;
-      if (!good)
-        notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave a frequency error of " +
-                        percent(error) + " up to " + std::to_string(within / two_pi) + " Hz, above the tolerance of " +
-                        percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
-      else
-        basis.truncate(smallest_number(star, basis.n1(), refined, options.tolerance, within));
-      return refined;
-    }
+    const bool good = error <= options.tolerance && (highest >= reach * within || m == n2);
+    if (!good && m < most && highest < rule * within)
+      continue;
+    if (!good)
+      notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave a frequency error of " +
+                      percent(error) + " up to " + std::to_string(within / two_pi) + " Hz, above the tolerance of " +
+                      percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
+    else
+      basis.truncate(smallest_number(star, basis.n1(), refined, options.tolerance, within));
+    return refined;
+  }
 }
 
 } // namespace gestell::coupling

@@ -27,15 +27,15 @@ std::string names_of(const fem::Face &face, const std::map<std::string, std::vec
 std::string shape_of(const fem::Face &face)
 {
   switch (face.kind)
-    {
-      case fem::FaceKind::plane:
-        return "plane, normal " + fem::text(face.direction) + ", through " + fem::text(face.through);
-      case fem::FaceKind::cylinder:
-        return "cylinder, axis " + fem::text(face.direction) + ", through " + fem::text(face.through) + ", radius " +
-               fem::text(face.radius);
-      case fem::FaceKind::other:
-        break;
-    }
+  {
+  case fem::FaceKind::plane:
+    return "plane, normal " + fem::text(face.direction) + ", through " + fem::text(face.through);
+  case fem::FaceKind::cylinder:
+    return "cylinder, axis " + fem::text(face.direction) + ", through " + fem::text(face.through) + ", radius " +
+           fem::text(face.radius);
+  case fem::FaceKind::other:
+    break;
+  }
   return face.type;
 }
 
@@ -51,8 +51,8 @@ MeshReport report_of(const fem::GeometryReport &geometry, const fem::FrameSpecif
   for (const auto &solid : geometry.solids)
     report.solids.push_back(solid.name);
   for (const auto &face : geometry.faces)
-    report.surfaces.push_back({face.tag, names_of(face, geometry.surfaces), shape_of(face), face.area, face.min, face.max,
-                               face.centre});
+    report.surfaces.push_back(
+        {face.tag, names_of(face, geometry.surfaces), shape_of(face), face.area, face.min, face.max, face.centre});
   return report;
 }
 

@@ -30,8 +30,8 @@ constexpr int    rounds     = 6;     // of inverse iteration: free motions gain 
 MatrixXd orthonormal(const MatrixXd &X, const VectorXd &D)
 {
   const VectorXd root = D.cwiseSqrt();
-  const MatrixXd Q    = Eigen::HouseholderQR<MatrixXd>(root.asDiagonal() * X).householderQ() *
-                     MatrixXd::Identity(X.rows(), X.cols());
+  const MatrixXd Q =
+      Eigen::HouseholderQR<MatrixXd>(root.asDiagonal() * X).householderQ() * MatrixXd::Identity(X.rows(), X.cols());
   return root.cwiseInverse().asDiagonal() * Q;
 }
 
@@ -50,15 +50,15 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
 
   VectorXd quotient;
   for (int round = 0; round < rounds; ++round)
-    {
-      X = D.asDiagonal() * X;
-      factor.solve_in_place(X);
-      X                 = orthonormal(X, D);
-      const MatrixXd CX = lower.selfadjointView<Eigen::Lower>() * X;
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(X.transpose() * CX);
-      X        = (X * ritz.eigenvectors()).eval();
-      quotient = ritz.eigenvalues();
-    }
+  {
+    X = D.asDiagonal() * X;
+    factor.solve_in_place(X);
+    X                                                = orthonormal(X, D);
+    const MatrixXd                                CX = lower.selfadjointView<Eigen::Lower>() * X;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(X.transpose() * CX);
+    X        = (X * ritz.eigenvectors()).eval();
+    quotient = ritz.eigenvalues();
+  }
   int n_free = 0;
   while (n_free < k && quotient(n_free) < free_below)
     ++n_free;
@@ -74,11 +74,11 @@ std::string place_of(const fem::FrameMatrices &frame, const VectorXd &x)
   text << "a motion that is greatest at coordinate " << coordinate;
   const VectorXd skin = frame.picture.displacement.rows() > 0 ? VectorXd(frame.picture.displacement * x) : VectorXd();
   if (skin.size() > 0 && skin.cwiseAbs().maxCoeff(&coordinate) > 0.)
-    {
-      const auto &point = frame.picture.points[coordinate / 3];
-      text.precision(3);
-      text << ", near (" << point[0] << ", " << point[1] << ", " << point[2] << ") m";
-    }
+  {
+    const auto &point = frame.picture.points[coordinate / 3];
+    text.precision(3);
+    text << ", near (" << point[0] << ", " << point[1] << ", " << point[2] << ") m";
+  }
   return text.str();
 }
 
@@ -110,13 +110,13 @@ void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<i
       refuse("coordinate " + std::to_string(i) + " has no stiffness at all");
   MatrixXd X;
   try
-    {
-      X = energy_free_motions(C, D);
-    }
+  {
+    X = energy_free_motions(C, D);
+  }
   catch (const NotPositiveDefinite &)
-    {
-      return; // indefinite: no free motion explains it
-    }
+  {
+    return; // indefinite: no free motion explains it
+  }
   if (X.cols() > 0)
     refuse(std::to_string(X.cols()) + (X.cols() == 1 ? " way, " : " ways, one of them ") + place_of(frame, X.col(0)));
 }

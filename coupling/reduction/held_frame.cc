@@ -23,22 +23,22 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
     held[i] = 1;
   Eigen::VectorXi height(C.cols());
   for (int j = 0; j < C.outerSize(); ++j)
-    {
-      height(j) = 1;
-      for (SparseMatrix::InnerIterator c(C, j); c; ++c)
-        height(j) += c.row() > j;
-    }
+  {
+    height(j) = 1;
+    for (SparseMatrix::InnerIterator c(C, j); c; ++c)
+      height(j) += c.row() > j;
+  }
   const double typical = std::max(C.diagonal().mean(), 1e-300);
   SparseMatrix lower(C.rows(), C.cols());
   lower.reserve(height);
   for (int j = 0; j < C.outerSize(); ++j)
-    {
-      lower.insert(j, j) = held[j] ? typical : C.coeff(j, j);
-      if (!held[j])
-        for (SparseMatrix::InnerIterator c(C, j); c; ++c)
-          if (c.row() > j && !held[c.row()])
-            lower.insert(c.row(), j) = c.value();
-    }
+  {
+    lower.insert(j, j) = held[j] ? typical : C.coeff(j, j);
+    if (!held[j])
+      for (SparseMatrix::InnerIterator c(C, j); c; ++c)
+        if (c.row() > j && !held[c.row()])
+          lower.insert(c.row(), j) = c.value();
+  }
   lower.makeCompressed();
   return lower;
 }
@@ -47,29 +47,27 @@ SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<in
 {
   const SparseMatrix C22 = lower_triangle_held(frame.C, q1);
   try
-    {
-      SparseCholesky factor(C22);
-      if (factor.pivot_ratio() < suspicious_pivots)
-        require_no_free_motion(frame, q1, C22);
-      return factor;
-    }
-  catch (const NotPositiveDefinite &failure)
-    {
+  {
+    SparseCholesky factor(C22);
+    if (factor.pivot_ratio() < suspicious_pivots)
       require_no_free_motion(frame, q1, C22);
-      throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
-                                  "definite at coordinate " +
-                                  std::to_string(failure.row) + "; it must be symmetric with positive energy for every "
-                                                                "motion");
-    }
+    return factor;
+  }
+  catch (const NotPositiveDefinite &failure)
+  {
+    require_no_free_motion(frame, q1, C22);
+    throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
+                                "definite at coordinate " +
+                                std::to_string(failure.row) +
+                                "; it must be symmetric with positive energy for every "
+                                "motion");
+  }
 }
 
 } // namespace
 
 HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-  : frame_(frame)
-  , q1_(q1)
-  , factor_(factor_held(frame, q1))
-  , work_(frame.C.rows())
+    : frame_(frame), q1_(q1), factor_(factor_held(frame, q1)), work_(frame.C.rows())
 {
 }
 

@@ -11,8 +11,8 @@ namespace gestell::coupling
 {
 
 /**
- * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static residual
- * and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
+ * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
+ * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
  */
 class HeldFrame
 {

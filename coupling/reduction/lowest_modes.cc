@@ -20,9 +20,9 @@ namespace
 
 using Eigen::MatrixXd;
 
-constexpr double tolerance      = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
-constexpr int    max_restarts   = 100;
-constexpr int    spare_vectors  = 20; // of the Krylov space beyond the modes wanted, at least
+constexpr double tolerance     = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
+constexpr int    max_restarts  = 100;
+constexpr int    spare_vectors = 20; // of the Krylov space beyond the modes wanted, at least
 
 void require_success(PetscErrorCode code)
 {
@@ -69,14 +69,14 @@ PetscErrorCode apply_inverse(PC pc, Vec f, Vec x)
   VecGetArray(x, &to);
   PetscErrorCode code = 0;
   try
-    {
-      (*inverse.solve)(from, to);
-    }
+  {
+    (*inverse.solve)(from, to);
+  }
   catch (...)
-    {
-      inverse.failure = std::current_exception();
-      code            = PETSC_ERR_LIB;
-    }
+  {
+    inverse.failure = std::current_exception();
+    code            = PETSC_ERR_LIB;
+  }
   VecRestoreArray(x, &to);
   VecRestoreArrayRead(f, &from);
   return code;
@@ -88,10 +88,9 @@ Owned<Mat> view_of(const Eigen::SparseMatrix<double> &A)
   static_assert(std::is_same<PetscInt, int>::value && std::is_same<PetscScalar, double>::value,
                 "PETSc must be built with 32-bit indices and real double numbers");
   Mat view;
-  require_success(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.rows(), A.cols(),
-                                            const_cast<int *>(A.outerIndexPtr()),
-                                            const_cast<int *>(A.innerIndexPtr()),
-                                            const_cast<double *>(A.valuePtr()), &view));
+  require_success(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.rows(), A.cols(), const_cast<int *>(A.outerIndexPtr()),
+                                            const_cast<int *>(A.innerIndexPtr()), const_cast<double *>(A.valuePtr()),
+                                            &view));
   MatSetOption(view, MAT_SYMMETRIC, PETSC_TRUE);
   return Owned<Mat>(view);
 }
@@ -136,10 +135,10 @@ void deflate(EPS eps, const Eigen::Ref<const MatrixXd> &known)
   std::vector<Owned<Vec>> views;
   std::vector<Vec>        vectors;
   for (Eigen::Index j = 0; j < known.cols(); ++j)
-    {
-      views.push_back(view_of(const_cast<double *>(known.col(j).data()), int(known.rows())));
-      vectors.push_back(views.back().get());
-    }
+  {
+    views.push_back(view_of(const_cast<double *>(known.col(j).data()), int(known.rows())));
+    vectors.push_back(views.back().get());
+  }
   if (!vectors.empty())
     require_success(EPSSetDeflationSpace(eps, int(vectors.size()), vectors.data()));
 }
@@ -154,15 +153,15 @@ LowestModes read_modes(EPS eps, int count, int n)
                              " restarts; ask for fewer modes, or check that the structure has that many with mass");
   LowestModes modes{Eigen::VectorXd(count), MatrixXd(n, count)};
   for (int j = 0; j < count; ++j)
-    {
-      PetscScalar      square;
-      const Owned<Vec> shape = view_of(modes.V.col(j).data(), n);
-      require_success(EPSGetEigenpair(eps, j, &square, nullptr, shape.get(), nullptr));
-      if (!(square > 0.))
-        throw ConvergenceFailure("lowest_modes: mode " + std::to_string(j + 1) + " has omega^2 = " +
-                                 std::to_string(square) + "; the stiffness matrix must be positive definite");
-      modes.omega(j) = std::sqrt(square);
-    }
+  {
+    PetscScalar      square;
+    const Owned<Vec> shape = view_of(modes.V.col(j).data(), n);
+    require_success(EPSGetEigenpair(eps, j, &square, nullptr, shape.get(), nullptr));
+    if (!(square > 0.))
+      throw ConvergenceFailure("lowest_modes: mode " + std::to_string(j + 1) + " has omega^2 = " +
+                               std::to_string(square) + "; the stiffness matrix must be positive definite");
+    modes.omega(j) = std::sqrt(square);
+  }
   return modes;
 }
 

@@ -29,7 +29,6 @@ struct LowestModes
  * @throws ConvergenceFailure with the number found.
  */
 LowestModes lowest_modes(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
-                         const InverseStiffness &inverse, int count,
-                         const Eigen::Ref<const Eigen::MatrixXd> &known);
+                         const InverseStiffness &inverse, int count, const Eigen::Ref<const Eigen::MatrixXd> &known);
 
 } // namespace gestell::coupling

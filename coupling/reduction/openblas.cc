@@ -15,7 +15,8 @@ namespace gestell::coupling
 
 void use_one_blas_thread()
 {
-  static const std::string library = [] {
+  static const std::string library = []
+  {
     Dl_info found{};
     if (!dladdr(reinterpret_cast<void *>(&dgemm_), &found) || !found.dli_fname)
       return std::string("not known");
@@ -24,7 +25,8 @@ void use_one_blas_thread()
     return error ? std::string(found.dli_fname) : file.string();
   }();
   if (library.find("openblas") == std::string::npos)
-    throw std::invalid_argument("reduction: BLAS is " + library + ", but Gestell needs OpenBLAS; on Debian install "
+    throw std::invalid_argument("reduction: BLAS is " + library +
+                                ", but Gestell needs OpenBLAS; on Debian install "
                                 "libopenblas0-pthread and choose it with: update-alternatives --config "
                                 "libblas.so.3-x86_64-linux-gnu");
   if (!std::getenv("OPENBLAS_NUM_THREADS"))

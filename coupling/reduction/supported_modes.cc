@@ -25,8 +25,8 @@ MatrixXd pseudo_inverse(const MatrixXd &S)
     return S;
   const VectorXd d = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
   const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
-  const VectorXd inverse =
-    scaled.eigenvalues().unaryExpr([](double lambda) { return lambda > singular ? 1. / lambda : 0.; });
+  const VectorXd                                inverse =
+      scaled.eigenvalues().unaryExpr([](double lambda) { return lambda > singular ? 1. / lambda : 0.; });
   const MatrixXd U = d.asDiagonal() * scaled.eigenvectors();
   return U * inverse.asDiagonal() * U.transpose();
 }
@@ -40,25 +40,25 @@ SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basi
   const DenseModes ritz = dense_modes(star.C, star.M, cancelled);
 
   SupportedModes modes;
-  modes.n_rigid        = int((ritz.omega.array() == 0.).count());
-  const auto elastic   = ritz.omega.size() - modes.n_rigid;
+  modes.n_rigid          = int((ritz.omega.array() == 0.).count());
+  const auto     elastic = ritz.omega.size() - modes.n_rigid;
   const MatrixXd Phi_r = ritz.V.leftCols(modes.n_rigid), Phi_e = ritz.V.rightCols(elastic);
 
   // Y = C^-1 M T Phi
-  MatrixXd       Y       = basis.MT * Phi_e;
-  const MatrixXd Psi_F   = basis.constraint_modes().transpose() * Y;
-  const MatrixXd on_q1   = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * Psi_F;
+  MatrixXd       Y     = basis.MT * Phi_e;
+  const MatrixXd Psi_F = basis.constraint_modes().transpose() * Y;
+  const MatrixXd on_q1 = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * Psi_F;
   held.solve_in_place(Y);
   Y += basis.constraint_modes() * on_q1;
   if (modes.n_rigid > 0)
     Y -= basis.T * (Phi_r * (Phi_r.transpose() * (basis.MT.transpose() * Y)));
 
-  const MatrixXd   P      = basis.MT.transpose() * Y; // T^T M Y
-  const MatrixXd   YCY    = P.transpose() * Phi_e;
-  const MatrixXd   YMY    = Y.transpose() * symmetric_product(M, Y);
+  const MatrixXd   P       = basis.MT.transpose() * Y; // T^T M Y
+  const MatrixXd   YCY     = P.transpose() * Phi_e;
+  const MatrixXd   YMY     = Y.transpose() * symmetric_product(M, Y);
   const DenseModes refined = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
-  modes.omega             = refined.omega;
-  modes.P                 = P * refined.V;
+  modes.omega              = refined.omega;
+  modes.P                  = P * refined.V;
   return modes;
 }
 

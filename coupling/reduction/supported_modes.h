@@ -11,8 +11,8 @@ namespace gestell::coupling
 /**
  * Modes of the supported frame with its interface free, better than the reduced model gives them.
  *
- * All Ritz vectors T Phi* of the reduced model are improved together by one step of inverse iteration and a Rayleigh-Ritz
- * projection onto the result Y (one round of simultaneous iteration):
+ * All Ritz vectors T Phi* of the reduced model are improved together by one step of inverse iteration and a
+ * Rayleigh-Ritz projection onto the result Y (one round of simultaneous iteration):
  *
  *     C Y = M T Phi*,     Y^T C Y g = omega^2 Y^T M Y g,     Phi = Y g.
  *

@@ -35,8 +35,8 @@ enum class ModalBlock
   full
 };
 
-/// Matrices as a reduced frame with a body at each end of its coordinates has them: q1 (6), modes (8), bodies (2); masses in
-/// kg beside inertias of 1e-4 kg m^2.
+/// Matrices as a reduced frame with a body at each end of its coordinates has them: q1 (6), modes (8), bodies (2);
+/// masses in kg beside inertias of 1e-4 kg m^2.
 struct CraigBamptonLike
 {
   int              n = 16;
@@ -44,30 +44,28 @@ struct CraigBamptonLike
   std::vector<int> modal{6, 7, 8, 9, 10, 11, 12, 13};
 
   explicit CraigBamptonLike(ModalBlock damping)
-    : M(MatrixXd::Identity(n, n))
-    , B(MatrixXd::Zero(n, n))
-    , C(MatrixXd::Zero(n, n))
+      : M(MatrixXd::Identity(n, n)), B(MatrixXd::Zero(n, n)), C(MatrixXd::Zero(n, n))
   {
     const std::vector<int> rest{0, 1, 2, 3, 4, 5, 14, 15};
     VectorXd               scale = VectorXd::Constant(8, 3.);
     scale.segment(3, 3).setConstant(1e-2);
-    const MatrixXd R = irregular(8, 8);
-    MatrixXd M_NN = scale.asDiagonal() * (R * R.transpose() + 8. * MatrixXd::Identity(8, 8)) * scale.asDiagonal();
+    const MatrixXd R    = irregular(8, 8);
+    MatrixXd       M_NN = scale.asDiagonal() * (R * R.transpose() + 8. * MatrixXd::Identity(8, 8)) * scale.asDiagonal();
     const MatrixXd M_NL = 0.3 * scale.asDiagonal() * irregular(8, 8);
     M_NN += M_NL * M_NL.transpose();
-    M(rest, rest)   = M_NN;
-    M(rest, modal)  = M_NL;
-    M(modal, rest)  = M_NL.transpose();
+    M(rest, rest)    = M_NN;
+    M(rest, modal)   = M_NL;
+    M(modal, rest)   = M_NL.transpose();
     const MatrixXd S = irregular(8, 5); // singular: the machine floats
     C(rest, rest)    = 1e5 * (scale.asDiagonal() * S * S.transpose() * scale.asDiagonal());
     C(rest, rest)    = (0.5 * (C(rest, rest) + C(rest, rest).transpose())).eval();
     for (int j = 0; j < 8; ++j)
       C(modal[j], modal[j]) = 1e4 * (j + 1) * (j + 1);
     if (damping == ModalBlock::full)
-      {
-        const MatrixXd P = irregular(n, 10);
-        B                = 20. * P * P.transpose();
-      }
+    {
+      const MatrixXd P = irregular(n, 10);
+      B                = 20. * P * P.transpose();
+    }
     else
       for (int i = 0; i < n; ++i)
         B(i, i) = 2. + i;
@@ -100,21 +98,21 @@ TEST_P(DenseBaseOf, SolvesWithEveryWeightOfATimeStep)
   const DenseBase        base(like.M, like.B, like.C, like.modal);
   const VectorXd         f = irregular(like.n, 1);
   for (const double h : {0., 1e-6, 1e-4, 1e-2})
-    {
-      VectorXd x(like.n);
-      base.factorise(1., h, h * h)->solve(f, x);
-      const MatrixXd A        = like.M + h * like.B + h * h * like.C;
-      const VectorXd residual = A * x - f;
-      // backward stable to a few dozen roundings in the scale of each row
-      EXPECT_LT(residual.cwiseAbs().cwiseQuotient(A.cwiseAbs() * x.cwiseAbs()).maxCoeff(), 1e-13) << "h = " << h;
-    }
+  {
+    VectorXd x(like.n);
+    base.factorise(1., h, h * h)->solve(f, x);
+    const MatrixXd A        = like.M + h * like.B + h * h * like.C;
+    const VectorXd residual = A * x - f;
+    // backward stable to a few dozen roundings in the scale of each row
+    EXPECT_LT(residual.cwiseAbs().cwiseQuotient(A.cwiseAbs() * x.cwiseAbs()).maxCoeff(), 1e-13) << "h = " << h;
+  }
 }
 INSTANTIATE_TEST_SUITE_P(BothDampings, DenseBaseOf, ::testing::Values(ModalBlock::diagonal, ModalBlock::full));
 
 TEST(DenseBase, LivesWithMasslessCoordinatesAsLongAsTheStepMatrixIsRegular)
 {
   MatrixXd M = MatrixXd::Identity(3, 3), B = MatrixXd::Zero(3, 3), C = 4. * MatrixXd::Identity(3, 3);
-  M(1, 1)    = 0.;
+  M(1, 1) = 0.;
   const DenseBase base(M, B, C, {});
   VectorXd        x(3);
   base.factorise(1., 0.1, 0.01)->solve(VectorXd::Ones(3), x);
@@ -125,16 +123,16 @@ TEST(DenseBase, LivesWithMasslessCoordinatesAsLongAsTheStepMatrixIsRegular)
 TEST(DenseBase, NamesTheCoordinateThatMakesTheStepMatrixSingular)
 {
   MatrixXd M = MatrixXd::Identity(4, 4), zero = MatrixXd::Zero(4, 4);
-  M(2, 2)    = 0.;
+  M(2, 2) = 0.;
   try
-    {
-      DenseBase(M, zero, zero, {0}).factorise(1., 1e-3, 1e-6);
-      FAIL();
-    }
+  {
+    DenseBase(M, zero, zero, {0}).factorise(1., 1e-3, 1e-6);
+    FAIL();
+  }
   catch (const std::invalid_argument &error)
-    {
-      EXPECT_NE(std::string(error.what()).find("coordinate 2"), std::string::npos) << error.what();
-    }
+  {
+    EXPECT_NE(std::string(error.what()).find("coordinate 2"), std::string::npos) << error.what();
+  }
 }
 
 TEST(DenseBase, RefusesWhatItsStructureDoesNotHold)
@@ -156,18 +154,15 @@ TEST(DenseBase, RefusesWhatItsStructureDoesNotHold)
 struct Chain
 {
   Eigen::SparseMatrix<double> M, B, C;
-  explicit Chain(int n)
-    : M(n, n)
-    , B(n, n)
-    , C(n, n)
+  explicit Chain(int n) : M(n, n), B(n, n), C(n, n)
   {
     M.setIdentity();
     for (int i = 0; i < n; ++i)
-      {
-        C.coeffRef(i, i) = i + 1 < n ? 2. : 1.;
-        if (i > 0)
-          C.coeffRef(i, i - 1) = C.coeffRef(i - 1, i) = -1.;
-      }
+    {
+      C.coeffRef(i, i) = i + 1 < n ? 2. : 1.;
+      if (i > 0)
+        C.coeffRef(i, i - 1) = C.coeffRef(i - 1, i) = -1.;
+    }
     B.coeffRef(n - 1, n - 1) = 0.3;
   }
   static double omega(int n, int j) { return 2. * std::sin((2. * j - 1.) * M_PI / (4. * n + 2.)); }
@@ -180,10 +175,10 @@ TEST(DenseBase, SpectrumOfAChainIsItsFormula)
   const auto  lines = DenseBase(chain.M, 0.02 * chain.C, chain.C, {}).spectrum();
   ASSERT_EQ(lines.size(), 12u);
   for (int j = 1; j <= n; ++j)
-    {
-      EXPECT_NEAR(lines[j - 1].omega, Chain::omega(n, j), 1e-12);
-      EXPECT_NEAR(lines[j - 1].zeta, 0.01 * Chain::omega(n, j), 1e-12); // B = 2 delta C: zeta = delta omega
-    }
+  {
+    EXPECT_NEAR(lines[j - 1].omega, Chain::omega(n, j), 1e-12);
+    EXPECT_NEAR(lines[j - 1].zeta, 0.01 * Chain::omega(n, j), 1e-12); // B = 2 delta C: zeta = delta omega
+  }
 }
 
 TEST(SubspaceModes, FindTheLowestOfALongChain)
@@ -235,14 +230,14 @@ TEST(SparseBase, NamesTheCoordinateWithoutMassAndStiffness)
   const SparseBase base(chain.M, chain.B, chain.C);
   EXPECT_NO_THROW(base.factorise(1., 0.1, 0.01));
   try
-    {
-      base.factorise(1., 0., 0.);
-      FAIL();
-    }
+  {
+    base.factorise(1., 0., 0.);
+    FAIL();
+  }
   catch (const std::invalid_argument &error)
-    {
-      EXPECT_NE(std::string(error.what()).find("coordinate 3"), std::string::npos) << error.what();
-    }
+  {
+    EXPECT_NE(std::string(error.what()).find("coordinate 3"), std::string::npos) << error.what();
+  }
 }
 
 } // namespace

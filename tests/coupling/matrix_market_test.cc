@@ -20,8 +20,8 @@ using Eigen::MatrixXd;
 class MatrixMarket : public ::testing::Test
 {
 protected:
-  std::string file = (std::filesystem::temp_directory_path() /
-                      ("gestell_" + std::to_string(getpid()) + ".mtx")).string();
+  std::string file =
+      (std::filesystem::temp_directory_path() / ("gestell_" + std::to_string(getpid()) + ".mtx")).string();
   void TearDown() override { std::filesystem::remove(file); }
 
   MatrixXd read(const std::string &text)
@@ -32,20 +32,21 @@ protected:
   std::string message_of(const std::string &text)
   {
     try
-      {
-        read(text);
-      }
+    {
+      read(text);
+    }
     catch (const std::invalid_argument &error)
-      {
-        return error.what();
-      }
+    {
+      return error.what();
+    }
     return "no error";
   }
 };
 
 TEST_F(MatrixMarket, ASymmetricFileGivesBothTriangles)
 {
-  const MatrixXd A = read("%%MatrixMarket matrix coordinate real symmetric\n% springs\n\n2 2 3\n1 1 2.5\n2 1 -1e3\n2 2 4\n");
+  const MatrixXd A =
+      read("%%MatrixMarket matrix coordinate real symmetric\n% springs\n\n2 2 3\n1 1 2.5\n2 1 -1e3\n2 2 4\n");
   EXPECT_EQ(A, (MatrixXd(2, 2) << 2.5, -1e3, -1e3, 4.).finished());
 }
 
@@ -70,16 +71,17 @@ TEST_F(MatrixMarket, WhatIsWrittenIsReadBitByBit)
   A.coeffRef(2, 1) = A.coeffRef(1, 2) = -1e-300;
   A.coeffRef(2, 2)                    = 123456789.123456789;
   for (const auto symmetry : {coupling::Symmetry::general, coupling::Symmetry::symmetric})
-    {
-      write_matrix_market(file, A, symmetry, "two\nlines");
-      EXPECT_EQ(MatrixXd(read_matrix_market(file)), MatrixXd(A));
-    }
+  {
+    write_matrix_market(file, A, symmetry, "two\nlines");
+    EXPECT_EQ(MatrixXd(read_matrix_market(file)), MatrixXd(A));
+  }
 }
 
 TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
 {
   const std::string head = "%%MatrixMarket matrix coordinate real general\n";
-  const auto        says = [&](const std::string &text, const std::string &line, const std::string &words) {
+  const auto        says = [&](const std::string &text, const std::string &line, const std::string &words)
+  {
     const std::string message = message_of(text);
     EXPECT_EQ(message.find(file + ":" + line + ": "), 0u) << message;
     EXPECT_NE(message.find(words), std::string::npos) << message;

@@ -120,10 +120,10 @@ TEST_F(ReducedFrameFile, DamagedFilesAreRefused)
   coupling::write_reduced_frame(file, some_frame());
   const std::string whole = bytes(file);
   for (const std::size_t length : {std::size_t(0), std::size_t(100), whole.size() / 2, whole.size() - 1})
-    {
-      std::ofstream(file, std::ios::binary) << whole.substr(0, length);
-      EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument) << length << " bytes";
-    }
+  {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+    EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument) << length << " bytes";
+  }
   std::ofstream(file) << "[frame]\n";
   EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
 }
@@ -190,7 +190,7 @@ protected:
     std::ofstream(frame.cad) << "ISO-10303-21;";
     frame.material         = {210e9, 0.3, 7850., "scene.toml:3"};
     frame.surfaces["feet"] = {};
-    frame.supports         = {{"feet", {"feet"}, fem::SupportKind::clamped, {true, true, true}, {}, {}, "scene.toml:9"}};
+    frame.supports = {{"feet", {"feet"}, fem::SupportKind::clamped, {true, true, true}, {}, {}, "scene.toml:9"}};
   }
 };
 
@@ -203,10 +203,10 @@ TEST_F(ContentKey, IsAHexadecimalNumberOf256Bits)
 
 TEST_F(ContentKey, ForgetsPlacesAndPaths)
 {
-  const std::string key = content_key(frame, options);
+  const std::string key  = content_key(frame, options);
   auto              same = frame;
   same.place = same.material.place = same.supports[0].place = "elsewhere.toml:1";
-  same.cad = (folder / "copy.step").string();
+  same.cad                                                  = (folder / "copy.step").string();
   fs::copy_file(frame.cad, same.cad);
   auto same_options    = options;
   same_options.place   = "elsewhere.toml:2";
@@ -217,7 +217,8 @@ TEST_F(ContentKey, ForgetsPlacesAndPaths)
 TEST_F(ContentKey, ChangesWithEveryValue)
 {
   std::vector<std::string> keys{content_key(frame, options)};
-  const auto               with = [&](auto change) {
+  const auto               with = [&](auto change)
+  {
     auto other         = frame;
     auto other_options = options;
     change(other, other_options);

@@ -19,13 +19,13 @@ using test::Lattice;
 std::string message_of(const fem::FrameMatrices &frame, const coupling::ReductionOptions &options = {})
 {
   try
-    {
-      craig_bampton(frame, options);
-    }
+  {
+    craig_bampton(frame, options);
+  }
   catch (const std::invalid_argument &error)
-    {
-      return error.what();
-    }
+  {
+    return error.what();
+  }
   return "no error";
 }
 
@@ -54,8 +54,8 @@ TEST(FreeMotion, OfAFrameThatNothingHoldsIsNamedInWords)
 TEST(FreeMotion, AroundTheLineThroughTwoHeldPointsIsARotation)
 {
   const Lattice     lattice;
-  const std::string message = message_of(floating({test::interface_at("hinge", lattice.point(0, 1, 2),
-                                                                      lattice.point(4, 1, 2))}));
+  const std::string message =
+      message_of(floating({test::interface_at("hinge", lattice.point(0, 1, 2), lattice.point(4, 1, 2))}));
   EXPECT_TRUE(holds(message, "rotation about x through (")) << message; // both points lie on a line along x
   EXPECT_FALSE(holds(message, "translation along")) << message;
 }
@@ -83,30 +83,31 @@ TEST(FreeMotion, OfAPartOnTwoNodesThatTouchNothingElseIsNamedByItsPlace)
   const int                           n     = int(frame.C.rows());
   std::vector<Eigen::Triplet<double>> C, M;
   for (int j = 0; j < n; ++j)
-    {
-      for (Eigen::SparseMatrix<double>::InnerIterator c(frame.C, j); c; ++c)
-        C.emplace_back(c.row(), j, c.value());
-      for (Eigen::SparseMatrix<double>::InnerIterator m(frame.M, j); m; ++m)
-        M.emplace_back(m.row(), j, m.value());
-    }
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator c(frame.C, j); c; ++c)
+      C.emplace_back(c.row(), j, c.value());
+    for (Eigen::SparseMatrix<double>::InnerIterator m(frame.M, j); m; ++m)
+      M.emplace_back(m.row(), j, m.value());
+  }
   for (const int i : {n, n + 1})
-    {
-      C.emplace_back(i, i, 1e7);
-      M.emplace_back(i, i, 1.);
-      C.emplace_back(i, 2 * n + 1 - i, -1e7); // joined with each other alone
-    }
+  {
+    C.emplace_back(i, i, 1e7);
+    M.emplace_back(i, i, 1.);
+    C.emplace_back(i, 2 * n + 1 - i, -1e7); // joined with each other alone
+  }
   fem::FrameMatrices loose;
   loose.interfaces = frame.interfaces;
   for (auto [A, entries] : {std::pair(&loose.C, &C), std::pair(&loose.M, &M)})
-    {
-      A->resize(n + 2, n + 2);
-      A->setFromTriplets(entries->begin(), entries->end());
-    }
+  {
+    A->resize(n + 2, n + 2);
+    A->setFromTriplets(entries->begin(), entries->end());
+  }
   loose.B.resize(n + 2, n + 2);
   const std::string message = message_of(loose);
   EXPECT_TRUE(holds(message, "1 way")) << message;
-  EXPECT_TRUE(holds(message, "coordinate " + std::to_string(n)) || holds(message, "coordinate " + std::to_string(n + 1)))
-    << message; // both move alike
+  EXPECT_TRUE(holds(message, "coordinate " + std::to_string(n)) ||
+              holds(message, "coordinate " + std::to_string(n + 1)))
+      << message; // both move alike
 }
 
 TEST(FreeMotion, ASoftSupportIsNone)
@@ -135,7 +136,7 @@ TEST(BadReduction, IsRefusedWithTheNumberNeeded)
   auto twice = frame;
   twice.interfaces.push_back(twice.interfaces[0]);
   EXPECT_TRUE(holds(message_of(twice), "share a coordinate"));
-  auto outside = frame;
+  auto outside                        = frame;
   outside.interfaces[0].coordinate[0] = 1000;
   EXPECT_TRUE(holds(message_of(outside), "outside"));
   auto sizes = frame;
@@ -145,8 +146,8 @@ TEST(BadReduction, IsRefusedWithTheNumberNeeded)
 
 TEST(BadReduction, AskingForMoreModesThanThereAreMassesFails)
 {
-  auto frame = frame_of(Lattice());
-  frame.M    = 0. * frame.M;
+  auto frame                 = frame_of(Lattice());
+  frame.M                    = 0. * frame.M;
   frame.M.coeffRef(100, 100) = 1.;
   coupling::ReductionOptions options;
   options.n_modes = 2;

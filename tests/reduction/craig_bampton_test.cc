@@ -82,16 +82,16 @@ TEST(CraigBampton, FrequenciesComeFromAboveAndFallWithTheNumberOfModes)
   const VectorXd exact    = full_frequencies(frame);
   VectorXd       previous = VectorXd::Constant(12, INFINITY);
   for (const int m : {0, 3, 8, 20, 60})
+  {
+    const auto     reduced = craig_bampton(frame, with_modes(m));
+    const VectorXd omega   = dense_modes(reduced.C, reduced.M).omega.head(12);
+    for (int j = 0; j < 12; ++j) // min-max principle; 1e-10 for rounding
     {
-      const auto     reduced = craig_bampton(frame, with_modes(m));
-      const VectorXd omega   = dense_modes(reduced.C, reduced.M).omega.head(12);
-      for (int j = 0; j < 12; ++j) // min-max principle; 1e-10 for rounding
-        {
-          EXPECT_GE(omega(j), exact(j) * (1. - 1e-10)) << "mode " << j << " with " << m;
-          EXPECT_LE(omega(j), previous(j) * (1. + 1e-10)) << "mode " << j << " with " << m;
-        }
-      previous = omega;
+      EXPECT_GE(omega(j), exact(j) * (1. - 1e-10)) << "mode " << j << " with " << m;
+      EXPECT_LE(omega(j), previous(j) * (1. + 1e-10)) << "mode " << j << " with " << m;
     }
+    previous = omega;
+  }
 }
 
 TEST(CraigBampton, StaticDeflectionUnderInterfaceLoadsIsExactForAnyNumberOfModes)
@@ -103,14 +103,14 @@ TEST(CraigBampton, StaticDeflectionUnderInterfaceLoadsIsExactForAnyNumberOfModes
   f(q1)                = load;
   const VectorXd exact = MatrixXd(frame.C).llt().solve(f);
   for (const int m : {0, 1, 7})
-    {
-      const auto basis   = coupling::craig_bampton_basis(frame, m);
-      const auto reduced = craig_bampton(frame, with_modes(m));
-      VectorXd   load_p  = VectorXd::Zero(reduced.C.rows());
-      load_p.head(q1.size()) = load;
-      const VectorXd q = basis.T * reduced.C.llt().solve(load_p);
-      EXPECT_LT((q - exact).norm(), 1e-10 * exact.norm()) << m << " modes";
-    }
+  {
+    const auto basis       = coupling::craig_bampton_basis(frame, m);
+    const auto reduced     = craig_bampton(frame, with_modes(m));
+    VectorXd   load_p      = VectorXd::Zero(reduced.C.rows());
+    load_p.head(q1.size()) = load;
+    const VectorXd q       = basis.T * reduced.C.llt().solve(load_p);
+    EXPECT_LT((q - exact).norm(), 1e-10 * exact.norm()) << m << " modes";
+  }
 }
 
 TEST(CraigBampton, BlocksAreTheProductsWithT)
@@ -119,9 +119,8 @@ TEST(CraigBampton, BlocksAreTheProductsWithT)
   const auto     basis = coupling::craig_bampton_basis(frame, 9);
   const auto     star  = coupling::reduced_matrices(basis, frame.B, frame.C);
   const MatrixXd T     = basis.T;
-  const auto     close = [&](const MatrixXd &block, const MatrixXd &product) {
-    return (block - product).norm() < 1e-10 * product.norm();
-  };
+  const auto     close = [&](const MatrixXd &block, const MatrixXd &product)
+  { return (block - product).norm() < 1e-10 * product.norm(); };
   EXPECT_TRUE(close(star.M, T.transpose() * frame.M * T));
   EXPECT_TRUE(close(star.B, T.transpose() * frame.B * T));
   EXPECT_TRUE(close(star.C, T.transpose() * frame.C * T));
@@ -134,10 +133,10 @@ TEST(CraigBampton, LeavesInterfaceCoordinatesPhysical)
   const auto reduced = craig_bampton(frame, with_modes(5));
   for (std::size_t k = 0; k < frame.interfaces.size(); ++k)
     for (int d = 0; d < 6; ++d)
-      {
-        const int i = frame.interfaces[k].coordinate[d], p = reduced.interfaces[k].coordinate[d];
-        EXPECT_EQ((basis.T.row(i) - VectorXd::Unit(basis.T.cols(), p).transpose()).norm(), 0.);
-      }
+    {
+      const int i = frame.interfaces[k].coordinate[d], p = reduced.interfaces[k].coordinate[d];
+      EXPECT_EQ((basis.T.row(i) - VectorXd::Unit(basis.T.cols(), p).transpose()).norm(), 0.);
+    }
 }
 
 TEST(CraigBampton, RowsOfOutputsPicturesAndGravityAreTheFullOnesTimesT)

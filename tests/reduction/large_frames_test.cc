@@ -37,7 +37,7 @@ TEST(FixedInterfaceModes, AreOrthonormalAndZeroOnTheInterface)
 
 TEST(FixedInterfaceModes, FoundInTwoBatchesAreThoseFoundInOne)
 {
-  const auto                 frame = large_frame();
+  const auto                 frame   = large_frame();
   const auto                 at_once = coupling::craig_bampton_basis(frame, 45);
   coupling::ReductionOptions options;
   options.tolerance  = 1e-4; // needs more than the first thirty
@@ -50,8 +50,8 @@ TEST(FixedInterfaceModes, FoundInTwoBatchesAreThoseFoundInOne)
 
 TEST(SupportedModes, OfALargeFrameAreThoseOfSubspaceIteration)
 {
-  auto       frame = large_frame();
-  const auto exact = coupling::subspace_modes(frame.C, frame.M, 10);
+  auto       frame          = large_frame();
+  const auto exact          = coupling::subspace_modes(frame.C, frame.M, 10);
   frame.modal_damping_ratio = 0.5; // then d = omega
   coupling::add_modal_damping(frame, 10);
   for (int j = 0; j < 10; ++j)

@@ -39,7 +39,8 @@ TEST(ModalDamping, GivesEveryModeOfTheFullFrameItsRatio)
   frame.modal_damping_ratio = 0.03;
   coupling::add_modal_damping(frame, 15);
   const auto modes = dense_modes(frame.C, frame.M);
-  const auto ratio = [&](int j) {
+  const auto ratio = [&](int j)
+  {
     const VectorXd z = frame.modal_damping.Z.transpose() * modes.V.col(j);
     return z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j));
   };
@@ -50,8 +51,8 @@ TEST(ModalDamping, GivesEveryModeOfTheFullFrameItsRatio)
 
 TEST(ModalDamping, ForTheSameModesIsTheSameOperatorInTheFullAndInTheReducedModel)
 {
-  auto       frame          = without_dampers(Lattice());
-  const int  n2             = int(frame.M.rows() - frame.interface_coordinates().size());
+  auto      frame           = without_dampers(Lattice());
+  const int n2              = int(frame.M.rows() - frame.interface_coordinates().size());
   frame.modal_damping_ratio = 0.02;
   const auto reduced        = craig_bampton(frame, with_modes(n2)); // all modes: T is a change of coordinates
   const auto basis          = coupling::craig_bampton_basis(frame, n2);
@@ -95,11 +96,11 @@ TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
   const VectorXd exact   = dense_modes(frame.C, frame.M).omega;
   const auto     reduced = craig_bampton(frame, with_modes(12));
   for (int j = 0; j < 10; ++j)
-    {
-      const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
-      EXPECT_LE(reduced.frequency_error(j), error * (1. + 1e-6) + 1e-10); // the refined ones come from above too
-      EXPECT_GE(reduced.frequency_error(j), 0.5 * error - 1e-10);
-    }
+  {
+    const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
+    EXPECT_LE(reduced.frequency_error(j), error * (1. + 1e-6) + 1e-10); // the refined ones come from above too
+    EXPECT_GE(reduced.frequency_error(j), 0.5 * error - 1e-10);
+  }
 }
 
 TEST(AutomaticNumber, KeepsTheFrequenciesWithinTheToleranceWithTheFewestModes)
@@ -109,27 +110,26 @@ TEST(AutomaticNumber, KeepsTheFrequenciesWithinTheToleranceWithTheFewestModes)
   coupling::ReductionOptions options;
   int                        previous = 0;
   for (const double tolerance : {0.05, 0.005, 0.0005})
-    {
-      options.tolerance  = tolerance;
-      options.frequency  = exact(14) * 1.0001;
-      const auto reduced = craig_bampton(frame, options);
-      const int  m       = int(reduced.omega0.size());
-      const auto worst   = [&](const VectorXd &found) {
-        return (found.head(15) - exact.head(15)).cwiseQuotient(exact.head(15)).maxCoeff();
-      };
-      EXPECT_LE(worst(reduced.frequencies_hz), 1.1 * tolerance); // the estimate is no bound, but close
-      EXPECT_GE(worst(craig_bampton(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
-      EXPECT_GE(m, previous);
-      EXPECT_TRUE(reduced.notes.empty());
-      previous = m;
-    }
+  {
+    options.tolerance  = tolerance;
+    options.frequency  = exact(14) * 1.0001;
+    const auto reduced = craig_bampton(frame, options);
+    const int  m       = int(reduced.omega0.size());
+    const auto worst   = [&](const VectorXd &found)
+    { return (found.head(15) - exact.head(15)).cwiseQuotient(exact.head(15)).maxCoeff(); };
+    EXPECT_LE(worst(reduced.frequencies_hz), 1.1 * tolerance); // the estimate is no bound, but close
+    EXPECT_GE(worst(craig_bampton(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
+    EXPECT_GE(m, previous);
+    EXPECT_TRUE(reduced.notes.empty());
+    previous = m;
+  }
 }
 
 TEST(AutomaticNumber, TellsWhereItStopsShort)
 {
   coupling::ReductionOptions options;
-  options.tolerance  = 1e-9;
-  options.frequency  = 50.;
+  options.tolerance = 1e-9;
+  options.frequency = 50.;
   Lattice lattice;
   lattice.nx = 9, lattice.ny = 5, lattice.nz = 9;
   const auto reduced = craig_bampton(frame_of(lattice), options);

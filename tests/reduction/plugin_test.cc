@@ -20,9 +20,8 @@ TEST(Plugin, ReducesAFrame)
   coupling::ReductionOptions options;
   options.n_modes = 8;
   std::vector<std::string> phases;
-  const auto reduced = coupling::frame_service().reduce(frame, options, [&](const std::string &phase, double) {
-    phases.push_back(phase);
-  });
+  const auto               reduced = coupling::frame_service().reduce(
+                    frame, options, [&](const std::string &phase, double) { phases.push_back(phase); });
   EXPECT_EQ(reduced.omega0.size(), 8);
   EXPECT_EQ(reduced.n_interface, 12);
   EXPECT_FALSE(phases.empty());
