@@ -32,9 +32,10 @@ struct ReducedFrame
   // what is known about the model
   int                      n_full  = 0; ///< coordinates of the unreduced frame
   int                      n_cells = 0;
-  double                   mass    = 0.;         ///< [kg]
-  Eigen::VectorXd          frequencies_hz;       // [p] supported frame, interface free, from the reduced model
-  Eigen::VectorXd          frequency_error;      // [p] estimated relative error of these, >= 0
+  double                   mass    = 0.;            ///< [kg]
+  Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
+  double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold
+  Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
 };

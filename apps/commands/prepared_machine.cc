@@ -8,6 +8,7 @@
 #include "coupling/static_expansion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::apps
 {
@@ -129,8 +130,9 @@ ModelFacts model_facts(const PreparedMachine &prepared)
     if (frame->omega0.size() > 0 && !prepared.companion)
     {
       facts.static_residual = frame->static_residual;
-      if (frame->frequency_error.size() > 0)
-        facts.frequency_error = frame->frequency_error.maxCoeff();
+      for (Eigen::Index j = 0; j < frame->frequency_error.size(); ++j)
+        if (frame->frequencies_hz[j] <= frame->frequency_limit_hz)
+          facts.frequency_error = std::fmax(facts.frequency_error, frame->frequency_error[j]); // nan gives way
     }
   }
   return facts;

@@ -77,7 +77,7 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(double h_beta, Integratio
   ++work.factorisations;
   const auto &W = system_.directions();
   made.Y.resize(W.rows(), W.cols());
-  Eigen::VectorXd x;
+  Eigen::VectorXd x(W.rows());
   for (int j = 0; j < W.cols(); ++j)
   {
     made.solver->solve(h_beta * h_beta * Eigen::VectorXd(W.col(j)), x);

@@ -169,9 +169,10 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
     tell(progress, "error estimate");
     refined = supported_modes(held, basis, star, frame.M);
   }
-  const auto estimate     = frequency_estimate(star, basis.n1(), basis.m(), refined);
-  reduced.frequencies_hz  = estimate.omega / two_pi;
-  reduced.frequency_error = estimate.error;
+  const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), refined);
+  reduced.frequencies_hz     = estimate.omega / two_pi;
+  reduced.frequency_error    = estimate.error;
+  reduced.frequency_limit_hz = highest_of_interest(options, refined) / two_pi;
   if (frame.modal_damping_ratio > 0.)
     add_modal_damping(star.B, refined, frame.modal_damping_ratio);
 

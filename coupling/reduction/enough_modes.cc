@@ -26,13 +26,17 @@ constexpr double rule            = 3.5; // the book's
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
 constexpr int    dense_limit     = 600; // internal coordinates that are solved densely
 
-/// Highest frequency of interest [rad/s].
-double limit(const ReductionOptions &options, const SupportedModes &refined)
+} // namespace
+
+double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined)
 {
   if (options.frequency > 0. || refined.omega.size() == 0)
     return two_pi * options.frequency;
   return refined.omega(std::min<int>(default_elastic, refined.omega.size()) - 1);
 }
+
+namespace
+{
 
 /// Largest error of the model's frequencies whose refined value lies within the limit.
 double largest_error(const FrequencyEstimate &estimate, const SupportedModes &refined, double limit)
@@ -119,7 +123,7 @@ SupportedModes enough_modes(ReductionBasis &basis, const HeldFrame &held, const 
       progress("error estimate", -1.);
     const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
     SupportedModes        refined = supported_modes(held, basis, star, frame.M);
-    const double          within  = limit(options, refined);
+    const double          within  = highest_of_interest(options, refined);
     const double          error   = largest_error(frequency_estimate(star, basis.n1(), m, refined), refined, within);
     const double          highest = m > 0 ? basis.omega0(m - 1) : INFINITY;
 

@@ -12,6 +12,10 @@ namespace gestell::coupling
 /// Fixed-interface modes beyond those the basis has: appended to it.  Few coordinates are solved densely.
 void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame, int n_modes);
 
+/// Highest frequency of interest [rad/s]: options.frequency, or that of the twelfth elastic mode of the supported
+/// frame.
+double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
+
 /**
  * Brings the basis to the smallest number m of modes for which the frequencies of the supported frame up to
  * options.frequency are within options.tolerance.

@@ -1,0 +1,159 @@
+// The program as its users meet it: files, exit codes and messages of the contract.
+
+#include "tests/apps/program.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace gestell::tests
+{
+namespace
+{
+
+TEST(Program, RunLeavesEveryFileOfTheContract)
+{
+  const Folder folder("run");
+  const Answer answer = gestell("run " + scene("press_minimal.toml") + folder.option());
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("report.html"));
+  for (const char *name : {"summary.json", "history.csv", "modes.csv", "report.html"})
+    EXPECT_GT(read(folder.results() / name).size(), 100u) << name;
+  EXPECT_FALSE(std::filesystem::is_empty(folder.results() / "charts"));
+  EXPECT_EQ(read(folder.results() / "history.csv").substr(0, 14), "t [s],F_P [N],");
+  const std::string summary = read(folder.results() / "summary.json");
+  for (const char *key : {"\"scene\"", "\"version\"", "\"model\"", "\"frequencies_hz\"", "\"signals\"", "\"events\"",
+                          "\"work\"", "\"wall_s\"", "\"energy\"", "\"residual\"", "\"warnings\"", "\"conrod_open\""})
+    EXPECT_NE(summary.find(key), std::string::npos) << key;
+}
+
+TEST(Program, ModesAndCheckWorkWithoutARun)
+{
+  const Folder folder("modes");
+  const Answer modes = gestell("modes " + scene("press_minimal.toml") + folder.option());
+  EXPECT_EQ(modes.exit_code, 0) << modes.text;
+  EXPECT_TRUE(modes.says("84.675765"));
+  EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
+  const Answer check = gestell("check " + scene("press_minimal.toml"));
+  EXPECT_EQ(check.exit_code, 0) << check.text;
+}
+
+TEST(Program, EveryCommandHelpsWithAnExample)
+{
+  for (const char *command : {"run", "modes", "reduce", "mesh", "check"})
+  {
+    const Answer answer = gestell(std::string(command) + " --help");
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_TRUE(answer.says(std::string("gestell ") + command + " ")) << answer.text;
+  }
+  EXPECT_TRUE(gestell("--version").says("gestell "));
+}
+
+struct Wrong
+{
+  std::string name, arguments, message;
+};
+
+class WrongInput : public ::testing::TestWithParam<Wrong>
+{
+};
+
+TEST_P(WrongInput, IsToldWithPlaceAndRemedyAndLeavesNothing)
+{
+  const Folder folder("wrong");
+  const Answer answer = gestell("run " + scene("press_minimal.toml") + folder.option() + GetParam().arguments);
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says(GetParam().message)) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongInput,
+    ::testing::Values(Wrong{"unknown_key", "--set element.rod.clearence='\"1 mm\"'", "clearance"},
+                      Wrong{"wrong_type", "--set body.slide.mass=true", "body.slide.mass"},
+                      Wrong{"wrong_dimension", "--set element.rod.clearance='\"3 kg\"'", "element.rod.clearance"},
+                      Wrong{"no_such_body", "--set element.rod.to='\"slied\"'", "slide"},
+                      Wrong{"no_such_interface", "--set element.sheet.to='\"frame.tabel\"'", "'table'"},
+                      Wrong{"no_such_signal", "--set output.signals.F_P='\"rod.forse\"'", "rod.force"},
+                      Wrong{"step_zero", "--set run.step=0", "run.step"},
+                      Wrong{"step_negative", "--set run.step='\"-10 us\"'", "run.step"},
+                      Wrong{"end_before_start", "--set run.end=-1", "run.end"},
+                      Wrong{"unknown_method", "--set run.method='\"rk4\"'", "run.method"},
+                      Wrong{"rod_too_short", "--set parameters.l='\"50 mm\"'", "length"},
+                      Wrong{"bad_parameter", "--set parameters.c_el='\"1000 kN/mm\"'", "elastic_stiffness"}),
+    [](const auto &information) { return information.param.name; });
+
+TEST(Program, MissingSceneIsWrongInput)
+{
+  const Answer answer = gestell("run no_such_scene.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.says("no_such_scene.toml")) << answer.text;
+  EXPECT_EQ(gestell("run").exit_code, 2);
+  EXPECT_EQ(gestell("dance").exit_code, 2);
+}
+
+TEST(Program, FolderThatCannotBeWrittenIsToldBeforeComputing)
+{
+  const Folder      folder("unwritable");
+  const std::string file   = folder.file("a_file", "not a folder");
+  const Answer      answer = gestell("run " + scene("press_minimal.toml") + " -o " + file);
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says("-o")) << answer.text;
+}
+
+TEST(Program, WrongInputLosesNoEarlierResult)
+{
+  const Folder folder("keep");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.end=0.01").exit_code, 0);
+  const std::string before = read(folder.results() / "summary.json");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.step=0").exit_code, 2);
+  EXPECT_EQ(read(folder.results() / "summary.json"), before);
+}
+
+TEST(Program, InterruptedRunSavesWhatItHas)
+{
+  const Folder folder("interrupted");
+  const Answer answer =
+      shell("timeout -s INT 1 '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
+            folder.option() + "--set run.end=100 --set output.step=0.01; echo code $?");
+  // timeout itself answers 124 when it had to send the signal
+  EXPECT_TRUE(answer.says("code 124")) << answer.text;
+  const std::string summary = read(folder.results() / "summary.json");
+  EXPECT_NE(summary.find("\"steps\""), std::string::npos);
+}
+
+TEST(Program, FailedNewtonKeepsWhatWasComputedAndSaysWhere)
+{
+  // A cubic spring that softens without bound has no solution beyond a displacement: the crown falls through.
+  const Folder      folder("failed");
+  const std::string softening = folder.file("softening.toml", R"(name = "softening"
+gravity = [0, 0, -9.81]
+[frame]
+mass      = [["100 kg"]]
+damping   = [[0]]
+stiffness = [["1 kN/m"]]
+[frame.interface.top]
+rows = { "-uz" = 1 }
+[element.spring]
+type      = "cubic spring"
+from      = "frame.top"
+to        = "ground"
+direction = [0, 0, -1]
+stiffness = "0 N/m"
+cubic     = -1e9
+[run]
+step = "1 ms"
+end  = "1 s"
+[output.signals]
+x = "-frame.top.uz"
+)");
+  const Answer      answer    = gestell("run " + softening + folder.option());
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("t = ")) << answer.text;
+  EXPECT_TRUE(answer.says("residual")) << answer.text;
+  EXPECT_TRUE(answer.says("frame.top.uz")) << answer.text;
+  EXPECT_GT(read(folder.results() / "history.csv").size(), 200u);
+}
+
+} // namespace
+} // namespace gestell::tests
