@@ -174,8 +174,8 @@ TEST_F(ReducedFrameFile, CacheFolderFollowsTheEnvironment)
   setenv("XDG_CACHE_HOME", "/somewhere", 1);
   EXPECT_EQ(coupling::cache_folder(), "/somewhere/gestell");
   unsetenv("XDG_CACHE_HOME");
-  setenv("HOME", "/home/me", 1);
-  EXPECT_EQ(coupling::cache_folder(), "/home/me/.cache/gestell");
+  setenv("HOME", "/of/somebody", 1);
+  EXPECT_EQ(coupling::cache_folder(), "/of/somebody/.cache/gestell");
 }
 
 class ContentKey : public ReducedFrameFile
