@@ -34,8 +34,6 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     request.options.n_modes = table->integer("modes", 0);
     if (request.options.n_modes < 0)
       throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
-    if (table->has("tolerance"))
-      throw table->error("modes", "a fixed number of modes and a 'tolerance' exclude each other; give one of them");
   }
   request.options.frequency = table->positive("frequency", kind::frequency, 0.);
   return request;

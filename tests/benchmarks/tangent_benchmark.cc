@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #ifdef GESTELL_HAVE_SACADO
-#include <Sacado.hpp>
+#include <Sacado_No_Kokkos.hpp>
 #endif
 
 namespace
