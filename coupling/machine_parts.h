@@ -80,6 +80,7 @@ struct Machine::Parts
   void                          place_elements(int n);
   void                          refresh_guards();
   std::string                   coordinate_name(int i) const;
+  double                        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
 
   double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }

@@ -20,6 +20,15 @@ Measure measure_of_row(const Eigen::VectorXd &row)
 
 } // namespace
 
+// What gravity adds to an output of a reduced frame beyond its rows.
+double Machine::Parts::output_offset(std::size_t i) const
+{
+  if (!reduced || reduced->outputs_under_acceleration.rows() == 0)
+    return 0.;
+  return reduced->outputs_under_acceleration.row(static_cast<Eigen::Index>(i))
+      .dot(Eigen::Map<const Eigen::RowVector3d>(gravity.data()));
+}
+
 std::map<std::string, Signal> Machine::Parts::signals() const
 {
   std::map<std::string, Signal> signals;
@@ -43,11 +52,15 @@ std::map<std::string, Signal> Machine::Parts::signals() const
       add_motion(body.name + ".displacement", body.name + ".velocity", "m", {{body.coordinate, 1.}});
 
   if (reduced || full)
-    for (const fem::FrameOutput &output : reduced ? reduced->outputs : full->outputs)
+  {
+    const auto &outputs = reduced ? reduced->outputs : full->outputs;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
     {
-      const std::string path = "frame." + output.name;
-      signals[path] = {path, output.unit, measure_of_row(output.on_q), measure_of_row(output.on_v), -1, -1, 1., 0.};
+      const std::string path = "frame." + outputs[i].name;
+      signals[path] = {path, outputs[i].unit, measure_of_row(outputs[i].on_q), measure_of_row(outputs[i].on_v), -1, -1,
+                       1.,   output_offset(i)};
     }
+  }
 
   for (const auto &element : linear)
   {

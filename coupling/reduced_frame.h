@@ -24,6 +24,10 @@ struct ReducedFrame
   Eigen::Matrix3d               total_mass = Eigen::Matrix3d::Zero(); // R^T M R [kg]
   std::vector<fem::FrameOutput> outputs;                              // rows on p
 
+  /// [outputs x 3] what the outputs read of a unit acceleration field (gravity) beyond the rows on p: the static
+  /// deflection of the inside that the kept modes do not carry; restored by adding it, times g.
+  Eigen::MatrixXd outputs_under_acceleration;
+
   // pictures
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<int, 3>>    triangles;

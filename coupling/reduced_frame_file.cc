@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Eigen::MatrixXd;
 
 constexpr const char *format  = "Gestell reduced frame";
-constexpr int         version = 2;
+constexpr int         version = 3;
 
 MatrixXd number(double x)
 {
@@ -92,6 +92,7 @@ void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key
   file.write("frequencies_hz", MatrixXd(frame.frequencies_hz));
   file.write("frequency_limit_hz", number(frame.frequency_limit_hz));
   file.write("frequency_error", MatrixXd(frame.frequency_error));
+  file.write("outputs_under_acceleration", frame.outputs_under_acceleration);
   file.write("static_residual", number(frame.static_residual));
   file.write("points", columns<MatrixXd>(frame.points));
   file.write("triangles", columns<Eigen::MatrixXi>(frame.triangles));
@@ -122,17 +123,18 @@ ReducedFrame read_all(const Hdf5File &file)
   const MatrixXd mass     = file.read_matrix("total_mass");
   if (mass.rows() != 3 || mass.cols() != 3)
     throw std::runtime_error("'total_mass' must be 3 x 3");
-  frame.total_mass         = mass;
-  frame.n_full             = int(file.read_number("n_full"));
-  frame.n_cells            = int(file.read_number("n_cells"));
-  frame.mass               = file.read_number("mass");
-  frame.frequencies_hz     = file.read_vector("frequencies_hz");
-  frame.frequency_limit_hz = file.read_number("frequency_limit_hz");
-  frame.frequency_error    = file.read_vector("frequency_error");
-  frame.static_residual    = file.read_number("static_residual");
-  frame.points             = points<std::array<double, 3>>(file.read_matrix("points"));
-  frame.triangles          = points<std::array<int, 3>>(file.read_integers("triangles"));
-  frame.displacement       = file.read_floats("displacement");
+  frame.total_mass                 = mass;
+  frame.n_full                     = int(file.read_number("n_full"));
+  frame.n_cells                    = int(file.read_number("n_cells"));
+  frame.mass                       = file.read_number("mass");
+  frame.frequencies_hz             = file.read_vector("frequencies_hz");
+  frame.frequency_limit_hz         = file.read_number("frequency_limit_hz");
+  frame.frequency_error            = file.read_vector("frequency_error");
+  frame.outputs_under_acceleration = file.read_matrix("outputs_under_acceleration");
+  frame.static_residual            = file.read_number("static_residual");
+  frame.points                     = points<std::array<double, 3>>(file.read_matrix("points"));
+  frame.triangles                  = points<std::array<int, 3>>(file.read_integers("triangles"));
+  frame.displacement               = file.read_floats("displacement");
   for (int i = 0; file.has("interfaces") && file.has("interfaces/" + std::to_string(i)); ++i)
     frame.interfaces.push_back(read_interface(file, "interfaces/" + std::to_string(i) + "/"));
   for (int i = 0; file.has("outputs") && file.has("outputs/" + std::to_string(i)); ++i)

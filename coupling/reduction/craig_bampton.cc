@@ -78,28 +78,30 @@ std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, c
   return interfaces;
 }
 
-/**
- * Relative part, in the energy norm, of the load f2 of gravity on q2 that the modes do not carry; the worst of x, y, z:
- *
- *     1 - sum_i (v_i^T f2)^2 / omega_0i^2  /  f2^T C22^-1 f2     (its square root).
- */
-double static_residual(const HeldFrame &held, const ReductionBasis &basis, const MatrixXd &load)
+/// What the modes leave out of the static deflection of q2 under loads f [n x k]:  C22^-1 f2 - V22 diag(1/omega_0^2)
+/// V22^T f2.
+struct StaticRemainder
+{
+  MatrixXd deflection;    // [n x k], zero in q1
+  double   relative = 0.; ///< of the energy norm of C22^-1 f2; the worst load
+};
+
+StaticRemainder static_remainder(const HeldFrame &held, const ReductionBasis &basis, const MatrixXd &load)
 {
   MatrixXd f2 = load;
   for (const int i : basis.q1)
     f2.row(i).setZero();
-  MatrixXd u2 = f2;
-  held.solve_in_place(u2);
-  double worst = 0.;
+  StaticRemainder remainder{f2};
+  held.solve_in_place(remainder.deflection);
+  const VectorXd energy    = (f2.array() * remainder.deflection.array()).colwise().sum();
+  const auto     stiffness = basis.omega0.array().square().matrix();
+  const MatrixXd modal     = stiffness.asDiagonal().inverse() * (basis.fixed_modes().transpose() * f2);
+  remainder.deflection -= basis.fixed_modes() * modal;
+  const VectorXd left = (f2.array() * remainder.deflection.array()).colwise().sum();
   for (int d = 0; d < load.cols(); ++d)
-  {
-    const double energy  = f2.col(d).dot(u2.col(d));
-    const auto   modal   = (basis.fixed_modes().transpose() * f2.col(d)).cwiseQuotient(basis.omega0);
-    const double carried = modal.squaredNorm();
-    if (energy > 0.)
-      worst = std::max(worst, std::sqrt(std::max(0., 1. - carried / energy)));
-  }
-  return worst;
+    if (energy(d) > 0.)
+      remainder.relative = std::max(remainder.relative, std::sqrt(std::max(0., left(d) / energy(d))));
+  return remainder;
 }
 
 /// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
@@ -185,7 +187,12 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
     const MatrixXd load       = acceleration_load(frame);
     reduced.translations_load = basis.T.transpose() * load;
     reduced.total_mass        = frame.translations.transpose() * load;
-    reduced.static_residual   = static_residual(held, basis, load);
+    const auto remainder      = static_remainder(held, basis, load);
+    reduced.static_residual   = remainder.relative;
+    reduced.outputs_under_acceleration.resize(Eigen::Index(frame.outputs.size()), load.cols());
+    for (std::size_t i = 0; i < frame.outputs.size(); ++i)
+      reduced.outputs_under_acceleration.row(Eigen::Index(i)) =
+          frame.outputs[i].on_q.transpose() * remainder.deflection;
   }
   else
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
