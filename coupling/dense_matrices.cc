@@ -46,8 +46,7 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
     names.push_back(placement.name);
   for (const std::string &name : open)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open; the nearest name is \"" +
-                                  nearest_name(name, names) + "\"");
+      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
 
   const int             n = machine.size();
   const auto           &W = machine.directions();

@@ -182,8 +182,7 @@ const Marker &Machine::marker(const std::string &name) const
   std::vector<std::string> names;
   for (const auto &entry : parts_->markers)
     names.push_back(entry.first);
-  throw std::invalid_argument("there is no body or interface \"" + name + "\"; the nearest name is \"" +
-                              nearest_name(name, names) + "\"");
+  throw std::invalid_argument("there is no body or interface \"" + name + "\"" + suggestion(name, names));
 }
 
 const Body &Machine::body(const std::string &name) const
@@ -196,8 +195,7 @@ const Body &Machine::body(const std::string &name) const
     names.push_back(body.name);
   }
   throw std::invalid_argument("there is no body \"" + name + "\"" +
-                              (names.empty() ? std::string("; the scene has none")
-                                             : "; the nearest name is \"" + nearest_name(name, names) + "\""));
+                              (names.empty() ? std::string("; the scene has none") : suggestion(name, names)));
 }
 
 const std::vector<Body> &Machine::bodies() const

@@ -99,8 +99,8 @@ Signal Machine::signal(const std::string &name, const std::string &path) const
   const auto        signals  = parts_->signals();
   const auto        found    = signals.find(positive);
   if (found == signals.end())
-    throw std::invalid_argument("signal \"" + name + "\": there is no \"" + positive + "\"; the nearest is \"" +
-                                nearest_name(positive, signal_paths()) + "\"");
+    throw std::invalid_argument("signal \"" + name + "\": there is no \"" + positive + "\"" +
+                                suggestion(positive, signal_paths()));
   Signal signal = found->second;
   signal.name   = name;
   if (minus)
@@ -120,8 +120,7 @@ int Machine::coordinate(const std::string &name) const
     if (names.back() == name)
       return i;
   }
-  throw std::invalid_argument("there is no coordinate \"" + name + "\"; the nearest name is \"" +
-                              nearest_name(name, names) + "\"");
+  throw std::invalid_argument("there is no coordinate \"" + name + "\"" + suggestion(name, names));
 }
 
 double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,

@@ -6,7 +6,16 @@
 namespace gestell::coupling
 {
 
-/// The candidate with the smallest edit distance to `name`; empty if there are no candidates.
-std::string nearest_name(const std::string &name, const std::vector<std::string> &candidates);
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn a into b.
+int edit_distance(const std::string &a, const std::string &b);
+
+/// The name most like `name`, or "" if none is near enough to be meant.
+std::string nearest_name(const std::string &name, const std::vector<std::string> &names);
+
+/// "; did you mean 'stiffness'?" or, if nothing is near, "; valid: a, b, c" (or nothing for no names at all).
+std::string suggestion(const std::string &name, const std::vector<std::string> &names);
+
+/// Names in quotes with commas.
+std::string listed(const std::vector<std::string> &names);
 
 } // namespace gestell::coupling

@@ -1,6 +1,6 @@
 #include "apps/scene/names.h"
 
-#include "apps/scene/nearest_name.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 
@@ -41,8 +41,8 @@ std::string Names::marker(const SceneTable &table, const std::string &key) const
   throw table.error(key, of_frame ? "the frame has no interface '" + name.substr(6) + "'" +
                                         (interfaces_.empty()
                                              ? "; declare [frame.interface." + written_key(name.substr(6)) + "]"
-                                             : suggestion(name.substr(6), interfaces_))
-                                  : "there is no body '" + name + "'" + suggestion(name, valid));
+                                             : coupling::suggestion(name.substr(6), interfaces_))
+                                  : "there is no body '" + name + "'" + coupling::suggestion(name, valid));
 }
 
 std::string Names::marker(const SceneTable &table, const std::string &key, const std::string &fallback) const
@@ -61,8 +61,9 @@ const BodyRequest &Names::body(const SceneTable &table, const std::string &key, 
   for (const auto &body : bodies_)
     if (body.kind == kind)
       valid.push_back(body.name);
-  throw table.error(key, found ? "'" + name + "' is no " + words + ", but one is needed here" + suggestion(name, valid)
-                               : "there is no " + words + " '" + name + "'" + suggestion(name, valid));
+  throw table.error(key, found ? "'" + name + "' is no " + words + ", but one is needed here" +
+                                     coupling::suggestion(name, valid)
+                               : "there is no " + words + " '" + name + "'" + coupling::suggestion(name, valid));
 }
 
 void check_thing_name(const SceneTable &table)

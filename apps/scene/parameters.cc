@@ -1,6 +1,6 @@
 #include "apps/scene/parameters.h"
 
-#include "apps/scene/nearest_name.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cmath>

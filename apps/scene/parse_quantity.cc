@@ -1,7 +1,7 @@
-#include "apps/scene/nearest_name.h"
 #include "apps/scene/quantity.h"
 #include "apps/scene/tokens.h"
 #include "apps/scene/units.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +98,7 @@ private:
   }
   static std::string near(const std::string &name, const std::vector<std::string> &names)
   {
-    const auto nearest = nearest_name(name, names);
+    const auto nearest = coupling::nearest_name(name, names);
     return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
   }
 
@@ -219,7 +219,7 @@ private:
   Quantity function(const std::string &name)
   {
     if (!is_function(name))
-      fail("calls an unknown function '" + name + "'" + suggestion(name, function_names));
+      fail("calls an unknown function '" + name + "'" + coupling::suggestion(name, function_names));
     next_ += 2;
     std::vector<Quantity> arguments{sum()};
     while (take(","))

@@ -1,7 +1,7 @@
 #include "apps/scene/read_bodies.h"
 
 #include "apps/scene/element_registry.h"
-#include "apps/scene/nearest_name.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "apps/scene/names.h"
-#include "apps/scene/nearest_name.h"
 #include "apps/scene/read_frame.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>
@@ -86,7 +86,8 @@ std::vector<std::string> read_surface_names(const SceneTable &table, const fem::
   for (const auto &name : names)
   {
     if (!frame.surfaces.count(name))
-      throw table.error(key, "there is no [frame.surface." + written_key(name) + "]" + suggestion(name, declared));
+      throw table.error(key,
+                        "there is no [frame.surface." + written_key(name) + "]" + coupling::suggestion(name, declared));
     if (!seen.insert(name).second)
       throw table.error(key, "names '" + name + "' twice");
   }
@@ -193,7 +194,8 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
       if (matches(key, entry.first))
         mesh.surface_size[entry.first] = table.positive(key, kind::length), any = true;
     if (!any)
-      throw table.error(key, "is neither 'size' nor 'max_cells' nor the name of a surface" + suggestion(key, known));
+      throw table.error(key, "is neither 'size' nor 'max_cells' nor the name of a surface" +
+                                 coupling::suggestion(key, known));
   }
   return mesh;
 }
@@ -229,7 +231,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh"};
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
-    throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
+    throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + coupling::listed(endings));
   specification.unit     = frame.positive("unit", kind::length, 0.);
   specification.material = read_material(frame, scene);
   if (const auto damping = frame.optional_table("damping"))

@@ -1,7 +1,7 @@
 #include "apps/scene/names.h"
-#include "apps/scene/nearest_name.h"
 #include "apps/scene/read_frame.h"
 #include "coupling/matrix_market.h"
+#include "coupling/nearest_name.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -93,7 +93,7 @@ fem::Interface read_interface(const SceneTable &table, Eigen::Index n, std::map<
     const bool minus = key[0] == '-';
     const auto found = std::find(motion_names.begin(), motion_names.end(), key.substr(minus));
     if (found == motion_names.end())
-      throw rows.error(key, "is no motion; valid: " + listed(motion_names) +
+      throw rows.error(key, "is no motion; valid: " + coupling::listed(motion_names) +
                                 ", each with '-' before it if the row counts "
                                 "against the axis");
     const int motion = found - motion_names.begin(), row = rows.integer(key, 0);

@@ -1,7 +1,7 @@
-#include "apps/scene/nearest_name.h"
 #include "apps/scene/read_bodies.h"
 #include "apps/scene/read_frame.h"
 #include "apps/scene/scene.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,9 +125,9 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
           valid.push_back("frame." + interface + "." + motion);
     if (!frame && std::find(valid.begin(), valid.end(), name) == valid.end())
       throw table.error(name, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
-                                  suggestion(name, valid));
+                                  coupling::suggestion(name, valid));
     if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
-      throw table.error(name, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+      throw table.error(name, "the frame has no coordinate '" + name + "'" + coupling::suggestion(name, valid));
     const bool angle = body ? body->kind == coupling::BodyKind::rotor : name.size() > 2 && name[name.size() - 2] == 'r';
     const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
     values.push_back({name, table.number(name, kind), table.place(name)});
@@ -188,7 +188,7 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   for (const auto &name : modes.open)
     if (std::find(elements.begin(), elements.end(), name) == elements.end())
       throw table->error("open", "there is no nonlinear element '" + name + "' that could be open" +
-                                     suggestion(name, elements));
+                                     coupling::suggestion(name, elements));
   return modes;
 }
 

@@ -1,6 +1,6 @@
 #include "apps/scene/scene_table.h"
 
-#include "apps/scene/nearest_name.h"
+#include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
   for (const auto &entry : node_->entries)
     if (!node_->asked.count(entry.first))
       unknown.push_back(entry.first);
-  const auto meant = nearest_name(key, unknown);
+  const auto meant = coupling::nearest_name(key, unknown);
   throw error("the key '" + key + "' is missing; it needs " + what +
               (meant.empty() ? "" : "; is '" + meant + "' a misspelling of it?"));
 }
@@ -283,12 +283,12 @@ std::string SceneTable::choice(const std::string &key, const std::vector<std::st
                                const std::string &fallback) const
 {
   if (fallback.empty() && !has(key))
-    demand(key, "one of " + listed(valid));
+    demand(key, "one of " + coupling::listed(valid));
   const std::string chosen = text(key, fallback);
   if (std::find(valid.begin(), valid.end(), chosen) != valid.end())
     return chosen;
-  const auto nearest = nearest_name(chosen, valid);
-  throw error(key, "there is no '" + chosen + "'; valid: " + listed(valid) +
+  const auto nearest = coupling::nearest_name(chosen, valid);
+  throw error(key, "there is no '" + chosen + "'; valid: " + coupling::listed(valid) +
                        (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
@@ -352,7 +352,7 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
   {
     if (!value.used)
       throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
-                                  key + "'" + suggestion(key, {table.asked.begin(), table.asked.end()}));
+                                  key + "'" + coupling::suggestion(key, {table.asked.begin(), table.asked.end()}));
     // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
     if (value.type == Type::table && (!value.asked.empty() || value.entries.empty()))
       refuse_unknown(value, (path.empty() ? "" : path + ".") + written_key(key));

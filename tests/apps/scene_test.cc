@@ -1,7 +1,7 @@
 // Scene files: what is read, what is overridden and inherited, and every way a user can get one wrong.
 
 #include "apps/scene/build_machine.h"
-#include "apps/scene/nearest_name.h"
+#include "coupling/nearest_name.h"
 #include "scene_text.h"
 
 #include <gtest/gtest.h>
@@ -419,10 +419,10 @@ TEST(SceneReference, TheScenesOfTheRepositoryAreWellFormed)
 
 TEST(NearestName, FindsSlipsAndLeavesOtherWordsAlone)
 {
-  EXPECT_EQ(apps::edit_distance("crank", "crnak"), 1); // neighbours swapped are one slip
-  EXPECT_EQ(apps::nearest_name("stifness", {"damping", "stiffness"}), "stiffness");
-  EXPECT_EQ(apps::nearest_name("Crank", {"crank"}), "crank");
-  EXPECT_EQ(apps::nearest_name("flywheel", {"damping", "stiffness"}), "");
+  EXPECT_EQ(coupling::edit_distance("crank", "crnak"), 1); // neighbours swapped are one slip
+  EXPECT_EQ(coupling::nearest_name("stifness", {"damping", "stiffness"}), "stiffness");
+  EXPECT_EQ(coupling::nearest_name("Crank", {"crank"}), "crank");
+  EXPECT_EQ(coupling::nearest_name("flywheel", {"damping", "stiffness"}), "");
 }
 
 } // namespace
