@@ -1,18 +1,28 @@
 #include "coupling/simulation.h"
 
 #include "coupling/integration/bdf.h"
+#include "coupling/integration/bdf_stability.h"
 #include "coupling/integration/energy_balance.h"
 #include "coupling/integration/event_detection.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace gestell::coupling
 {
 
 namespace
 {
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text << std::setprecision(2) << 100. * share << " %";
+  return text.str();
+}
 
 /// Follows a run: extremes at every step, rows and pictures at their own intervals.
 class Recorder
@@ -51,7 +61,10 @@ public:
   void step(const Instant &instant, long index)
   {
     if (with_energy_)
+    {
       energy_.step(instant);
+      balance(instant);
+    }
     record(instant, index);
   }
 
@@ -62,6 +75,9 @@ public:
       row(instant);
     for (std::size_t i = 0; i < signals_.size(); ++i)
       result_.signals[i].final = values_[i];
+    if (result_.energy.residual > 0.01 * turned_over_)
+      result_.warnings.push_back("the energy balance is open by " + percent(result_.energy.residual / turned_over_) +
+                                 " of the energy turned over: the step is too large for this motion");
   }
 
 private:
@@ -100,10 +116,15 @@ private:
     result_.rows.insert(result_.rows.end(), values_.begin(), values_.end());
     if (!with_energy_)
       return;
+    result_.rows.insert(result_.rows.end(), {result_.energy.input, result_.energy.stored, result_.energy.dissipated});
+  }
+
+  void balance(const Instant &instant)
+  {
     const EnergyState energy = energy_.state(instant);
-    result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
-    result_.energy = {energy.input, energy.stored, energy.dissipated,
-                      std::max(result_.energy.residual, std::abs(energy.residual()))};
+    result_.energy           = {energy.input, energy.stored, energy.dissipated,
+                                std::max(result_.energy.residual, std::abs(energy.residual()))};
+    turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated});
   }
 
   Machine                   &machine_;
@@ -113,15 +134,44 @@ private:
   bool                       with_energy_;
   std::vector<double>        values_;
   long                       row_every_, picture_every_;
+  double                     turned_over_ = 0.; ///< largest energy in the balance so far [J]
 };
 
-void check(const RunOptions &options)
+[[noreturn]] void refuse(const std::string &key, double value, const std::string &needed)
+{
+  std::ostringstream message;
+  message << "run." << key << " is " << value << " s; " << needed;
+  throw std::invalid_argument(message.str());
+}
+
+void check(const RunOptions &options, std::size_t n_columns)
 {
   if (!(options.step > 0.))
-    throw std::invalid_argument("run.step is " + std::to_string(options.step) + " s; it must be positive");
+    refuse("step", options.step, "it must be positive");
   if (!(options.end > options.begin))
-    throw std::invalid_argument("run.end is " + std::to_string(options.end) + " s; it must lie after the start, " +
-                                std::to_string(options.begin) + " s");
+    refuse("end", options.end, "it must lie after the start");
+  const double steps = (options.end - options.begin) / options.step;
+  if (!(steps <= 1e10))
+    refuse("step", options.step, "that makes more than 1e10 steps; take a longer one");
+  const double bytes = 8. * double(n_columns) * steps * options.step / std::max(options.output_step, options.step);
+  if (bytes > 8e9)
+    refuse("step", options.step, "its history would take more than 8 GB; give output.step a larger value");
+}
+
+/// Orders above 2 are refused where they would blow up.
+void check_stability(const Machine &machine, const RunOptions &options)
+{
+  if (options.order <= 2)
+    return;
+  const auto unstable = unstable_mode(options.order, machine.spectrum(), options.step);
+  if (!unstable)
+    return;
+  std::ostringstream message;
+  message << "run.order: BDF of order " << options.order << " is unstable for the mode at "
+          << unstable->mode.omega / 6.283185307179586 << " Hz with damping ratio " << unstable->mode.zeta
+          << ": with run.step = " << options.step << " s it grows by the factor " << unstable->growth
+          << " in every step; order 2 is stable for every mode";
+  throw std::invalid_argument(message.str());
 }
 
 void take_work(const IntegrationWork &work, RunResult &result)
@@ -138,7 +188,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop)
 {
-  check(options);
+  check(options, signals.size() + 4);
+  check_stability(machine, options);
   const auto wall_start = std::chrono::steady_clock::now();
   RunResult  result;
 
@@ -158,7 +209,10 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   detection.begin(local);
   recorder.begin(integrator.instant());
 
-  const long         n_steps = std::lround(std::ceil((options.end - options.begin) / options.step - 1e-9));
+  const long n_steps        = std::lround(std::ceil((options.end - options.begin) / options.step - 1e-9));
+  const long progress_every = machine.size() > 1000 ? 4 : 1024;
+  if (options.begin + double(n_steps) * options.step > options.end + 1e-9 * options.step)
+    result.warnings.push_back("run.step does not divide the run: it ends at the first step past run.end");
   std::vector<Event> events;
   try
   {
@@ -170,16 +224,13 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
       machine.accept(now.local);
       local = now.local;
       recorder.step(now, k);
-      if (k % 1024 == 0)
+      if (stop && stop->load(std::memory_order_relaxed))
       {
-        if (stop && stop->load(std::memory_order_relaxed))
-        {
-          result.interrupted = true;
-          break;
-        }
-        if (progress)
-          progress(now.t);
+        result.interrupted = true;
+        break;
       }
+      if (progress && k % progress_every == 0)
+        progress(now.t);
     }
   }
   catch (const ConvergenceFailure &failure)

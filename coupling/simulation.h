@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/machine.h"
+#include "coupling/steady_start.h"
 
 #include <atomic>
 #include <functional>
@@ -9,24 +10,6 @@
 
 namespace gestell::coupling
 {
-
-struct InitialState
-{
-  double          t = 0.;
-  Eigen::VectorXd q, v; // [n]
-};
-
-/// State from which the machine runs on steadily for an instant (docs/theory/start.md): `angles` of rotors and `speeds`
-/// of rotors are given; sliders follow the closed elements kinematically, the frame rests; positions are those of
-/// equilibrium with weights, element forces and the inertia of that motion.  The balance of `driver` is not demanded:
-/// it carries what the drive lacks.
-struct SteadyStart
-{
-  std::vector<std::pair<std::string, double>> angles; ///< rad
-  std::vector<std::pair<std::string, double>> speeds; ///< rad/s
-  std::string                                 driver;
-};
-InitialState steady_start(Machine &machine, const SteadyStart &start);
 
 struct RunOptions
 {

@@ -1,12 +1,11 @@
-#include "coupling/dense_matrices.h"
-#include "coupling/simulation.h"
+#include "coupling/steady_start.h"
 
-#include <Eigen/LU>
+#include "coupling/dense_matrices.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace gestell::coupling
@@ -75,99 +74,201 @@ Eigen::VectorXd slider_solution(const Eigen::MatrixXd &J, const Eigen::VectorXd 
   return x;
 }
 
-/// Stiffness of the engaged elements, W K W^T.
-Eigen::MatrixXd engaged_stiffness(const Machine &machine, const Eigen::VectorXd &q)
+/// Positions given by angles, and the state kinematics makes of them.
+struct Kinematics
 {
-  Eigen::MatrixXd damping;
-  Eigen::MatrixXd stiffness;
-  engaged_matrices(machine, q, {}, stiffness, damping);
-  return stiffness;
+  std::vector<bool> given; ///< coordinates whose value is not unknown
+  int               driver = -1;
+  InitialState      state;
+  Eigen::VectorXd   acceleration;
+};
+
+void check_driver(const SteadyStart &start, const Kinematics &kinematics)
+{
+  const long n_given = std::count(kinematics.given.begin(), kinematics.given.end(), true);
+  if (n_given != (kinematics.driver >= 0 ? 1 : 0))
+    throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
+                                (start.driver.empty() ? "no driver" : "one driver") +
+                                "; each given angle replaces the balance of one driver, so give one of both, or none");
+}
+
+Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
+{
+  const int  n = machine.size();
+  Kinematics result{std::vector<bool>(n, false), -1, {0., Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
+  auto &[t, q, v] = result.state;
+  for (const Body &body : machine.bodies()) // other rotors stand in line with the first one given
+    if (body.kind == BodyKind::rotor && !start.angles.empty())
+      q[body.coordinate] = start.angles.front().second;
+  for (const auto &[name, angle] : start.angles)
+  {
+    result.given[machine.body(name).coordinate] = true;
+    q[machine.body(name).coordinate]            = angle;
+  }
+  for (const auto &[name, speed] : start.speeds)
+    v[machine.body(name).coordinate] = speed;
+  if (!start.driver.empty())
+    result.driver = machine.body(start.driver).coordinate;
+  check_driver(start, result);
+
+  const std::vector<int> sliders = slider_coordinates(machine);
+  for (int i = 0; i < 20; ++i)
+  {
+    const Closures chain = closures(machine, q, v);
+    q += slider_solution(chain.J, -chain.g, sliders);
+  }
+  const Closures chain = closures(machine, q, v);
+  v += slider_solution(chain.J, -chain.J * v, sliders);
+  result.acceleration = slider_solution(chain.J, -closures(machine, q, v).curvature, sliders);
+  return result;
+}
+
+/// Equilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
+class Equilibrium
+{
+public:
+  Equilibrium(Machine &machine, const Kinematics &kinematics)
+      : machine_(machine), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
+        stiffness_(dense_stiffness(machine)), p_(machine.directions().cols())
+  {
+    const int n = machine.size();
+    for (int i = 0; i < n; ++i)
+    {
+      if (!kinematics.given[i])
+        unknown_.push_back(i);
+      if (i != kinematics.driver)
+        equations_.push_back(i);
+    }
+    Eigen::VectorXd product(n);
+    machine.excitation(0., constant_);
+    machine.mass_times(acceleration_, product);
+    constant_ -= product;
+    machine.damping_times(v_, product);
+    constant_ -= product;
+  }
+
+  /// Unbalanced forces [equations] at q.
+  Eigen::VectorXd residual(const Eigen::VectorXd &q)
+  {
+    machine_.gather(0., q, v_, acceleration_, local_);
+    machine_.start(local_);
+    machine_.local_force(local_, p_);
+    const Eigen::VectorXd local = machine_.directions() * p_, elastic = stiffness_ * q;
+    size_of_forces_ = constant_.cwiseAbs().maxCoeff() + local.cwiseAbs().maxCoeff() + elastic.cwiseAbs().maxCoeff();
+    return (constant_ + local - elastic)(equations_);
+  }
+
+  /// Largest force in the balance residual() was last asked for.
+  double size_of_forces() const { return size_of_forces_; }
+
+  /// One Newton step for the residual at q; the step of a singular matrix is the shortest that helps most.
+  Eigen::VectorXd step(const Eigen::VectorXd &q, const Eigen::VectorXd &balance)
+  {
+    Eigen::MatrixXd dp(p_.size(), p_.size());
+    machine_.local_tangent(local_, 1., 0., 0., p_, dp);
+    const auto &W = machine_.directions();
+    decompose(stiffness_ - Eigen::MatrixXd(W * dp * W.transpose()));
+    if (solver_.rank() < static_cast<Eigen::Index>(unknown_.size()))
+    {
+      // Open play gives no stiffness: closed elements show the way through it.
+      Eigen::MatrixXd closed, damping;
+      engaged_matrices(machine_, q, {}, closed, damping);
+      decompose(stiffness_ + closed);
+    }
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(q.size());
+    change(unknown_)       = scale_.asDiagonal() * Eigen::VectorXd(solver_.solve(row_scale_.asDiagonal() * balance));
+    return change;
+  }
+
+  /// Coordinate that moves most in the motion the last matrix leaves free; -1 if there is none.
+  int free_coordinate() const
+  {
+    const Eigen::Index rank = solver_.rank(), n = static_cast<Eigen::Index>(unknown_.size());
+    if (rank == n)
+      return -1;
+    // A x = 0 for x = P Z^T e_n: the last column of the orthogonal factor.
+    Eigen::VectorXd motion = solver_.matrixZ().transpose() * Eigen::VectorXd::Unit(n, n - 1);
+    motion                 = scale_.asDiagonal() * Eigen::VectorXd(solver_.colsPermutation() * motion);
+    Eigen::Index largest;
+    motion.cwiseAbs().maxCoeff(&largest);
+    return unknown_[static_cast<std::size_t>(largest)];
+  }
+
+private:
+  /// Scaled to unit diagonal, so that metres and radians compare.
+  void decompose(const Eigen::MatrixXd &tangent)
+  {
+    const auto inverse_root = [&](int i) { return 1. / std::sqrt(std::max(std::abs(tangent(i, i)), 1e-300)); };
+    scale_.resize(static_cast<Eigen::Index>(unknown_.size()));
+    row_scale_.resize(static_cast<Eigen::Index>(equations_.size()));
+    for (std::size_t j = 0; j < unknown_.size(); ++j)
+      scale_[static_cast<Eigen::Index>(j)] = tangent(unknown_[j], unknown_[j]) == 0. ? 1. : inverse_root(unknown_[j]);
+    for (std::size_t i = 0; i < equations_.size(); ++i)
+      row_scale_[static_cast<Eigen::Index>(i)] =
+          tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
+    const Eigen::MatrixXd part = tangent(equations_, unknown_);
+    solver_.setThreshold(1e-11);
+    solver_.compute(row_scale_.asDiagonal() * part * scale_.asDiagonal());
+  }
+
+  Machine         &machine_;
+  Eigen::VectorXd  v_, acceleration_, constant_;
+  Eigen::MatrixXd  stiffness_;
+  std::vector<int> unknown_, equations_;
+  LocalState       local_;
+  Eigen::VectorXd  p_, scale_, row_scale_;
+  double           size_of_forces_ = 0.;
+
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
+};
+
+[[noreturn]] void refuse(const Machine &machine, const Equilibrium &equilibrium, double unbalanced)
+{
+  std::ostringstream message;
+  message << "start: no equilibrium; " << unbalanced << " N (or N m) stay unbalanced";
+  const int free = equilibrium.free_coordinate();
+  if (free < 0)
+    throw ConvergenceFailure(message.str() + " after Newton's iterations; start from another angle or give the state");
+  throw std::invalid_argument(
+      message.str() + ", for nothing holds the motion of " + machine.coordinate_name(free) +
+      ": hold the frame by a support or the body by an element, or give an angle and its driver");
 }
 
 } // namespace
 
 InitialState steady_start(Machine &machine, const SteadyStart &start)
 {
-  const int              n       = machine.size();
-  const std::vector<int> sliders = slider_coordinates(machine);
-  InitialState           state;
-  state.q = Eigen::VectorXd::Zero(n);
-  state.v = Eigen::VectorXd::Zero(n);
+  const Kinematics kinematics = kinematics_of(machine, start);
+  InitialState     state      = kinematics.state;
+  Equilibrium      equilibrium(machine, kinematics);
 
-  // Given angles; other rotors stand in line with the first one given.
-  std::vector<bool> given(n, false);
-  for (const Body &body : machine.bodies())
-    if (body.kind == BodyKind::rotor && !start.angles.empty())
-      state.q[body.coordinate] = start.angles.front().second;
-  for (const auto &[name, angle] : start.angles)
+  Eigen::VectorXd balance = equilibrium.residual(state.q);
+  for (int iteration = 0; iteration < 200; ++iteration)
   {
-    given[machine.body(name).coordinate]   = true;
-    state.q[machine.body(name).coordinate] = angle;
-  }
-  for (const auto &[name, speed] : start.speeds)
-    state.v[machine.body(name).coordinate] = speed;
-  const int  driver  = start.driver.empty() ? -1 : machine.body(start.driver).coordinate;
-  const long n_given = std::count(given.begin(), given.end(), true);
-  if (n_given != (driver >= 0 ? 1 : 0))
-    throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
-                                (driver >= 0 ? "one driver" : "no driver") +
-                                "; each given angle replaces the balance of one driver, so give one of both, or none");
-
-  // Kinematics of the closed chain: the frame rests, rotors turn as given, sliders follow.
-  for (int i = 0; i < 20; ++i)
-  {
-    const Closures chain = closures(machine, state.q, state.v);
-    state.q += slider_solution(chain.J, -chain.g, sliders);
-  }
-  Closures chain = closures(machine, state.q, state.v);
-  state.v += slider_solution(chain.J, -chain.J * state.v, sliders);
-  chain                              = closures(machine, state.q, state.v);
-  const Eigen::VectorXd acceleration = slider_solution(chain.J, -chain.curvature, sliders);
-
-  // Equilibrium with the inertia of that motion; engaged stiffness as Newton matrix carries it through the play.
-  std::vector<int> unknown, equations;
-  for (int i = 0; i < n; ++i)
-  {
-    if (!given[i])
-      unknown.push_back(i);
-    if (i != driver)
-      equations.push_back(i);
-  }
-  Eigen::VectorXd load, product(n), constant(n);
-  machine.excitation(0., load);
-  constant = load;
-  machine.mass_times(acceleration, product);
-  constant -= product;
-  machine.damping_times(state.v, product);
-  constant -= product;
-  const Eigen::MatrixXd stiffness = dense_stiffness(machine);
-
-  LocalState      local;
-  Eigen::VectorXd p(machine.directions().cols()), residual;
-  double          size = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 1000; ++iteration)
-  {
-    machine.gather(0., state.q, state.v, acceleration, local);
-    machine.start(local);
-    machine.local_force(local, p);
-    residual                      = constant + machine.directions() * p - stiffness * state.q;
-    const Eigen::MatrixXd tangent = stiffness + engaged_stiffness(machine, state.q);
-    const Eigen::MatrixXd matrix  = tangent(equations, unknown);
-    const Eigen::VectorXd balance = residual(equations);
-    const Eigen::VectorXd change  = matrix.fullPivLu().solve(balance);
-    state.q(unknown) += change;
-    const double size_before = size;
-    size                     = change.norm();
-    if (!std::isfinite(size))
+    const Eigen::VectorXd change = equilibrium.step(state.q, balance);
+    // Through open play the residual stays what it is until contact: go on in doubled steps as long as it does not
+    // grow.
+    double          stretch = 1.;
+    Eigen::VectorXd next    = equilibrium.residual(state.q + change);
+    while (stretch < 1e12 && next.norm() > 0.5 * balance.norm() && change.norm() > 0.)
+    {
+      const Eigen::VectorXd further = equilibrium.residual(state.q + 2. * stretch * change);
+      if (!(further.norm() <= next.norm()))
+        break;
+      stretch *= 2.;
+      next = further;
+    }
+    const double before = balance.norm();
+    state.q += stretch * change;
+    balance = equilibrium.residual(state.q);
+    if (!balance.allFinite())
       break;
+    const double unbalanced = balance.cwiseAbs().maxCoeff();
     // Rounding ends the decrease.
-    if (size <= 1e-11 * (1. + state.q.norm()) && size >= 0.3 * size_before)
+    if (unbalanced <= 1e-10 * equilibrium.size_of_forces() && (balance.norm() >= 0.3 * before || unbalanced == 0.))
       return state;
   }
-  std::ostringstream message;
-  message << "start: no equilibrium was found; the last correction was " << size
-          << " (m or rad). Is every slider and rotor held by an element, and the frame by its supports?";
-  throw ConvergenceFailure(message.str());
+  refuse(machine, equilibrium, balance.cwiseAbs().maxCoeff());
 }
 
 } // namespace gestell::coupling

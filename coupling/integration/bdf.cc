@@ -7,6 +7,16 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+[[noreturn]] void fail_divided(const std::string &reason, int halvings, double step)
+{
+  std::ostringstream message;
+  message << reason << "; the step was halved " << halvings << " times, to " << step << " s";
+  throw ConvergenceFailure(message.str());
+}
+} // namespace
+
 Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
     : system_(system), options_(options), implicit_(system, options.newton)
 {
@@ -14,6 +24,9 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
     throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
   if (!(options.step > 0.))
     throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
+  if (system.n_constraints() > 0)
+    throw std::invalid_argument("BDF: the system has " + std::to_string(system.n_constraints()) +
+                                " constraints, which are not integrated in this version; use compliant joints");
   const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v})
     x->setZero(n);
@@ -34,11 +47,10 @@ void Bdf::load(double t)
 
 void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  t_begin_ = t;
-  index_   = 0;
-  newest_  = 0;
-  n_past_  = 1;
-  implicit_.reset_scales();
+  t_begin_     = t;
+  index_       = 0;
+  newest_      = 0;
+  n_past_      = 1;
   Point &first = points_[0];
   first.q      = q;
   first.v      = v;
@@ -47,9 +59,10 @@ void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   first.w += product_;
   first.u.noalias()      = system_.directions().transpose() * q;
   first.u_rate.noalias() = system_.directions().transpose() * v;
-  local_.t               = t;
-  local_.u               = first.u;
-  local_.v               = first.u_rate;
+  implicit_.begin(first.u);
+  local_.t = t;
+  local_.u = first.u;
+  local_.v = first.u_rate;
   local_.a.setZero();
   system_.local_force(local_, p_);
   publish(t);
@@ -141,13 +154,6 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
 
 void Bdf::divided_step(const Point &from, double t, double length, int halvings, Point &to)
 {
-  if (halvings > options_.max_halvings)
-  {
-    std::ostringstream message;
-    message << "the step at t = " << t << " s was halved " << options_.max_halvings << " times to " << length
-            << " s and Newton still did not converge";
-    throw ConvergenceFailure(message.str());
-  }
   const double half   = 0.5 * length;
   const Point  start  = from;
   Point        middle = from;
@@ -165,8 +171,7 @@ void Bdf::divided_step(const Point &from, double t, double length, int halvings,
     catch (const ConvergenceFailure &failure)
     {
       if (halvings == options_.max_halvings)
-        throw ConvergenceFailure(std::string(failure.what()) + "; the step was halved " + std::to_string(halvings) +
-                                 " times, to " + std::to_string(half) + " s");
+        fail_divided(failure.what(), halvings, half);
       ++work_.rejected;
       divided_step(base, t + part * half, half, halvings + 1, end);
     }

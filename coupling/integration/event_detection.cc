@@ -46,7 +46,7 @@ bool EventDetection::earliest(const LocalState &from, const LocalState &to, doub
     const double begin = sign * g_from_[i], end = sign * g_to_[i];
     if (end < 0. || (end == 0. && begin >= 0.))
       continue;
-    double low = since, high = 1.;
+    double low = since, high = begin < 0. ? 1. : since;
     if (begin < 0.)
       for (int k = 0; k < 60 && high - low > 1e-12; ++k)
       {

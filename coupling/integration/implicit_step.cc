@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace gestell::coupling
@@ -9,6 +10,9 @@ namespace gestell::coupling
 
 namespace
 {
+constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon();
+constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
+
 /// Gaussian elimination with partial pivoting in place; a few unknowns, no allocation.  False: singular.
 bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x)
 {
@@ -55,14 +59,18 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   u_free_.setZero(n_u);
   residual_.setZero(n_u);
   correction_.setZero(n_u);
+  u_begin_.setZero(n_u);
   scale_.setZero(n_u);
   dp_.setZero(n_u, n_u);
   jacobian_.setZero(n_u, n_u);
+  begin(u_begin_);
 }
 
-void ImplicitStep::reset_scales()
+void ImplicitStep::begin(const Eigen::VectorXd &u)
 {
+  u_begin_ = u;
   scale_.setZero();
+  contraction_ = unknown_contraction;
 }
 
 const ImplicitStep::Condensed &ImplicitStep::condensed(double h_beta, IntegrationWork &work)
@@ -71,9 +79,9 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(double h_beta, Integratio
   if (found != cache_.end())
     return found->second;
 
-  Condensed &made = cache_[h_beta];
-  made.h_beta     = h_beta;
-  made.solver     = system_.factorise(1., h_beta, h_beta * h_beta);
+  Condensed made;
+  made.h_beta = h_beta;
+  made.solver = system_.factorise(1., h_beta, h_beta * h_beta);
   ++work.factorisations;
   const auto &W = system_.directions();
   made.Y.resize(W.rows(), W.cols());
@@ -85,7 +93,7 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(double h_beta, Integratio
     ++work.solves;
   }
   made.S = W.transpose() * made.Y;
-  return made;
+  return cache_.emplace(h_beta, std::move(made)).first->second;
 }
 
 void ImplicitStep::rates(double h_beta, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate,
@@ -118,7 +126,9 @@ bool ImplicitStep::iterate(const Condensed &condensed, const Eigen::VectorXd &g,
     double size = 0.;
     for (int i = 0; i < correction_.size(); ++i)
     {
-      scale_[i] = std::max(scale_[i], std::abs(local.u[i]));
+      // Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves.
+      scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), condensed.h_beta * std::abs(local.v[i]),
+                            rounding / options_.tolerance * std::abs(local.u[i])});
       if (correction_[i] != 0.)
         size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
     }
@@ -133,7 +143,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const Eigen::VectorXd &g,
       // The forces of the corrected measures, to second order in the correction; u = u_free + S p stays exact.
       p.noalias() += dp_.lazyProduct(correction_);
       rates(condensed.h_beta, g, g_rate, local);
-      contraction_ = std::max(contraction_, 1e-3);
+      contraction_ = std::max(contraction_, unknown_contraction);
       return true;
     }
     size_before = size;
@@ -153,7 +163,10 @@ void ImplicitStep::solve(const Condensed &condensed, double t, const Eigen::Vect
     return;
   u_free_.noalias() = W.transpose() * q;
   if (!iterate(condensed, g, g_rate, local, p, work))
+  {
+    contraction_ = unknown_contraction;
     fail(t);
+  }
   q.noalias() += condensed.Y.lazyProduct(p);
 }
 

@@ -10,7 +10,7 @@ namespace gestell::coupling
 
 struct NewtonOptions
 {
-  double tolerance      = 1e-10; ///< of a correction, relative to the size the measure has had so far
+  double tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
   int    max_iterations = 25;
 };
 
@@ -47,8 +47,8 @@ public:
              const Eigen::VectorXd &g_rate, Eigen::VectorXd &q, LocalState &local, Eigen::VectorXd &p,
              IntegrationWork &work);
 
-  /// Forgets how large the measures have been.
-  void reset_scales();
+  /// A new motion begins with the measures u: their excursions are counted from there.
+  void begin(const Eigen::VectorXd &u);
 
 private:
   bool iterate(const Condensed &condensed, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate, LocalState &local,
@@ -59,9 +59,9 @@ private:
   const SecondOrderSystem    &system_;
   NewtonOptions               options_;
   std::map<double, Condensed> cache_;
-  Eigen::VectorXd             u_free_, residual_, scale_, correction_;
+  Eigen::VectorXd             u_free_, residual_, u_begin_, scale_, correction_;
   Eigen::MatrixXd             dp_, jacobian_;
-  double                      contraction_ = 1e-2; ///< of Newton's corrections, as seen last
+  double                      contraction_; ///< of Newton's corrections, as seen last
 };
 
 } // namespace gestell::coupling

@@ -36,17 +36,6 @@ ConnectingRod::ConnectingRod(const Parameters &parameters) : parameters_(paramet
   require(b_O >= 0., name, "oil_damping [N s/m]", b_O, "zero or positive");
 }
 
-double ConnectingRod::compression(const double *u, double *gradient) const
-{
-  const double r = parameters_.crank_radius, l = parameters_.length;
-  const double c = r * std::sin(u[0]) + u[2];
-  const double w = std::sqrt(l * l - c * c);
-  gradient[0]    = r * std::sin(u[0]) - r * c * std::cos(u[0]) / w;
-  gradient[1]    = 1.;
-  gradient[2]    = -c / w;
-  return -r * std::cos(u[0]) + w - (l - r) + u[1];
-}
-
 double ConnectingRod::rate(const LocalMotion &motion) const
 {
   double gradient[3];

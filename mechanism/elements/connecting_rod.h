@@ -44,20 +44,10 @@ public:
   template <typename Number>
   void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
   {
-    Number       delta, gradient[3];
-    const double r = parameters_.crank_radius, l = parameters_.length;
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
-    const Number sine = sin(u[0]), cosine = cos(u[0]);
-    const Number c    = r * sine + u[2];
-    const Number w    = sqrt(Number(l * l - c * c));
-    delta             = -r * cosine + w - (l - r) + u[1];
-    gradient[0]       = r * sine - r * c * cosine / w;
-    gradient[1]       = Number(1.);
-    gradient[2]       = -c / w;
-    const Number rate = gradient[0] * v[0] + gradient[1] * v[1] + gradient[2] * v[2];
-    const Number push = chain_force(delta, rate);
+    Number       gradient[3];
+    const Number delta = compression(u, gradient);
+    const Number rate  = gradient[0] * v[0] + gradient[1] * v[1] + gradient[2] * v[2];
+    const Number push  = chain_force(delta, rate);
     for (int i = 0; i < 3; ++i)
       p[i] = -push * gradient[i];
   }
@@ -95,7 +85,23 @@ private:
     return b_O * rate;
   }
 
-  double compression(const double *u, double *gradient) const;
+  /// delta(phi, s, y) and its gradient.
+  template <typename Number>
+  Number compression(const Number *u, Number *gradient) const
+  {
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    const double r = parameters_.crank_radius, l = parameters_.length;
+    const Number sine = sin(u[0]), cosine = cos(u[0]);
+    const Number c = r * sine + u[2];
+    const Number w = sqrt(Number(l * l - c * c));
+    gradient[0]    = r * sine - r * c * cosine / w;
+    gradient[1]    = Number(1.);
+    gradient[2]    = -c / w;
+    return -r * cosine + w - (l - r) + u[1];
+  }
+
   double rate(const LocalMotion &motion) const;
 
   Parameters parameters_;

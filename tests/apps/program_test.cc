@@ -78,6 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"step_zero", "--set run.step=0", "run.step"},
                       Wrong{"step_negative", "--set run.step='\"-10 us\"'", "run.step"},
                       Wrong{"end_before_start", "--set run.end=-1", "run.end"},
+                      Wrong{"unstable_order", "--set run.order=4 --set run.step='\"2 ms\"'", "unstable"},
+                      Wrong{"endless_steps", "--set run.step=1e-13", "run.step"},
                       Wrong{"unknown_method", "--set run.method='\"rk4\"'", "run.method"},
                       Wrong{"rod_too_short", "--set parameters.l='\"50 mm\"'", "length"},
                       Wrong{"bad_parameter", "--set parameters.c_el='\"1000 kN/mm\"'", "elastic_stiffness"}),
@@ -120,6 +122,36 @@ TEST(Program, InterruptedRunSavesWhatItHas)
   EXPECT_TRUE(answer.says("code 124")) << answer.text;
   const std::string summary = read(folder.results() / "summary.json");
   EXPECT_NE(summary.find("\"steps\""), std::string::npos);
+}
+
+TEST(Program, StartOfABodyThatNothingHoldsNamesIt)
+{
+  const Folder      folder("falling");
+  const std::string falling = folder.file("falling.toml", R"(name = "falling"
+gravity = [0, 0, -9.81]
+[body.block]
+type  = "slider"
+axis  = [0, 0, -1]
+guide = "ground"
+mass  = "10 kg"
+[element.rubbing]
+type  = "friction"
+from  = "block"
+to    = "ground"
+force = "200 N"
+speed = "1 mm/s"
+[start]
+rule = "steady"
+[run]
+step = "1 ms"
+end  = "1 s"
+[output.signals]
+x = "block.displacement"
+)");
+  const Answer      answer  = gestell("run " + falling + folder.option());
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says("nothing holds the motion of block")) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 
 TEST(Program, FailedNewtonKeepsWhatWasComputedAndSaysWhere)
