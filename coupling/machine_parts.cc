@@ -4,7 +4,6 @@
 #include "coupling/sparse_base.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace gestell::coupling
 {
@@ -116,8 +115,9 @@ void Machine::Parts::assemble_dense(int n)
     damping.topLeftCorner(n_frame, n_frame)   = reduced->B;
     stiffness.topLeftCorner(n_frame, n_frame) = reduced->C;
     translation_loads.topRows(n_frame)        = reduced->translations_load;
-    modal.resize(n_frame - n_interface);
-    std::iota(modal.begin(), modal.end(), n_interface);
+    if (reduced->modal)
+      for (int i = n_interface; i < n_frame; ++i)
+        modal.push_back(i);
   }
   add_to(mass, M);
   add_to(damping, B);
@@ -190,7 +190,8 @@ std::string Machine::Parts::coordinate_name(int i) const
     for (int m = 0; m < 6; ++m)
       if (interface.coordinate[m] == i)
         return "frame." + interface.name + "." + motion_names[m];
-  return reduced ? "frame mode " + std::to_string(i - n_interface + 1) : "frame coordinate " + std::to_string(i);
+  return reduced && reduced->modal ? "frame mode " + std::to_string(i - n_interface + 1)
+                                   : "frame coordinate " + std::to_string(i);
 }
 
 } // namespace gestell::coupling

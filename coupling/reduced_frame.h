@@ -12,13 +12,15 @@ namespace gestell::coupling
 
 /**
  * A frame in the coordinates p = (q1 [n1], modes [m]) of (5.5.3/15-20): small, dense, and all that a simulation needs,
- * including the rows for outputs and pictures.  Interfaces index into p; their coordinates come first.
+ * including the rows for outputs and pictures.  Interfaces index into p; their coordinates come first.  A small frame
+ * given by matrices has its other physical coordinates in place of modes.
  */
 struct ReducedFrame
 {
   Eigen::MatrixXd               M, B, C; // [(n1+m) x (n1+m)]
   int                           n_interface = 0;
-  Eigen::VectorXd               omega0; // [m] fixed-interface frequencies [rad/s]
+  bool                          modal       = true; ///< behind the interface stand modes: M_LL = E, C_LL diagonal
+  Eigen::VectorXd               omega0;             // [m] fixed-interface frequencies [rad/s]; empty if not modal
   std::vector<fem::Interface>   interfaces;
   Eigen::MatrixXd               translations_load; // [(n1+m) x 3]  T^T M R: load of a unit acceleration in x, y, z
   Eigen::Matrix3d               total_mass = Eigen::Matrix3d::Zero(); // R^T M R [kg]

@@ -196,6 +196,8 @@ ReducedFrame read_checked(const std::string &name, const std::string *key)
 
 void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const std::string &key)
 {
+  if (!frame.modal)
+    throw std::invalid_argument(name + ": a frame in physical coordinates is not reduced; files hold reduced frames");
   const fs::path  path(name), beside = path.string() + ".part" + std::to_string(getpid());
   std::error_code error;
   if (path.has_parent_path())

@@ -15,6 +15,7 @@ namespace gestell::coupling
  *
  * @param key  content key of what the frame was made from, see content_key(); may be empty.
  * @throws std::runtime_error if the folder cannot be made or the file not be written.
+ * @throws std::invalid_argument for a frame that is not modal.
  */
 void write_reduced_frame(const std::string &file, const ReducedFrame &frame, const std::string &key = {});
 

@@ -149,6 +149,7 @@ coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.B           = B(order, order);
   dense.C           = C(order, order);
   dense.n_interface = frame.interface_coordinates().size();
+  dense.modal       = false;
   dense.n_full      = M.rows();
   dense.mass        = frame.mass;
 
@@ -173,14 +174,6 @@ coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.B += Z * (2. * frame.modal_damping_ratio * omega).asDiagonal() * Z.transpose();
   dense.frequencies_hz  = omega / (2. * M_PI);
   dense.frequency_error = Eigen::VectorXd::Zero(omega.size());
-  const int m           = M.rows() - dense.n_interface;
-  dense.omega0.resize(m);
-  if (m > 0)
-    dense.omega0 = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(dense.C.bottomRightCorner(m, m),
-                                                                             dense.M.bottomRightCorner(m, m))
-                       .eigenvalues()
-                       .cwiseMax(0.)
-                       .cwiseSqrt();
   return dense;
 }
 

@@ -178,6 +178,13 @@ TEST_F(ReducedFrameFile, CacheFolderFollowsTheEnvironment)
   EXPECT_EQ(coupling::cache_folder(), "/of/somebody/.cache/gestell");
 }
 
+TEST_F(ReducedFrameFile, HoldsNoPhysicalCoordinatesBehindTheInterface)
+{
+  auto frame  = some_frame();
+  frame.modal = false;
+  EXPECT_THROW(coupling::write_reduced_frame(file, frame), std::invalid_argument);
+}
+
 class ContentKey : public ReducedFrameFile
 {
 protected:
