@@ -1,9 +1,6 @@
 #include "apps/scene/build_machine.h"
 
-#include <Eigen/Eigenvalues>
-
-#include <algorithm>
-#include <cmath>
+#include "coupling/dense_frame.h"
 
 namespace gestell::apps
 {
@@ -86,19 +83,6 @@ coupling::Machine machine_on(const Scene &scene, Frame frame)
   return machine;
 }
 
-/// Coordinates of the frame: those of interfaces, ascending, then the others.
-std::vector<int> interface_first(const fem::FrameMatrices &frame)
-{
-  std::vector<int>  order = frame.interface_coordinates();
-  std::vector<bool> taken(frame.M.rows(), false);
-  for (const int i : order)
-    taken[i] = true;
-  for (int i = 0; i < frame.M.rows(); ++i)
-    if (!taken[i])
-      order.push_back(i);
-  return order;
-}
-
 } // namespace
 
 FramePath frame_path(const Scene &scene)
@@ -123,7 +107,7 @@ FramePath frame_path(const Scene &scene)
 coupling::Machine build_machine(const Scene &scene)
 {
   if (scene.frame.source == FrameSource::matrices)
-    return machine_on(scene, placed(scene.frame.place, [&] { return dense_frame(scene.frame.matrices); }));
+    return machine_on(scene, placed(scene.frame.place, [&] { return coupling::dense_frame(scene.frame.matrices); }));
   coupling::Machine machine;
   machine.set_gravity(scene.gravity);
   fill(machine, scene);
@@ -138,43 +122,6 @@ coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame
 coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame)
 {
   return machine_on(scene, std::move(frame));
-}
-
-coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame)
-{
-  const auto             order = interface_first(frame);
-  const Eigen::MatrixXd  M = frame.M, B = frame.B, C = frame.C;
-  coupling::ReducedFrame dense;
-  dense.M           = M(order, order);
-  dense.B           = B(order, order);
-  dense.C           = C(order, order);
-  dense.n_interface = frame.interface_coordinates().size();
-  dense.modal       = false;
-  dense.n_full      = M.rows();
-  dense.mass        = frame.mass;
-
-  std::vector<int> new_index(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    new_index[order[i]] = i;
-  dense.interfaces = frame.interfaces;
-  for (auto &interface : dense.interfaces)
-    for (int &coordinate : interface.coordinate)
-      coordinate = coordinate < 0 ? -1 : new_index[coordinate];
-  for (const auto &output : frame.outputs)
-    dense.outputs.push_back({output.name, output.unit, output.on_q(order), output.on_v(order)});
-  dense.translations_load = (M * frame.translations)(order, Eigen::all);
-  dense.total_mass        = frame.translations.transpose() * M * frame.translations;
-
-  // C phi = omega^2 M phi, phi^T M phi = 1; modal damping is M Phi diag(2 zeta omega) Phi^T M.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense.C, dense.M);
-  if (modes.eigenvalues().minCoeff() < -1e-9 * std::abs(modes.eigenvalues().maxCoeff()))
-    throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
-  const Eigen::VectorXd omega = modes.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  const Eigen::MatrixXd Z     = dense.M * modes.eigenvectors();
-  dense.B += Z * (2. * frame.modal_damping_ratio * omega).asDiagonal() * Z.transpose();
-  dense.frequencies_hz  = omega / (2. * M_PI);
-  dense.frequency_error = Eigen::VectorXd::Zero(omega.size());
-  return dense;
 }
 
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine)

@@ -28,9 +28,6 @@ coupling::Machine build_machine(const Scene &scene); ///< FramePath none or dens
 coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame);
 coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame);
 
-/// A small frame given by matrices, every coordinate kept; those of interfaces first, the others in their order.
-coupling::ReducedFrame dense_frame(const fem::FrameMatrices &frame);
-
 /// The signals of the scene; throws std::invalid_argument with place and nearest name for a path that does not exist.
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine);
 

@@ -1,6 +1,6 @@
 // A small frame given by matrices, as the machine gets it.
 
-#include "apps/scene/build_machine.h"
+#include "coupling/dense_frame.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ fem::FrameMatrices chain(double ratio)
 TEST(DenseFrame, PutsInterfaceRowsFirstAndChangesNothingElse)
 {
   const auto frame = chain(0.);
-  const auto dense = apps::dense_frame(frame);
+  const auto dense = coupling::dense_frame(frame);
   EXPECT_EQ(dense.n_interface, 1);
   EXPECT_EQ(dense.interfaces[0].coordinate[fem::uz], 0); // was row 3
   EXPECT_EQ(dense.interfaces[0].coordinate[fem::ux], -1);
@@ -53,7 +53,7 @@ TEST(DenseFrame, PutsInterfaceRowsFirstAndChangesNothingElse)
 TEST(DenseFrame, ModalDampingGivesEveryModeItsRatio)
 {
   const double                                                    zeta  = 0.03;
-  const auto                                                      dense = apps::dense_frame(chain(zeta));
+  const auto                                                      dense = coupling::dense_frame(chain(zeta));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense.C, dense.M);
   const Eigen::MatrixXd delta = modes.eigenvectors().transpose() * dense.B * modes.eigenvectors();
   const Eigen::MatrixXd exact = (2. * zeta * modes.eigenvalues().cwiseSqrt()).asDiagonal();
@@ -64,7 +64,7 @@ TEST(DenseFrame, RefusesAStiffnessThatPushesItselfAway)
 {
   auto frame = chain(0.);
   frame.C    = -frame.C;
-  EXPECT_THROW(apps::dense_frame(frame), std::invalid_argument);
+  EXPECT_THROW(coupling::dense_frame(frame), std::invalid_argument);
 }
 
 } // namespace

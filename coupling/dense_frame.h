@@ -1,0 +1,19 @@
+#pragma once
+
+#include "coupling/reduced_frame.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * A small frame given by matrices as a machine takes it: every physical coordinate kept (not modal), those of
+ * interfaces first, the others in their order.  A modal damping ratio zeta becomes
+ *
+ *     B + M Phi diag(2 zeta omega) Phi^T M,     C phi = omega^2 M phi,   phi^T M phi = 1.
+ *
+ * @param frame  symmetric [n x n]; M may be semidefinite if C holds what has no mass
+ * @throws std::invalid_argument if C has a negative eigenvalue, or a motion has neither stiffness nor mass
+ */
+ReducedFrame dense_frame(const fem::FrameMatrices &frame);
+
+} // namespace gestell::coupling
