@@ -2,11 +2,14 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -159,6 +162,41 @@ void add_file(Sha256 &hash, const std::string &name)
     hash.update(block.data(), std::size_t(file.gcount()));
 }
 
+/// The files a frame is made from, in the order a script of gmsh (.geo) names them, each once; what is named but not
+/// there counts by its name.
+struct Sources
+{
+  std::vector<std::string> files, missing;
+};
+
+std::string text_of(const std::filesystem::path &path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Adds `path` and, if it is a script, all that it names: relative to its own folder, as gmsh reads it.
+void collect(const std::filesystem::path &path, bool is_script, Sources &sources)
+{
+  const std::string file = path.lexically_normal().string();
+  if (std::find(sources.files.begin(), sources.files.end(), file) != sources.files.end())
+    return; // also where files include each other in a circle
+  sources.files.push_back(file);
+  if (!is_script)
+    return;
+  static const std::regex naming(R"re(\b(Include|Merge|ShapeFromFile)\s*\(?\s*"([^"\n]+)")re");
+  const std::string       text = text_of(path);
+  for (auto found = std::sregex_iterator(text.begin(), text.end(), naming); found != std::sregex_iterator(); ++found)
+  {
+    const std::filesystem::path target = path.parent_path() / (*found)[2].str();
+    std::error_code             error;
+    if (std::filesystem::is_regular_file(target, error))
+      collect(target, (*found)[1] == "Include" || target.extension() == ".geo", sources);
+    else
+      sources.missing.push_back((*found)[2]);
+  }
+}
+
 } // namespace
 
 std::string content_key(const std::vector<std::string> &files, const std::string &text, const ReductionOptions &options)
@@ -175,7 +213,12 @@ std::string content_key(const std::vector<std::string> &files, const std::string
 
 std::string content_key(const fem::FrameSpecification &frame, const ReductionOptions &options)
 {
-  return content_key({frame.cad}, canonical(frame), options);
+  Sources sources;
+  collect(frame.cad, std::filesystem::path(frame.cad).extension() == ".geo", sources);
+  Canonical to;
+  for (const auto &name : sources.missing)
+    to.add("missing", name);
+  return content_key(sources.files, canonical(frame) + to.text(), options);
 }
 
 } // namespace gestell::coupling

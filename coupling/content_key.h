@@ -13,7 +13,8 @@ namespace gestell::coupling
  * specification and of the options, and over the versions of program and file format.  Equal keys mean equal frames.
  *
  * Places (file:line for messages), the path of a file and the order of tables in a scene do not count; every number
- * counts with all its digits.  A file that includes others (.geo) counts by its own bytes only.
+ * counts with all its digits.  With a script of gmsh (.geo) count the files it names as text in Include, Merge and
+ * ShapeFromFile, and those that these name; what it names and is not there counts by its name.
  *
  * @throws std::invalid_argument if a file cannot be read.
  */

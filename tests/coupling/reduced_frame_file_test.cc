@@ -259,6 +259,38 @@ TEST_F(ContentKey, ChangesWithEveryValue)
       EXPECT_NE(keys[i], keys[j]) << i << " and " << j;
 }
 
+TEST_F(ContentKey, ChangesWithEveryFileThatAScriptNames)
+{
+  const auto write = [&](const std::string &name, const std::string &text)
+  {
+    fs::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  };
+  frame.cad = (folder / "press.geo").string();
+  write("press.geo", "Include \"parts/feet.geo\";\nv() = ShapeFromFile(\"column.step\");\nMerge \"absent.step\";\n");
+  write("parts/feet.geo", "Include \"sizes.inc\"; Include \"../press.geo\";\n"); // from its own folder; a circle ends
+  write("parts/sizes.inc", "h = 1;\n");
+  write("column.step", "one");
+  write("sizes.inc", "of another folder");
+
+  std::string key     = content_key(frame, options);
+  const auto  changes = [&]
+  {
+    const std::string before = key;
+    key                      = content_key(frame, options);
+    return key != before;
+  };
+  EXPECT_FALSE(changes());
+  write("parts/sizes.inc", "h = 2;\n");
+  EXPECT_TRUE(changes());
+  write("column.step", "two");
+  EXPECT_TRUE(changes());
+  write("absent.step", ""); // now it is there
+  EXPECT_TRUE(changes());
+  write("sizes.inc", "that no file names");
+  EXPECT_FALSE(changes());
+}
+
 TEST_F(ContentKey, OfAMissingFileIsRefused)
 {
   frame.cad = (folder / "absent.step").string();
