@@ -123,6 +123,9 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   return result;
 }
 
+/// Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
+constexpr double singular = 1e-9;
+
 /// Equilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
 class Equilibrium
 {
@@ -175,10 +178,16 @@ public:
       engaged_matrices(machine_, q, {}, closed, damping);
       decompose(stiffness_ + closed);
     }
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(q.size());
-    change(unknown_)       = scale_.asDiagonal() * Eigen::VectorXd(solver_.solve(row_scale_.asDiagonal() * balance));
+    const Eigen::VectorXd scaled   = row_scale_.asDiagonal() * balance;
+    const Eigen::VectorXd solution = solver_.solve(scaled);
+    held_                          = (matrix_ * solution - scaled).norm() <= 1e-6 * scaled.norm();
+    Eigen::VectorXd change         = Eigen::VectorXd::Zero(q.size());
+    change(unknown_)               = scale_.asDiagonal() * solution;
     return change;
   }
+
+  /// Whether the last step balances its forces to first order: not if one acts along a free motion.
+  bool held() const { return held_; }
 
   /// Coordinate that moves most in the motion the last matrix leaves free; -1 if there is none.
   int free_coordinate() const
@@ -207,17 +216,19 @@ private:
       row_scale_[static_cast<Eigen::Index>(i)] =
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
-    solver_.setThreshold(1e-11);
-    solver_.compute(row_scale_.asDiagonal() * part * scale_.asDiagonal());
+    solver_.setThreshold(singular);
+    matrix_ = row_scale_.asDiagonal() * part * scale_.asDiagonal();
+    solver_.compute(matrix_);
   }
 
   Machine         &machine_;
   Eigen::VectorXd  v_, acceleration_, constant_;
-  Eigen::MatrixXd  stiffness_;
+  Eigen::MatrixXd  stiffness_, matrix_;
   std::vector<int> unknown_, equations_;
   LocalState       local_;
   Eigen::VectorXd  p_, scale_, row_scale_;
   double           size_of_forces_ = 0.;
+  bool             held_           = true;
 
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
 };
@@ -246,6 +257,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
   for (int iteration = 0; iteration < 200; ++iteration)
   {
     const Eigen::VectorXd change = equilibrium.step(state.q, balance);
+    if (!equilibrium.held())
+      break;
     // Through open play the residual stays what it is until contact: go on in doubled steps as long as it does not
     // grow.
     double          stretch = 1.;

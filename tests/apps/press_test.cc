@@ -86,12 +86,14 @@ TEST(Press, StandsWithItsWeightOnTheFoundationWhenItStarts)
 
 TEST(Press, SecondRunFindsTheReducedFrame)
 {
-  const std::string arguments = "reduce --quiet " + scene("press.toml") + coarse;
-  ASSERT_EQ(gestell(arguments).exit_code, 0);
-  const Answer second = gestell(arguments);
-  EXPECT_TRUE(second.says("from the cache")) << second.text;
-  const Answer other = gestell(arguments + "--set frame.damping.ratio=0.0241");
-  EXPECT_FALSE(other.says("from the cache")) << other.text;
+  const Folder      cache("press_cache");
+  const std::string command = "GESTELL_CACHE='" + (cache / "own").string() +
+                              "' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --quiet " + scene("press.toml") + coarse;
+  const Answer first = shell(command);
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  EXPECT_FALSE(first.says("from the cache"));
+  EXPECT_TRUE(shell(command).says("from the cache"));
+  EXPECT_FALSE(shell(command + "--set frame.damping.ratio=0.0241").says("from the cache"));
 }
 
 TEST(Press, FrameAThousandTimesStifferChangesTheReboundPeak)
@@ -111,7 +113,6 @@ TEST(Press, FrameThatNothingHoldsUpIsNamedAndLeavesNothing)
                                 "--set frame.support.feet.foundation.stiffness='[\"c_F\", \"c_F\", 0]'");
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_TRUE(answer.says("nothing holds the motion of frame.")) << answer.text;
-  EXPECT_TRUE(answer.says(".uz")) << answer.text;
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 

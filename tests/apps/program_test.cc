@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <vector>
 
 namespace gestell::tests
@@ -53,6 +54,11 @@ struct Wrong
 {
   std::string name, arguments, message;
 };
+
+std::ostream &operator<<(std::ostream &out, const Wrong &wrong)
+{
+  return out << wrong.name;
+}
 
 class WrongInput : public ::testing::TestWithParam<Wrong>
 {
