@@ -1,5 +1,7 @@
 #include "coupling/dense_frame.h"
 
+#include "coupling/dense_modes.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
@@ -39,17 +41,14 @@ std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, c
   return interfaces;
 }
 
-/// Frequencies, and what the damping ratio adds to B.
-void add_modes(ReducedFrame &dense, double zeta)
+/// Unit diagonal makes metres and radians comparable; files written with 10 digits pass.
+void require_semidefinite_stiffness(const MatrixXd &C)
 {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(dense.C, dense.M);
-  if (modes.eigenvalues().minCoeff() < -1e-9 * std::abs(modes.eigenvalues().maxCoeff()))
+  const VectorXd d =
+      C.diagonal().unaryExpr([](double c) { return c != 0. && std::isfinite(c) ? 1. / std::sqrt(std::abs(c)) : 1.; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
+  if (scaled.eigenvalues().minCoeff() < -1e-8)
     throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
-  const VectorXd omega = modes.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  const MatrixXd Z     = dense.M * modes.eigenvectors();
-  dense.B += Z * (2. * zeta * omega).asDiagonal() * Z.transpose();
-  dense.frequencies_hz  = omega / (2. * M_PI);
-  dense.frequency_error = VectorXd::Zero(omega.size());
 }
 
 } // namespace
@@ -71,7 +70,13 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
     dense.outputs.push_back({output.name, output.unit, output.on_q(order), output.on_v(order)});
   dense.translations_load = (M * frame.translations)(order, Eigen::all);
   dense.total_mass        = frame.translations.transpose() * M * frame.translations;
-  add_modes(dense, frame.modal_damping_ratio);
+
+  require_semidefinite_stiffness(C);
+  const DenseModes modes = dense_modes(C, M);
+  const MatrixXd   Z     = (M * modes.V)(order, Eigen::all);
+  dense.B += Z * (2. * frame.modal_damping_ratio * modes.omega).asDiagonal() * Z.transpose();
+  dense.frequencies_hz  = modes.omega / (2. * M_PI);
+  dense.frequency_error = VectorXd::Zero(modes.omega.size());
   return dense;
 }
 

@@ -16,7 +16,8 @@ namespace
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double symmetry_tolerance = 1e-9; // of the largest entry: files written with 10 digits pass
+constexpr double symmetry_tolerance     = 1e-9; // of the largest entry: files written with 10 digits pass
+constexpr double semidefinite_tolerance = 1e-9; // of unit diagonal, likewise
 
 const std::vector<std::string> motion_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
@@ -67,6 +68,28 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
   if (skew > symmetry_tolerance * size)
     throw frame.error(key, "is not symmetric; across the diagonal entries differ by up to " +
                                std::to_string(skew / size) + " of the largest one");
+}
+
+/// Refuses a mass matrix by which a motion has negative kinetic energy; coordinates without mass may be, as rotations
+/// of lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -semidefinite_tolerance.
+void check_semidefinite_mass(const SceneTable &frame, const Sparse &M)
+{
+  const Eigen::VectorXd diagonal = M.diagonal();
+  Eigen::Index          lowest;
+  if (diagonal.minCoeff(&lowest) < 0.)
+    throw frame.error("mass", "is not positive semidefinite: row " + std::to_string(lowest + 1) + " has the mass " +
+                                  std::to_string(diagonal[lowest]) + "; it must be zero or positive");
+  const double largest = diagonal.maxCoeff();
+  if (largest == 0.)
+    throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
+  const Eigen::VectorXd scale =
+      diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
+  Sparse unit(M.rows(), M.rows());
+  unit.setIdentity();
+  const Sparse shifted = Sparse(scale.asDiagonal() * M * scale.asDiagonal()) + semidefinite_tolerance * unit;
+  if (Eigen::SimplicialLLT<Sparse>(shifted).info() != Eigen::Success)
+    throw frame.error("mass", "is not positive semidefinite: by its entries beside the diagonal some motion has "
+                              "negative kinetic energy; check their signs and units");
 }
 
 /// n = 0: any size.
@@ -167,8 +190,7 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
     matrices.modal_damping_ratio = frame.table("damping").not_negative("ratio", kind::number);
   else if (frame.has("damping"))
     matrices.B = read_square(frame, "damping", kind::damping_entry, n);
-  if (Eigen::SimplicialLLT<Sparse>(matrices.M).info() != Eigen::Success)
-    throw frame.error("mass", "is not positive definite; every coordinate needs a mass");
+  check_semidefinite_mass(frame, matrices.M);
 
   std::map<int, std::string> owner;
   for (const auto &table : frame.tables("interface"))

@@ -88,4 +88,42 @@ TEST(MatrixFrame, WithInnerRowsFallsAsTheoryAndAsTheSparseFrame)
   EXPECT_NEAR(dense, sparse, 1e-9 * std::abs(sparse)); // the same step equations, solved otherwise
 }
 
+/// The chain with a rotation of no mass on the topmost node, held to it by a spring of 4 kN m and coupled to its lift.
+apps::Scene chain_with_massless_rotation(const std::string &damping = "")
+{
+  const test::SceneFolder folder;
+  std::string             text = chain;
+  const auto              put  = [&text](const std::string &piece, const std::string &replacement)
+  { text.replace(text.find(piece), piece.size(), replacement); };
+  put("[0, 0, 100]]", "[0, 0, 100, 0], [0, 0, 0, 0]]");
+  put("[[100, 0, 0], [0, 100, 0]", "[[100, 0, 0, 0], [0, 100, 0, 0]");
+  // [k + a^2 c, a c; a c, c]: the spring c turns by a u + phi, so that phi = -a u carries no force
+  put("[[2e6, -1e6, 0], [-1e6, 2e6, -1e6], [0, -1e6, 1e6]]",
+      "[[2e6, -1e6, 0, 0], [-1e6, 2e6, -1e6, 0], [0, -1e6, 1.16e6, 8e4], [0, 0, 8e4, 4e4]]" + damping);
+  put("[0, 0, 1]]", "[0, 0, 1], [0, 0, 0]]");
+  put("rows = { uz = 3 }", "rows = { uz = 3, ry = 4 }");
+  return apps::read_scene(folder.write("chain.toml", text));
+}
+
+TEST(MatrixFrame, WithARotationOfNoMassMovesAsWithoutIt)
+{
+  const auto chain = chain_with_massless_rotation();
+  const auto modes = coupling::coupled_modes(apps::build_machine(chain), Eigen::VectorXd::Zero(4), {}, 4);
+  ASSERT_EQ(modes.size(), 3u); // the rank of M
+  for (int j = 1; j <= 3; ++j)
+    EXPECT_NEAR(2. * M_PI * modes[j - 1].frequency_hz, omega(j), 1e-10 * omega(3));
+  const double dense = simulated_fall(apps::build_machine(chain), chain), exact = fall_of_top(end);
+  EXPECT_NEAR(dense, exact, 1e-5 * std::abs(exact)); // as above
+  const double sparse = simulated_fall(apps::build_machine(chain, chain.frame.matrices), chain);
+  EXPECT_NEAR(dense, sparse, 1e-9 * std::abs(sparse));
+}
+
+TEST(MatrixFrame, WithARotationOfNoMassHasItsModalDamping)
+{
+  const auto chain = chain_with_massless_rotation("\ndamping = { ratio = 0.03 }");
+  const auto modes = coupling::coupled_modes(apps::build_machine(chain), Eigen::VectorXd::Zero(4), {}, 3);
+  for (const auto &mode : modes)
+    EXPECT_NEAR(mode.damping_ratio, 0.03, 1e-9);
+}
+
 } // namespace
