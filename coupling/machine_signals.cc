@@ -95,7 +95,8 @@ std::vector<std::string> Machine::signal_paths() const
 Signal Machine::signal(const std::string &name, const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
-  const std::string positive = minus ? path.substr(path.find_first_not_of("- ")) : path;
+  const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
+  const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" alone names nothing
   const auto        signals  = parts_->signals();
   const auto        found    = signals.find(positive);
   if (found == signals.end())
