@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdlib>
 #include <iostream>
-#include <thread>
 
 namespace
 {
@@ -21,7 +21,8 @@ CLI::App *add_command(CLI::App &program, const std::string &name, const std::str
   command->footer("Example:\n  " + example);
   command->add_option(input, options.input, input == "SCENE" ? "scene file (TOML)" : "STEP, BREP, .geo or .msh file")
       ->required();
-  command->add_option("--jobs", options.jobs, "threads that may be used")->check(CLI::PositiveNumber);
+  command->add_option("--jobs", options.jobs, "threads of the linear algebra that makes a frame (default 1)")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", options.quiet, "no progress on standard error");
   if (input == "SCENE")
   {
@@ -65,6 +66,8 @@ int main(int argc, char **argv)
     return program.exit(error) == 0 ? exit_done : exit_wrong_input;
   }
 
+  if (options.jobs > 1)
+    setenv("OPENBLAS_NUM_THREADS", std::to_string(options.jobs).c_str(), 1);
   try
   {
     if (run->parsed())

@@ -2,6 +2,7 @@
 
 #include <slepcsys.h>
 
+#include <cstdlib>
 #include <malloc.h>
 
 #include <stdexcept>
@@ -22,6 +23,7 @@ public:
     static char *words[]   = {name, signals, files, nullptr};
     char       **arguments = words;
     int          count     = 3;
+    setenv("OMPI_MCA_plm_rsh_agent", "", 0); // one process needs no ssh, and MPI ends the program where there is none
     if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0)
       throw std::runtime_error("petsc_session: SLEPc could not be started; check the installation of libslepc-real.");
 

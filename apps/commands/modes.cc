@@ -39,13 +39,22 @@ int modes_command(const CommonOptions &options)
   progress.show("modes");
   Result result = begin_result(scene, "modes", prepared);
   progress.done();
-  result.wall_s = progress.wall_seconds();
-  prepare_folder(folder);
-  write_results(folder, result);
+  result.wall_s           = progress.wall_seconds();
+  const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  if (beside_a_run)
+    write_modes(folder, result);
+  else
+  {
+    prepare_folder(folder);
+    write_results(folder, result);
+  }
 
   print_modes("frame as supported, interface free", result.frame_modes);
   print_modes("coupled machine", result.coupled_modes);
-  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  if (beside_a_run)
+    std::cout << folder.string() << " holds a run, which is kept: only modes.csv and frame_modes.pvd were written\n";
+  else
+    std::cout << "report: " << (folder / "report.html").string() << '\n';
   return exit_done;
 }
 

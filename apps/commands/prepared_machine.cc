@@ -121,7 +121,8 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
   {
     facts.interface  = frame->n_interface;
-    facts.modes      = prepared.companion ? 0 : static_cast<int>(frame->M.rows()) - frame->n_interface;
+    const bool modes = frame->modal && !prepared.companion;
+    facts.modes      = modes ? static_cast<int>(frame->M.rows()) - frame->n_interface : 0;
     facts.frame_dofs = frame->n_full > 0 ? frame->n_full : static_cast<int>(frame->M.rows());
     if (frame->n_cells > 0)
       facts.cells = frame->n_cells;

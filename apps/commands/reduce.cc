@@ -1,5 +1,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/prepared_machine.h"
+#include "apps/output/result_folder.h"
+#include "coupling/reduced_frame_file.h"
 
 #include <iomanip>
 #include <iostream>
@@ -14,11 +16,20 @@ int reduce_command(const CommonOptions &options)
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
                                              "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
+  if (!options.folder.empty())
+    require_writable(options.folder);
   ProgressLine                 progress(options.quiet);
   bool                         from_cache = false;
   const coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
   progress.done();
 
+  if (!options.folder.empty())
+  {
+    const std::filesystem::path file = std::filesystem::path(options.folder) / "reduced_frame.h5";
+    std::filesystem::create_directories(options.folder);
+    coupling::write_reduced_frame(file.string(), frame);
+    std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
+  }
   std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
             << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
             << "  mass          " << frame.mass << " kg\n"

@@ -67,9 +67,15 @@ int run_command(const CommonOptions &options)
 
   const coupling::RunOptions &run = scene.run.options;
   progress.show("integration", 0.);
-  result.run = coupling::simulate(
-      prepared.machine, initial, run, signals,
-      [&](double t) { progress.show("integration", (t - run.begin) / (run.end - run.begin)); }, &interruption());
+  const auto tell = [&](double t) { progress.show("integration", (t - run.begin) / (run.end - run.begin)); };
+  try
+  {
+    result.run = coupling::simulate(prepared.machine, initial, run, signals, tell, &interruption());
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
   progress.show("results");
   states_for_pictures(prepared, *result.run);
   prepare_folder(folder);

@@ -135,4 +135,11 @@ std::vector<std::string> write_results(const fs::path &folder, const Result &res
   return names;
 }
 
+void write_modes(const fs::path &folder, const Result &result)
+{
+  std::vector<std::string> names;
+  write_paraview(folder, result, names);
+  write_file(folder / "modes.csv", modes_csv(result));
+}
+
 } // namespace gestell::apps

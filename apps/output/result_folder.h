@@ -30,6 +30,10 @@ void prepare_folder(const std::filesystem::path &folder);
  */
 std::vector<std::string> write_results(const std::filesystem::path &folder, const Result &result);
 
+/// Writes modes.csv and frame_modes.pvd alone, into a folder whose other results stay.
+/// @throws std::runtime_error as write_results().
+void write_modes(const std::filesystem::path &folder, const Result &result);
+
 /// Writes a whole file.  @throws std::runtime_error with path and reason.
 void write_file(const std::filesystem::path &path, const std::string &content);
 

@@ -70,26 +70,31 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
                                std::to_string(skew / size) + " of the largest one");
 }
 
-/// Refuses a mass matrix by which a motion has negative kinetic energy; coordinates without mass may be, as rotations
-/// of lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -semidefinite_tolerance.
-void check_semidefinite_mass(const SceneTable &frame, const Sparse &M)
+/// Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
+/// lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -semidefinite_tolerance.
+void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix)
 {
-  const Eigen::VectorXd diagonal = M.diagonal();
+  const Eigen::VectorXd diagonal = matrix.diagonal();
   Eigen::Index          lowest;
   if (diagonal.minCoeff(&lowest) < 0.)
-    throw frame.error("mass", "is not positive semidefinite: row " + std::to_string(lowest + 1) + " has the mass " +
-                                  std::to_string(diagonal[lowest]) + "; it must be zero or positive");
-  const double largest = diagonal.maxCoeff();
-  if (largest == 0.)
-    throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
+    throw frame.error(key, "is not positive semidefinite: row " + std::to_string(lowest + 1) + " has " +
+                               std::to_string(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
+  const double          largest = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
   const Eigen::VectorXd scale =
       diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
-  Sparse unit(M.rows(), M.rows());
+  Sparse unit(matrix.rows(), matrix.rows());
   unit.setIdentity();
-  const Sparse shifted = Sparse(scale.asDiagonal() * M * scale.asDiagonal()) + semidefinite_tolerance * unit;
+  const Sparse shifted = Sparse(scale.asDiagonal() * matrix * scale.asDiagonal()) + semidefinite_tolerance * unit;
   if (Eigen::SimplicialLLT<Sparse>(shifted).info() != Eigen::Success)
-    throw frame.error("mass", "is not positive semidefinite: by its entries beside the diagonal some motion has "
-                              "negative kinetic energy; check their signs and units");
+    throw frame.error(key, "is not positive semidefinite: by its entries beside the diagonal some motion has negative "
+                           "energy; check their signs and units");
+}
+
+void check_mass(const SceneTable &frame, const Sparse &M)
+{
+  check_semidefinite(frame, "mass", M);
+  if (M.diagonal().maxCoeff() == 0.)
+    throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
 }
 
 /// n = 0: any size.
@@ -187,10 +192,18 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
   matrices.C           = read_square(frame, "stiffness", kind::stiffness_entry, n);
   matrices.B.resize(n, n);
   if (const bool ratio = frame.is_table("damping"); ratio)
-    matrices.modal_damping_ratio = frame.table("damping").not_negative("ratio", kind::number);
+  {
+    const auto damping           = frame.table("damping");
+    matrices.modal_damping_ratio = damping.not_negative("ratio", kind::number);
+    if (matrices.modal_damping_ratio >= 1.)
+      throw damping.error("ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
+  }
   else if (frame.has("damping"))
+  {
     matrices.B = read_square(frame, "damping", kind::damping_entry, n);
-  check_semidefinite_mass(frame, matrices.M);
+    check_semidefinite(frame, "damping", matrices.B);
+  }
+  check_mass(frame, matrices.M);
 
   std::map<int, std::string> owner;
   for (const auto &table : frame.tables("interface"))

@@ -94,7 +94,12 @@ void read_output(const SceneTable &scene, Scene &result)
   result.run.options.picture_step = table->not_negative("picture_step", kind::time, run.picture_step);
   if (table->is_array("signals"))
     for (const auto &path : table->texts("signals"))
+    {
+      for (const SignalRequest &other : result.signals)
+        if (other.name == path)
+          throw table->error("signals", "'" + path + "' stands in the list twice");
       result.signals.push_back({path, path, table->place("signals")});
+    }
   else if (const auto signals = table->optional_table("signals"))
     for (const auto &name : signals->keys())
     {

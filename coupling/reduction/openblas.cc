@@ -29,8 +29,8 @@ void use_one_blas_thread()
                                 ", but Gestell needs OpenBLAS; on Debian install "
                                 "libopenblas0-pthread and choose it with: update-alternatives --config "
                                 "libblas.so.3-x86_64-linux-gnu");
-  if (!std::getenv("OPENBLAS_NUM_THREADS"))
-    openblas_set_num_threads(1);
+  const char *wanted = std::getenv("OPENBLAS_NUM_THREADS"); // --jobs sets it
+  openblas_set_num_threads(wanted && std::atoi(wanted) > 0 ? std::atoi(wanted) : 1);
 }
 
 } // namespace gestell::coupling

@@ -85,6 +85,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"step_negative", "--set run.step='\"-10 us\"'", "run.step"},
                       Wrong{"end_before_start", "--set run.end=-1", "run.end"},
                       Wrong{"unstable_order", "--set run.order=4 --set run.step='\"2 ms\"'", "unstable"},
+                      Wrong{"negative_damping", "--set frame.damping='[[-1e6, 0], [0, -1e6]]'", "frame.damping"},
+                      Wrong{"ratio_in_percent", "--set frame.damping='{ ratio = 5 }'", "ratio"},
+                      Wrong{"signal_twice", "--set output.signals='[\"rod.force\", \"rod.force\"]'", "twice"},
                       Wrong{"endless_steps", "--set run.step=1e-13", "run.step"},
                       Wrong{"unknown_method", "--set run.method='\"rk4\"'", "run.method"},
                       Wrong{"rod_too_short", "--set parameters.l='\"50 mm\"'", "length"},
@@ -116,6 +119,16 @@ TEST(Program, WrongInputLosesNoEarlierResult)
   const std::string before = read(folder.results() / "summary.json");
   ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.step=0").exit_code, 2);
   EXPECT_EQ(read(folder.results() / "summary.json"), before);
+}
+
+TEST(Program, ModesBesideARunLeaveTheRun)
+{
+  const Folder folder("beside");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.end=0.01").exit_code, 0);
+  const std::string before = read(folder.results() / "summary.json");
+  ASSERT_EQ(gestell("modes " + scene("press_minimal.toml") + folder.option()).exit_code, 0);
+  EXPECT_EQ(read(folder.results() / "summary.json"), before);
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "history.csv"));
 }
 
 TEST(Program, InterruptedRunSavesWhatItHas)

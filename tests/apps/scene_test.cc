@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     MatrixFrame, SceneMistake,
     ::testing::Values(Mistake{"[0, \"13 t\"]]", "[0]]", "frame.mass", "row 2 has 1 entries"},
-                      Mistake{"[0, \"13 t\"]]", "[0, \"-13 t\"]]", "frame.mass", "row 2 has the mass -13000"},
+                      Mistake{"[0, \"13 t\"]]", "[0, \"-13 t\"]]", "frame.mass", "row 2 has -13000"},
                       Mistake{"0], [0, \"13 t\"]]", "\"12 t\"], [\"12 t\", \"13 t\"]]", "frame.mass",
                               "not positive semidefinite"}, // 9.5 * 13 < 12^2
                       Mistake{"[[\"9.5 t\", 0], [0, \"13 t\"]]", "[[0, 0], [0, 0]]", "frame.mass", "zeros"},
