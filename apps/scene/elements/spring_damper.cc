@@ -16,8 +16,9 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
   spring.damping    = table.not_negative("damping", turns ? kind::torsional_damping : kind::damping, 0.);
   spring.preload    = table.number("preload", turns ? kind::torque : kind::force, 0.);
   spring.rest       = table.number("rest", turns ? kind::angle : kind::length, 0.);
-  if (spring.stiffness == 0. && spring.damping == 0. && spring.preload == 0.)
-    throw table.error("has neither stiffness nor damping nor preload and would do nothing");
+  // A value may be varied down to zero; what is not given at all was forgotten.
+  if (!table.has("stiffness") && !table.has("damping") && !table.has("preload"))
+    throw table.error("needs 'stiffness', 'damping' or 'preload'; with none of them it would do nothing");
   scene.linear.push_back(spring);
 }
 
