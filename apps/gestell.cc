@@ -53,9 +53,10 @@ int main(int argc, char **argv)
   CLI::App *check  = add_command(program, "check", "validate a scene without computing",
                                  "gestell check apps/scenes/press.toml", "SCENE", options);
   CLI::App *mesher = add_command(program, "mesh", "mesh a CAD file; report its quality, surfaces and solids",
-                                 "gestell mesh meshes/press_frame.step --size 0.08", "CAD", options);
-  mesher->add_option("--size", mesh.size, "element size [m]")->check(CLI::PositiveNumber);
-  mesher->add_option("--unit", mesh.unit, "length unit of a file without one [m]")->check(CLI::PositiveNumber);
+                                 "gestell mesh meshes/press_frame.step --size '80 mm'", "CAD", options);
+  mesher->add_option("--size", mesh.size, "element size, such as \"80 mm\"");
+  mesher->add_option("--unit", mesh.unit, "length unit of a file without one, such as \"1 mm\"");
+  mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(CLI::PositiveNumber);
 
   try
   {

@@ -38,13 +38,6 @@ struct MeshReport
   std::vector<SurfaceReport> surfaces;
 };
 
-/// CPU and wall seconds a phase took.
-struct PhaseTime
-{
-  std::string phase;
-  double      wall, cpu;
-};
-
 /**
  * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame
  * must be made.  Throws std::invalid_argument for wrong input, ConvergenceFailure for failed methods.

@@ -79,7 +79,7 @@ public:
   // --- building
   void set_frame(ReducedFrame frame);       ///< dense
   void set_frame(fem::FrameMatrices frame); ///< unreduced: every coordinate of the frame is one of the machine's
-  void set_gravity(const Vector3 &g);       ///< [m/s^2], acts on the frame and on bodies added afterwards
+  void set_gravity(const Vector3 &g);       ///< [m/s^2], acts on the frame and on all bodies
 
   /// A rotor of inertia J [kg m^2] about `axis`, carried by `carrier` ("ground", "frame.crown"), with mass [kg] at the
   /// carrier.

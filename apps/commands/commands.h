@@ -27,10 +27,9 @@ struct CommonOptions
 
 struct MeshCommandOptions
 {
-  double      size      = 0.; ///< [m]; 0: a thirtieth of the model's diagonal
+  std::string size; ///< a length such as "80 mm", plain numbers in m; empty: chosen for some 25 000 cells
+  std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
   double      max_cells = 2e6;
-  double      unit      = 0.; ///< length unit of the file [m]; 0: the file knows
-  std::string material  = "steel";
 };
 
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.

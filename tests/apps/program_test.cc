@@ -94,6 +94,19 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"bad_parameter", "--set parameters.c_el='\"1000 kN/mm\"'", "elastic_stiffness"}),
     [](const auto &information) { return information.param.name; });
 
+TEST(Program, LengthsOnTheCommandLineTakeUnitsAndSayWhatIsWrong)
+{
+  for (const char *wrong : {"3kg", "0", "x", "-1"})
+  {
+    const Answer answer = gestell("mesh no_such.step --size=" + std::string(wrong));
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says("--size: ")) << answer.text;
+  }
+  const Answer right = gestell("mesh no_such.step --size='80 mm'");
+  EXPECT_EQ(right.exit_code, 2);
+  EXPECT_FALSE(right.says("--size")) << right.text;
+}
+
 TEST(Program, MissingSceneIsWrongInput)
 {
   const Answer answer = gestell("run no_such_scene.toml");
