@@ -10,47 +10,88 @@
 namespace gestell::mechanism
 {
 
+/// LocalMotion in plain or dual numbers, as a law sees it.
+template <typename Number>
+struct Measures
+{
+  double        t;
+  const Number *u, *v, *a;
+  bool          by_history; ///< as in LocalMotion
+};
+
 /**
  * A ForceElement whose law is written once, for any number type; dual numbers give its tangent.
  *
  * `Law` (the derived class) provides
  *
  *     template <typename Number>
- *     void law(double t, const Number *u, const Number *v, const Number *a, const double *history, Number *p) const;
+ *     void law(const Measures<Number> &measures, const double *history, Number *p) const;
  *
  * with k measures.  Each measure carries one dual direction in which u, v and a move together as (w.u, w.v, w.a): the
- * tangent  w.u dp/du + w.v dp/dv + w.a dp/da  costs k directions, not 3 k.
+ * tangent  w.u dp/du + w.v dp/dv + w.a dp/da  costs k directions, not 3 k; dp/du and dp/dv apart cost 2 k.
  */
 template <class Law, int k>
 class DifferentiableElement : public ForceElement
 {
 public:
-  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, k, 1>>;
+  template <int n_directions>
+  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, n_directions, 1>>;
 
   int n_measures() const final { return k; }
 
   void force(const LocalMotion &motion, const double *history, double *p) const final
   {
-    static_cast<const Law &>(*this).template law<double>(motion.t, motion.u, motion.v, motion.a, history, p);
+    law(Measures<double>{motion.t, motion.u, motion.v, motion.a, motion.by_history}, history, p);
   }
 
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const final
   {
-    Dual u[k], v[k], a[k], p_dual[k];
+    using Direction = Eigen::Matrix<double, k, 1>;
+    Dual<k> u[k], v[k], a[k], p_dual[k];
     for (int i = 0; i < k; ++i)
     {
-      u[i] = Dual(motion.u[i], w.u * Eigen::Matrix<double, k, 1>::Unit(i));
-      v[i] = Dual(motion.v[i], w.v * Eigen::Matrix<double, k, 1>::Unit(i));
-      a[i] = Dual(motion.a[i], w.a * Eigen::Matrix<double, k, 1>::Unit(i));
+      u[i] = Dual<k>(motion.u[i], w.u * Direction::Unit(i));
+      v[i] = Dual<k>(motion.v[i], w.v * Direction::Unit(i));
+      a[i] = Dual<k>(motion.a[i], w.a * Direction::Unit(i));
     }
-    static_cast<const Law &>(*this).template law<Dual>(motion.t, u, v, a, history, p_dual);
+    law(Measures<Dual<k>>{motion.t, u, v, a, motion.by_history}, history, p_dual);
     for (int i = 0; i < k; ++i)
     {
       p[i] = p_dual[i].value();
       for (int j = 0; j < k; ++j)
         dp[i + k * j] = p_dual[i].derivatives()[j];
     }
+  }
+
+  void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
+                   double *dp_dv) const final
+  {
+    using Direction = Eigen::Matrix<double, 2 * k, 1>;
+    Dual<2 * k> u[k], v[k], a[k], p_dual[k];
+    for (int i = 0; i < k; ++i)
+    {
+      u[i] = Dual<2 * k>(motion.u[i], Direction::Unit(i));
+      v[i] = Dual<2 * k>(motion.v[i], Direction::Unit(k + i));
+      a[i] = Dual<2 * k>(motion.a[i]);
+    }
+    law(Measures<Dual<2 * k>>{motion.t, u, v, a, motion.by_history}, history, p_dual);
+    for (int i = 0; i < k; ++i)
+    {
+      p[i] = p_dual[i].value();
+      for (int j = 0; j < k; ++j)
+      {
+        dp_du[i + k * j] = p_dual[i].derivatives()[j];
+        dp_dv[i + k * j] = p_dual[i].derivatives()[k + j];
+      }
+    }
+  }
+
+private:
+  template <typename Number>
+  void law(const Measures<Number> &measures, const double *history, Number *p) const
+  {
+    static_cast<const Law &>(*this).template law<Number>(measures, history, p);
   }
 };
 

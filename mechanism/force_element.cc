@@ -5,6 +5,18 @@
 namespace gestell::mechanism
 {
 
+void ForceElement::derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
+                               double *dp_dv) const
+{
+  tangent(motion, history, {1., 0., 0.}, p, dp_du);
+  tangent(motion, history, {0., 1., 0.}, p, dp_dv);
+}
+
+bool ForceElement::holds(const double *, double &) const
+{
+  return false;
+}
+
 void ForceElement::engaged(const double *, double *K, double *D) const
 {
   const int k = n_measures();

@@ -13,6 +13,16 @@ struct LocalMotion
   const double *u;
   const double *v;
   const double *a;
+
+  /// Generalised force p [k] of the element at this motion; null where it is unknown.  The guards of a branch that
+  /// holds() need it.
+  const double *p = nullptr;
+
+  /// true: the law is that of the branch the history names, smoothly continued beyond its switching points; so an
+  /// integrator that locates events sees a smooth law up to and slightly past the event.  What the element tells
+  /// (force, energy, quantities) is then continuous through a contact that is a rounding error outside. false: the
+  /// branch follows from the motion itself.
+  bool by_history = false;
 };
 
 /// The tangent asked for is  w.u dp/du + w.v dp/dv + w.a dp/da.  An implicit integrator, in which v and a depend
@@ -58,6 +68,16 @@ struct Quantity
  * Memory (largest penetration, active branch, sliding state) lies outside, in n_history() numbers per element that the
  * system owns, saves and restores as one vector.  force() and tangent() never change it; accept() and transition()
  * do, and are called for accepted motion only.
+ *
+ * Events.  Inside a branch the law is smooth; guard_values() are the switching functions of the active branch, open on
+ * the side from which they may cross: a rising guard while negative, a falling one while positive.  Right after a
+ * transition
+ * - the guard that would take it back has the value zero within the rounding of the location, and the motion carries it
+ *   to its open side: a guard past zero at the beginning of a step but open at its end is not due;
+ * - a guard may be past zero and stay so (a slide comes to rest under a load too large to hold, play of width zero):
+ *   past zero at the beginning and the end of a step it is due at its beginning, and its transition is taken at the
+ * same instant as the one before.  Values that the transition itself changes (the force of a branch that holds) decide
+ *   before any step is made.
  */
 class ForceElement
 {
@@ -76,6 +96,15 @@ public:
   /// p [k] and its tangent dp [k x k, column major] for the weights w.
   virtual void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                        double *dp) const = 0;
+
+  /// p [k] with dp/du and dp/dv [k x k each, column major] apart, u'' being held.
+  virtual void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
+                           double *dp_dv) const;
+
+  /// true: in the branch named by the history the element's single measure is held at u' = rate and its force p is the
+  /// unknown, a constraint force that the system finds; force() and tangent() are then not consulted for p, and
+  /// guard_values() and quantity() read motion.p.
+  virtual bool holds(const double *history, double &rate) const;
 
   /// Stiffness K = -dp/du and damping D = -dp/dv [k x k, column major] the element has as part of the structure when
   /// it is engaged (play closed) at the configuration u; geometric stiffness is left out.  Used for natural

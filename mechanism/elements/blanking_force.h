@@ -41,10 +41,10 @@ public:
   explicit BlankingForce(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *u, const Number *, const Number *, const double *history, Number *p) const
+  void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const double z_max = history[0];
-    const Number z     = u[0] - parameters_.contact_at;
+    const Number z     = m.u[0] - parameters_.contact_at;
     if (z_max >= parameters_.thickness)
       p[0] = Number(0.);
     else if (z >= z_max)

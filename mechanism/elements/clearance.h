@@ -28,12 +28,12 @@ public:
   explicit Clearance(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
     const auto &[gap, c, chi] = parameters_;
-    const double s            = value(u[0]) < 0. ? -1. : 1.;
-    const Number d            = s * u[0] - gap;
-    const Number factor       = 1. + (chi * s) * v[0];
+    const double s            = value(m.u[0]) < 0. ? -1. : 1.;
+    const Number d            = s * m.u[0] - gap;
+    const Number factor       = 1. + (chi * s) * m.v[0];
     p[0]                      = d > 0. && factor > 0. ? Number(-s * c * d * factor) : Number(0.);
   }
 

@@ -42,11 +42,11 @@ public:
   explicit ConnectingRod(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
     Number       gradient[3];
-    const Number delta = compression(u, gradient);
-    const Number rate  = gradient[0] * v[0] + gradient[1] * v[1] + gradient[2] * v[2];
+    const Number delta = compression(m.u, gradient);
+    const Number rate  = gradient[0] * m.v[0] + gradient[1] * m.v[1] + gradient[2] * m.v[2];
     const Number push  = chain_force(delta, rate);
     for (int i = 0; i < 3; ++i)
       p[i] = -push * gradient[i];

@@ -18,9 +18,9 @@ public:
   explicit CubicSpring(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *u, const Number *, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
-    p[0] = -(parameters_.stiffness + parameters_.cubic * u[0] * u[0]) * u[0];
+    p[0] = -(parameters_.stiffness + parameters_.cubic * m.u[0] * m.u[0]) * m.u[0];
   }
 
   void                  engaged(const double *u, double *K, double *D) const override;

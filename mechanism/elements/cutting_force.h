@@ -28,19 +28,19 @@ public:
   explicit CuttingForce(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *u, const Number *v, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
     using std::exp;
     using std::tanh;
     const auto &[F, z_p, x_T, v0] = parameters_;
-    const Number x                = (u[0] - x_T) / z_p;
+    const Number x                = (m.u[0] - x_T) / z_p;
     if (!(x > 0.))
     {
       p[0] = Number(0.);
       return;
     }
     const Number shape = x * exp(1. - x);
-    const Number gate  = 0.5 * (1. + tanh(v[0] / v0));
+    const Number gate  = 0.5 * (1. + tanh(m.v[0] / v0));
     p[0]               = -F * shape * gate;
   }
 

@@ -28,10 +28,10 @@ public:
   explicit KlossMotor(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *, const Number *v, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
     const auto &[M_K, s_K, sync, i] = parameters_;
-    const Number s                  = 1. - i / sync * v[0];
+    const Number s                  = 1. - i / sync * m.v[0];
     p[0]                            = (2. * i * M_K * s_K) * s / (s * s + s_K * s_K);
   }
 

@@ -22,10 +22,10 @@ public:
   explicit RegularisedFriction(const Parameters &parameters);
 
   template <typename Number>
-  void law(double, const Number *, const Number *v, const Number *, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *, Number *p) const
   {
     using std::tanh;
-    p[0] = -parameters_.force * tanh(v[0] / parameters_.speed);
+    p[0] = -parameters_.force * tanh(m.v[0] / parameters_.speed);
   }
 
   std::vector<Quantity> quantities() const override;

@@ -67,7 +67,7 @@ void tangent_sacado(benchmark::State &state)
       v[i].fastAccessDx(i) = weights[1];
       a[i].fastAccessDx(i) = weights[2];
     }
-    rod.law<Dual>(0., u, v, a, &history, p);
+    rod.law(gestell::mechanism::Measures<Dual>{0., u, v, a, false}, &history, p);
     benchmark::DoNotOptimize(p);
   }
 }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
+#include <random>
 
 namespace gestell::tests
 {
@@ -111,6 +112,33 @@ TEST_P(Element, TangentFromDualNumbersEqualsCentralQuotients)
       EXPECT_LT((dp.col(j) - quotient).norm(), 1e-5 * scale) << c.name << ", measure " << j;
     }
   }
+}
+
+// The same rules of differentiation in the same order: what differs is the sum over u and v, in rounding.
+TEST_P(Element, DerivativesSumUpToEveryTangent)
+{
+  const Case           &c       = GetParam();
+  const int             k       = c.element->n_measures();
+  const Eigen::VectorXd history = arrived(c);
+  Eigen::VectorXd       p(k), p_tangent(k);
+  Eigen::MatrixXd       dp_du(k, k), dp_dv(k, k), tangent(k, k);
+  c.element->derivatives(c.probe.motion(), history.data(), p.data(), dp_du.data(), dp_dv.data());
+  EXPECT_EQ((p - force(*c.element, c.probe, history.data())).norm(), 0.);
+  std::mt19937                           random(7);
+  std::uniform_real_distribution<double> weight(-1e3, 1e3);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const TangentWeights w{weight(random), weight(random), 0.};
+    c.element->tangent(c.probe.motion(), history.data(), w, p_tangent.data(), tangent.data());
+    const double scale = std::abs(w.u) * dp_du.norm() + std::abs(w.v) * dp_dv.norm();
+    EXPECT_LE((tangent - w.u * dp_du - w.v * dp_dv).norm(), 1e-13 * scale) << c.name;
+    EXPECT_EQ((p - p_tangent).norm(), 0.);
+  }
+  // The default of the interface, two tangents, is the same thing.
+  Eigen::MatrixXd by_u(k, k), by_v(k, k);
+  c.element->ForceElement::derivatives(c.probe.motion(), history.data(), p.data(), by_u.data(), by_v.data());
+  EXPECT_LE((by_u - dp_du).norm(), 1e-14 * dp_du.norm());
+  EXPECT_LE((by_v - dp_dv).norm(), 1e-14 * dp_dv.norm());
 }
 
 // Power p . u' plus the growth of the stored energy is what the element takes out of the motion.
