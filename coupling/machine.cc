@@ -160,6 +160,14 @@ void Machine::add_linear(const std::string &name, const Measure &u, double stiff
   parts_->linear.push_back({name, u, stiffness, damping, preload - stiffness * rest, force_unit});
 }
 
+void Machine::add_load(const Measure &u, double constant, const std::vector<Oscillation> &oscillations)
+{
+  for (const auto &[coordinate, weight] : u)
+    parts_->constant_load.emplace_back(coordinate, weight * constant);
+  for (const Oscillation &part : oscillations)
+    parts_->harmonic_loads.push_back({u, part.omega, part.amplitude, part.phase});
+}
+
 void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
                      const std::vector<Measure> &measures)
 {
@@ -263,12 +271,18 @@ std::vector<SpectrumLine> Machine::spectrum() const
 {
   return parts_->base->spectrum();
 }
-void Machine::excitation(double, Eigen::VectorXd &f) const
+const Excitation &Machine::excitation() const
 {
-  f = parts_->load;
+  return parts_->excitation;
 }
-bool Machine::excitation_is_constant() const
+bool Machine::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const
 {
+  const auto *dense = dynamic_cast<const DenseBase *>(parts_->base.get());
+  if (!dense)
+    return false;
+  M = dense->mass();
+  B = dense->damping();
+  C = dense->stiffness();
   return true;
 }
 const Eigen::SparseMatrix<double> &Machine::directions() const
@@ -279,6 +293,8 @@ const Eigen::SparseMatrix<double> &Machine::directions() const
 void Machine::gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
                      LocalState &local) const
 {
+  if (local.p.size() != parts_->W.cols())
+    local.p.setZero(parts_->W.cols());
   local.t           = t;
   local.u.noalias() = parts_->W.transpose() * q;
   local.v.noalias() = parts_->W.transpose() * v;
@@ -288,7 +304,8 @@ void Machine::gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &
 void Machine::local_force(const LocalState &state, Eigen::VectorXd &p) const
 {
   for (const auto &part : parts_->placed)
-    part.element->force(part.motion(state), parts_->history_of(part), p.data() + part.first_measure);
+    if (!part.holds)
+      part.element->force(part.motion(state, parts_->by_history), parts_->history_of(part), p.data() + part.first_measure);
 }
 
 void Machine::local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
@@ -298,12 +315,43 @@ void Machine::local_tangent(const LocalState &state, double w_u, double w_v, dou
   double block[Parts::max_measures * Parts::max_measures];
   for (const auto &part : parts_->placed)
   {
-    part.element->tangent(part.motion(state), parts_->history_of(part), {w_u, w_v, w_a}, p.data() + part.first_measure,
+    if (part.holds)
+      continue;
+    part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a}, p.data() + part.first_measure,
                           block);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
         dp(part.first_measure + i, part.first_measure + j) = block[i + part.n_measures * j];
   }
+}
+
+void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+                                Eigen::MatrixXd &dp_dv) const
+{
+  double of_u[Parts::max_measures * Parts::max_measures], of_v[Parts::max_measures * Parts::max_measures];
+  for (const auto &part : parts_->placed)
+  {
+    if (part.holds)
+      continue;
+    part.element->derivatives(part.motion(state, parts_->by_history), parts_->history_of(part),
+                              p.data() + part.first_measure, of_u, of_v);
+    for (int j = 0; j < part.n_measures; ++j)
+      for (int i = 0; i < part.n_measures; ++i)
+      {
+        dp_du(part.first_measure + i, part.first_measure + j) = of_u[i + part.n_measures * j];
+        dp_dv(part.first_measure + i, part.first_measure + j) = of_v[i + part.n_measures * j];
+      }
+  }
+}
+
+const std::vector<HeldMeasure> &Machine::held() const
+{
+  return parts_->held;
+}
+
+void Machine::follow_history(bool follow)
+{
+  parts_->by_history = follow;
 }
 
 Eigen::VectorXd Machine::save_history() const
@@ -320,14 +368,14 @@ void Machine::restore_history(const Eigen::VectorXd &saved)
 void Machine::start(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
-    part.element->start(part.motion(state), parts_->history_of(part));
+    part.element->start(part.motion(state, parts_->by_history), parts_->history_of(part));
   parts_->refresh_guards();
 }
 
 void Machine::accept(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
-    part.element->accept(part.motion(state), parts_->history_of(part));
+    part.element->accept(part.motion(state, parts_->by_history), parts_->history_of(part));
 }
 
 int Machine::n_guards() const
@@ -343,7 +391,7 @@ void Machine::guard_values(const LocalState &state, Eigen::VectorXd &g) const
     const double *history = parts_->history_of(part);
     const int     n       = part.element->n_guards(history);
     if (n > 0)
-      part.element->guard_values(part.motion(state), history, g.data() + first);
+      part.element->guard_values(part.motion(state, parts_->by_history), history, g.data() + first);
     first += n;
   }
 }
@@ -361,7 +409,7 @@ void Machine::transition(int i, const LocalState &state)
 {
   const auto &active = parts_->guards[i];
   const auto &part   = parts_->placed[active.element];
-  part.element->transition(active.index, part.motion(state), parts_->history_of(part));
+  part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
   parts_->refresh_guards();
 }
 
@@ -369,7 +417,7 @@ double Machine::local_stored_energy(const LocalState &state) const
 {
   double energy = 0.;
   for (const auto &part : parts_->placed)
-    energy += part.element->stored_energy(part.motion(state), parts_->history_of(part));
+    energy += part.element->stored_energy(part.motion(state, parts_->by_history), parts_->history_of(part));
   return energy;
 }
 

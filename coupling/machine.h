@@ -54,6 +54,12 @@ struct DrawnRod
   double      crank_radius = 0., length = 0.;
 };
 
+/// amplitude sin(omega t + phase), omega > 0 [rad/s].
+struct Oscillation
+{
+  double omega, amplitude, phase;
+};
+
 struct ElementPlacement
 {
   std::string                              name;
@@ -98,6 +104,9 @@ public:
   void add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
                   double rest, const std::string &force_unit);
 
+  /// External load on a measure u:  f(t) = constant + sum amplitude sin(omega t + phase), with +f on u.
+  void add_load(const Measure &u, double constant, const std::vector<Oscillation> &oscillations);
+
   /// Nonlinear element acting on its measures.
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
               const std::vector<Measure> &measures);
@@ -137,12 +146,16 @@ public:
   void                               stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
   std::unique_ptr<LinearSolver>      factorise(double w_M, double w_B, double w_C) const override;
   std::vector<SpectrumLine>          spectrum() const override;
-  void                               excitation(double t, Eigen::VectorXd &f) const override;
-  bool                               excitation_is_constant() const override;
+  const Excitation                  &excitation() const override;
+  bool            dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const override;
   const Eigen::SparseMatrix<double> &directions() const override;
   void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
   void            local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                                 Eigen::MatrixXd &dp) const override;
+  void            local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+                                    Eigen::MatrixXd &dp_dv) const override;
+  const std::vector<HeldMeasure> &held() const override;
+  void                            follow_history(bool follow) override;
   Eigen::VectorXd save_history() const override;
   void            restore_history(const Eigen::VectorXd &saved) override;
   void            start(const LocalState &state) override;

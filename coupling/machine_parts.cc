@@ -99,9 +99,16 @@ void Machine::Parts::finish()
     for (const auto &[coordinate, value] : acceleration_load[d])
       translation_loads(coordinate, d) += value;
 
-  load = translation_loads * Eigen::Map<const Eigen::Vector3d>(gravity.data());
+  const Eigen::VectorXd weight = translation_loads * Eigen::Map<const Eigen::Vector3d>(gravity.data());
+  excitation                   = Excitation(n);
+  for (int i = 0; i < n; ++i)
+    excitation.add_constant(i, weight[i]);
   for (const auto &[coordinate, value] : constant_load)
-    load[coordinate] += value;
+    excitation.add_constant(coordinate, value);
+  for (const HarmonicLoad &load : harmonic_loads)
+    for (const auto &[coordinate, value] : load.u)
+      excitation.add_harmonic(coordinate, load.omega, value * load.amplitude * std::sin(load.phase),
+                              value * load.amplitude * std::cos(load.phase));
   place_elements(n);
 }
 
@@ -167,8 +174,13 @@ void Machine::Parts::place_elements(int n)
 void Machine::Parts::refresh_guards()
 {
   guards.clear();
+  held.clear();
   for (std::size_t e = 0; e < placed.size(); ++e)
   {
+    double rate     = 0.;
+    placed[e].holds = placed[e].element->holds(history_of(placed[e]), rate);
+    if (placed[e].holds)
+      held.push_back({placed[e].first_measure, rate});
     const auto own = placed[e].element->guards(history_of(placed[e]));
     for (std::size_t i = 0; i < own.size(); ++i)
     {

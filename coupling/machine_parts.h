@@ -28,11 +28,24 @@ struct Machine::Parts
   {
     const mechanism::ForceElement *element;
     int                            first_measure, n_measures, first_history;
+    bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
 
-    mechanism::LocalMotion motion(const LocalState &state) const
+    mechanism::LocalMotion motion(const LocalState &state, bool by_history) const
     {
-      return {state.t, state.u.data() + first_measure, state.v.data() + first_measure, state.a.data() + first_measure};
+      return {state.t,
+              state.u.data() + first_measure,
+              state.v.data() + first_measure,
+              state.a.data() + first_measure,
+              state.p.data() + first_measure,
+              by_history};
     }
+  };
+
+  /// amplitude sin(omega t + phase) on a measure.
+  struct HarmonicLoad
+  {
+    Measure u;
+    double  omega, amplitude, phase;
   };
 
   struct PlacedGuard
@@ -55,16 +68,19 @@ struct Machine::Parts
   std::vector<ElementPlacement>       elements;
   Triplets                            M, B, C;
   std::vector<std::pair<int, double>> constant_load;
+  std::vector<HarmonicLoad>           harmonic_loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
   // finished
   std::unique_ptr<LinearBase> base;
   Eigen::SparseMatrix<double> W;
-  Eigen::VectorXd             load; // f_t
+  Excitation                  excitation; // f_t
   Eigen::MatrixXd             translation_loads;
   std::vector<PlacedElement>  placed;
   Eigen::VectorXd             history;
   std::vector<PlacedGuard>    guards;
+  std::vector<HeldMeasure>    held;
+  bool                        by_history = false;
 
   int     add_coordinate(const std::string &body);
   void    add_body(const Body &body);

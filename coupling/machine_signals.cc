@@ -135,7 +135,7 @@ double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const E
   if (signal.element >= 0)
   {
     const auto &part = parts_->placed[signal.element];
-    value += part.element->quantity(signal.quantity, part.motion(local), parts_->history_of(part));
+    value += part.element->quantity(signal.quantity, part.motion(local, parts_->by_history), parts_->history_of(part));
   }
   return signal.scale * value;
 }

@@ -45,8 +45,8 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
     if (i == 0)
       i = n2++;
 
-  Eigen::VectorXd load;
-  full.excitation(state.t, load);
+  Eigen::VectorXd load(full.size());
+  full.excitation().at(state.t, load);
   const Eigen::VectorXd               force = load.head(n_frame) - C * expanded.q.head(n_frame);
   const Eigen::VectorXd               rate  = -(C * expanded.v.head(n_frame));
   Eigen::MatrixXd                     inner(n2, 2);

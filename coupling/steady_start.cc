@@ -143,7 +143,7 @@ public:
         equations_.push_back(i);
     }
     Eigen::VectorXd product(n);
-    machine.excitation(0., constant_);
+    constant_ = machine.excitation().constant();
     machine.mass_times(acceleration_, product);
     constant_ -= product;
     machine.damping_times(v_, product);

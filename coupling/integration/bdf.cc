@@ -1,5 +1,7 @@
 #include "coupling/integration/bdf.h"
 
+#include "coupling/integration/hermite.h"
+
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -30,70 +32,178 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
   const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v})
     x->setZero(n);
-  for (Eigen::VectorXd *x :
-       {&g_, &g_rate_, &p_, &local_.u, &local_.v, &local_.a, &now_.local.u, &now_.local.v, &now_.local.a, &now_.p})
-    x->setZero(n_u);
+  g_.setZero(n_u);
+  g_rate_.setZero(n_u);
+  for (LocalState *state : {&local_, &base_, &now_.local})
+    state->resize(n_u);
   for (Point &point : points_)
-    point = {f_, f_, f_, g_, g_};
+    point = {0., f_, f_, f_, g_, g_, g_, g_};
+  cut_point_ = points_[0];
 }
 
 void Bdf::load(double t)
 {
-  if (load_known_ && system_.excitation_is_constant())
+  const Excitation &excitation = system_.excitation();
+  if (load_known_ && excitation.is_constant())
     return;
-  system_.excitation(t, f_t_);
+  excitation.at(t, f_t_);
   load_known_ = true;
 }
 
 void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
+  newest_ = 0;
+  past(0).q = q;
+  past(0).v = v;
+  past(0).u.noalias()      = system_.directions().transpose() * q;
+  past(0).u_rate.noalias() = system_.directions().transpose() * v;
+  local_.p.setZero();
+  implicit_.begin(past(0).u);
+  begin_from(t);
+}
+
+/// Starts at past(0), of which q, v, u, u' are known.
+void Bdf::begin_from(double t)
+{
   t_begin_     = t;
   index_       = 0;
-  newest_      = 0;
   n_past_      = 1;
-  Point &first = points_[0];
-  first.q      = q;
-  first.v      = v;
-  system_.mass_times(v, first.w);
-  system_.damping_times(q, product_);
+  cut_         = false;
+  Point &first = past(0);
+  first.t      = t;
+  system_.mass_times(first.v, first.w);
+  system_.damping_times(first.q, product_);
   first.w += product_;
-  first.u.noalias()      = system_.directions().transpose() * q;
-  first.u_rate.noalias() = system_.directions().transpose() * v;
-  implicit_.begin(first.u);
   local_.t = t;
   local_.u = first.u;
   local_.v = first.u_rate;
   local_.a.setZero();
-  system_.local_force(local_, p_);
-  publish(t);
+  system_.local_force(local_, local_.p);
+  first.a = local_.a;
+  first.p = local_.p;
+  now_known_ = false;
 }
 
-void Bdf::publish(double t)
+void Bdf::restart()
 {
-  now_.t     = t;
-  now_.q     = past(0).q;
-  now_.v     = past(0).v;
-  now_.local = local_;
-  now_.p     = p_;
+  if (cut_)
+  {
+    push();
+    past(0) = cut_point_;
+  }
+  begin_from(past(0).t);
 }
 
-Bdf::Point &Bdf::push()
+/// The measures of a point become those of the present instant.
+void Bdf::present(const Point &point)
+{
+  local_.t   = point.t;
+  local_.u   = point.u;
+  local_.v   = point.u_rate;
+  local_.a   = point.a;
+  local_.p   = point.p;
+  now_known_ = false;
+}
+
+const Instant &Bdf::instant() const
+{
+  if (!now_known_)
+  {
+    const Point &point = cut_ ? cut_point_ : past(0);
+    now_.t             = point.t;
+    now_.q             = point.q;
+    now_.v             = point.v;
+    now_.local         = local_;
+    now_known_         = true;
+  }
+  return now_;
+}
+
+void Bdf::push()
 {
   newest_ = (newest_ + 1) % capacity;
   n_past_ = std::min(n_past_ + 1, capacity - 1);
-  return points_[newest_];
 }
 
 void Bdf::advance()
 {
+  if (cut_)
+    restart();
+  now_known_     = false;
   const double t = t_begin_ + static_cast<double>(index_ + 1) * options_.step;
-  if (n_past_ < options_.order)
-    start_value(t);
-  else
-    multistep(t);
+  try
+  {
+    if (n_past_ < options_.order)
+      start_value(t);
+    else
+      multistep(t);
+  }
+  catch (const ConvergenceFailure &)
+  {
+    present(past(0));
+    throw;
+  }
   ++index_;
   ++work_.steps;
-  publish(t);
+}
+
+int Bdf::interpolation_points(double *t, const Point **points) const
+{
+  const int n = std::min(n_past_, 3);
+  for (int i = 0; i < n; ++i)
+  {
+    points[i] = &past(i);
+    t[i]      = past(i).t;
+  }
+  return n;
+}
+
+void Bdf::interpolate(double t, LocalState &state) const
+{
+  double       times[3];
+  const Point *points[3];
+  const int    n       = interpolation_points(times, points);
+  const auto   weights = hermite_weights(times, n, t);
+  state.t              = t;
+  state.u.setZero();
+  state.v.setZero();
+  state.a.setZero();
+  state.p.setZero();
+  for (int i = 0; i < n; ++i)
+  {
+    state.u += weights.value[i] * points[i]->u + weights.slope[i] * points[i]->u_rate;
+    state.v += weights.rate_value[i] * points[i]->u + weights.rate_slope[i] * points[i]->u_rate;
+    state.a += weights.lagrange[i] * points[i]->a;
+    state.p += weights.lagrange[i] * points[i]->p;
+  }
+}
+
+void Bdf::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+{
+  double       times[3];
+  const Point *points[3];
+  const int    n       = interpolation_points(times, points);
+  const auto   weights = hermite_weights(times, n, t);
+  q.setZero();
+  v.setZero();
+  for (int i = 0; i < n; ++i)
+  {
+    q += weights.value[i] * points[i]->q + weights.slope[i] * points[i]->v;
+    v += weights.rate_value[i] * points[i]->q + weights.rate_slope[i] * points[i]->v;
+  }
+}
+
+void Bdf::cut(double t)
+{
+  interpolate(t, cut_point_.q, cut_point_.v);
+  interpolate(t, base_);
+  cut_point_.t      = t;
+  cut_point_.u      = base_.u;
+  cut_point_.u_rate = base_.v;
+  cut_point_.a      = base_.a;
+  cut_point_.p      = base_.p;
+  cut_              = true;
+  present(cut_point_);
 }
 
 void Bdf::multistep(double t)
@@ -116,7 +226,7 @@ void Bdf::multistep(double t)
   catch (const ConvergenceFailure &)
   {
     ++work_.rejected;
-    divided_step(past(0), t - options_.step, options_.step, 1, to);
+    divided_step(past(0), options_.step, 1, to);
   }
   push();
 }
@@ -124,7 +234,7 @@ void Bdf::multistep(double t)
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
 {
   const BdfFormula &formula = bdf_formulas[order - 1];
-  const double      h_beta  = formula.beta0 * step;
+  const double      h_beta  = formula.beta0 * step, inverse = 1. / h_beta;
   h_q_                      = -formula.alpha[0] * past[0]->q;
   h_w_                      = -formula.alpha[0] * past[0]->w;
   g_rate_                   = -formula.alpha[0] * past[0]->u_rate;
@@ -139,20 +249,28 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   load(t);
   system_.mass_times(h_q_, f_);
   f_ += h_beta * h_w_ + (h_beta * h_beta) * f_t_;
-  implicit_.solve(implicit_.condensed(h_beta, work_), t, f_, g_, g_rate_, to.q, local_, p_, work_);
+  base_.t = t;
+  base_.u.setZero();
+  base_.v = -inverse * g_;
+  base_.a = inverse * (base_.v - g_rate_);
+  const StepForm form{1., h_beta, h_beta * h_beta, h_beta * h_beta, 1., inverse, inverse * inverse, h_beta};
+  implicit_.solve(implicit_.condensed(form, work_), f_, base_, to.q, local_, work_);
 
-  to.v      = (1. / h_beta) * (to.q - h_q_);
+  to.t      = t;
+  to.v      = inverse * (to.q - h_q_);
   to.u      = local_.u;
   to.u_rate = local_.v;
+  to.a      = local_.a;
+  to.p      = local_.p;
   system_.stiffness_times(to.q, product_);
   to.w          = h_w_ + h_beta * (f_t_ - product_);
   const auto &W = system_.directions();
   for (int j = 0; j < W.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
-      to.w[it.row()] += h_beta * it.value() * p_[j];
+      to.w[it.row()] += h_beta * it.value() * local_.p[j];
 }
 
-void Bdf::divided_step(const Point &from, double t, double length, int halvings, Point &to)
+void Bdf::divided_step(const Point &from, double length, int halvings, Point &to)
 {
   const double half   = 0.5 * length;
   const Point  start  = from;
@@ -166,19 +284,19 @@ void Bdf::divided_step(const Point &from, double t, double length, int halvings,
     try
     {
       local_.u = base.u + half * base.u_rate;
-      formula_step(1, points, t + (part + 1) * half, half, end);
+      formula_step(1, points, base.t + half, half, end);
     }
     catch (const ConvergenceFailure &failure)
     {
       if (halvings == options_.max_halvings)
         fail_divided(failure.what(), halvings, half);
       ++work_.rejected;
-      divided_step(base, t + part * half, half, halvings + 1, end);
+      divided_step(base, half, halvings + 1, end);
     }
   }
 }
 
-void Bdf::euler_chain(const Point &from, double t, double length, int n, Point &to)
+void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
 {
   Point        base = from;
   const double step = length / n;
@@ -188,12 +306,12 @@ void Bdf::euler_chain(const Point &from, double t, double length, int n, Point &
     try
     {
       local_.u = base.u + step * base.u_rate;
-      formula_step(1, points, t + (i + 1) * step, step, to);
+      formula_step(1, points, base.t + step, step, to);
     }
     catch (const ConvergenceFailure &)
     {
       ++work_.rejected;
-      divided_step(base, t + i * step, step, 1, to);
+      divided_step(base, step, 1, to);
     }
     base = to;
   }
@@ -206,23 +324,21 @@ void Bdf::start_value(double t)
   std::vector<Point> table(order, past(0)); // Neville's table, newest column in place
   for (int j = 0; j < order; ++j)
   {
-    euler_chain(past(0), t - h, h, j + 1, table[j]);
+    euler_chain(past(0), h, j + 1, table[j]);
     for (int k = j - 1; k >= 0; --k)
     {
       // table[k] becomes the value of order j - k + 1 from the chains k + 1 .. j + 1
       const double weight = 1. / (static_cast<double>(j + 1) / (k + 1) - 1.);
       const auto   refine = [&](Eigen::VectorXd Point::*x)
       { table[k].*x = table[k + 1].*x + weight * (table[k + 1].*x - table[k].*x); };
-      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate})
+      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate, &Point::a, &Point::p})
         refine(x);
     }
   }
-  push()   = table[0];
-  local_.t = t;
-  local_.u = past(0).u;
-  local_.v = past(0).u_rate;
-  local_.a.setZero();
-  system_.local_force(local_, p_);
+  push();
+  past(0)   = table[0];
+  past(0).t = t;
+  present(past(0));
 }
 
 } // namespace gestell::coupling

@@ -39,25 +39,35 @@ public:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
   void advance() override;
 
-  const Instant         &instant() const override { return now_; }
+  const LocalState      &local() const override { return local_; }
+  const Instant         &instant() const override;
+  double                 step_begin() const override { return cut_ ? past(0).t : past(n_past_ > 1 ? 1 : 0).t; }
+  void                   interpolate(double t, LocalState &state) const override;
+  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void                   cut(double t) override;
+  void                   restart() override;
   const IntegrationWork &work() const override { return work_; }
 
 private:
-  /// A past point: q, v = q', w = M q' + B q [n]; u, u' [n_u].
+  /// A past point: q, v = q', w = M q' + B q [n]; motion of the measures and their forces.
   struct Point
   {
-    Eigen::VectorXd q, v, w, u, u_rate;
+    double          t = 0.;
+    Eigen::VectorXd q, v, w, u, u_rate, a, p;
   };
 
-  Point &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
-  Point &push();
-  void   multistep(double t);
-  void   start_value(double t);
-  void   euler_chain(const Point &from, double t, double length, int n, Point &to);
-  void   divided_step(const Point &from, double t, double length, int halvings, Point &to);
-  void   formula_step(int order, const Point *const *past, double t, double step, Point &to);
-  void   load(double t);
-  void   publish(double t);
+  Point       &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
+  const Point &past(int i) const { return points_[(newest_ + capacity - i) % capacity]; }
+  void         push();
+  void         begin_from(double t);
+  void         multistep(double t);
+  void         start_value(double t);
+  void         euler_chain(const Point &from, double length, int n, Point &to);
+  void         divided_step(const Point &from, double length, int halvings, Point &to);
+  void         formula_step(int order, const Point *const *past, double t, double step, Point &to);
+  void         load(double t);
+  void         present(const Point &point);
+  int          interpolation_points(double *t, const Point **points) const;
 
   static constexpr int capacity = 8; ///< points kept: up to 6 past ones, the new one, one spare
 
@@ -65,13 +75,16 @@ private:
   Options                     options_;
   ImplicitStep                implicit_;
   IntegrationWork             work_;
-  Instant                     now_;
-  double                      t_begin_ = 0.;
-  long                        index_   = 0; ///< of the newest point, t = t_begin + index h
+  mutable Instant             now_;
+  mutable bool                now_known_ = false;
+  double                      t_begin_   = 0.;
+  long                        index_     = 0; ///< of the newest point, t = t_begin + index h
   std::array<Point, capacity> points_;
   int                         newest_ = 0, n_past_ = 0;
-  LocalState                  local_;
-  Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, p_, product_;
+  Point                       cut_point_;
+  bool                        cut_ = false; ///< the present instant is cut_point_, inside the last step
+  LocalState                  local_, base_;
+  Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
   bool                        load_known_ = false;
 };
 

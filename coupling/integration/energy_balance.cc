@@ -12,12 +12,12 @@ EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 {
   Power power{};
-  system_.local_power(instant.local, instant.p, power.input, power.elements);
+  system_.local_power(instant.local, instant.local.p, power.input, power.elements);
   system_.damping_times(instant.v, product_);
   power.damping = instant.v.dot(product_);
-  if (!system_.excitation_is_constant())
+  if (!system_.excitation().is_constant())
   {
-    system_.excitation(instant.t, load_);
+    system_.excitation().at(instant.t, load_);
     power.input += load_.dot(instant.v);
   }
   return power;
@@ -29,14 +29,14 @@ double EnergyBalance::stored(const Instant &instant)
   double energy = 0.5 * instant.v.dot(product_);
   system_.stiffness_times(instant.q, product_);
   energy += 0.5 * instant.q.dot(product_);
-  if (system_.excitation_is_constant())
+  if (system_.excitation().is_constant())
     energy -= load_.dot(instant.q);
   return energy + system_.local_stored_energy(instant.local);
 }
 
 void EnergyBalance::begin(const Instant &instant)
 {
-  system_.excitation(instant.t, load_);
+  system_.excitation().at(instant.t, load_);
   t_     = instant.t;
   input_ = elements_ = damping_ = 0.;
   last_                         = power(instant);

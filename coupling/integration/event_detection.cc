@@ -28,6 +28,7 @@ void EventDetection::at(const LocalState &from, const LocalState &to, double s, 
             (h * s * s * r) * to.v;
   state.v = (6. * s * r / h) * (to.u - from.u) + (r * (1. - 3. * s)) * from.v + (s * (3. * s - 2.)) * to.v;
   state.a = r * from.a + s * to.a;
+  state.p = r * from.p + s * to.p;
 }
 
 double EventDetection::value(int guard, const LocalState &from, const LocalState &to, double share)

@@ -12,8 +12,8 @@ namespace
 {
 constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon();
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
+} // namespace
 
-/// Gaussian elimination with partial pivoting in place; a few unknowns, no allocation.  False: singular.
 bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x)
 {
   const int n = static_cast<int>(x.size());
@@ -50,13 +50,13 @@ bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x)
   }
   return x.allFinite();
 }
-} // namespace
 
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
     : system_(system), options_(options)
 {
   const int n_u = static_cast<int>(system.directions().cols());
-  u_free_.setZero(n_u);
+  xi_.setZero(n_u);
+  xi_free_.setZero(n_u);
   residual_.setZero(n_u);
   correction_.setZero(n_u);
   u_begin_.setZero(n_u);
@@ -73,76 +73,91 @@ void ImplicitStep::begin(const Eigen::VectorXd &u)
   contraction_ = unknown_contraction;
 }
 
-const ImplicitStep::Condensed &ImplicitStep::condensed(double h_beta, IntegrationWork &work)
+const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, IntegrationWork &work)
 {
-  const auto found = cache_.find(h_beta);
+  const std::array<double, 4> key{form.w_M, form.w_B, form.w_C, form.force};
+  const auto                  found = cache_.find(key);
   if (found != cache_.end())
     return found->second;
 
   Condensed made;
-  made.h_beta = h_beta;
-  made.solver = system_.factorise(1., h_beta, h_beta * h_beta);
+  made.form   = form;
+  made.solver = system_.factorise(form.w_M, form.w_B, form.w_C);
   ++work.factorisations;
   const auto &W = system_.directions();
   made.Y.resize(W.rows(), W.cols());
   Eigen::VectorXd x(W.rows());
   for (int j = 0; j < W.cols(); ++j)
   {
-    made.solver->solve(h_beta * h_beta * Eigen::VectorXd(W.col(j)), x);
+    made.solver->solve(form.force * Eigen::VectorXd(W.col(j)), x);
     made.Y.col(j) = x;
     ++work.solves;
   }
   made.S = W.transpose() * made.Y;
-  return cache_.emplace(h_beta, std::move(made)).first->second;
+  return cache_.emplace(key, std::move(made)).first->second;
 }
 
-void ImplicitStep::rates(double h_beta, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate,
-                         LocalState &local) const
+void ImplicitStep::motion(const StepForm &form, const LocalState &base, LocalState &local) const
 {
-  const double inverse = 1. / h_beta;
-  local.v              = inverse * (local.u - g);
-  local.a              = inverse * (local.v - g_rate);
+  local.u = base.u + form.w_u * xi_;
+  local.v = base.v + form.w_v * xi_;
+  local.a = base.a + form.w_a * xi_;
 }
 
-bool ImplicitStep::iterate(const Condensed &condensed, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate,
-                           LocalState &local, Eigen::VectorXd &p, IntegrationWork &work)
+bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
 {
-  const double inverse     = 1. / condensed.h_beta;
-  double       size_before = 0.;
+  const StepForm &form        = condensed.form;
+  const auto     &held        = system_.held();
+  double          size_before = 0.;
+  for (const HeldMeasure &h : held)
+    xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
   {
-    rates(condensed.h_beta, g, g_rate, local);
-    system_.local_tangent(local, 1., inverse, inverse * inverse, p, dp_);
+    motion(form, base, local);
+    system_.local_tangent(local, form.w_u, form.w_v, form.w_a, local.p, dp_);
     ++work.newton;
+    for (const HeldMeasure &h : held) // the unknown of this column is p itself
+    {
+      dp_.row(h.measure).setZero();
+      dp_.col(h.measure).setZero();
+      dp_(h.measure, h.measure) = 1.;
+    }
 
     jacobian_.noalias() = -condensed.S.lazyProduct(dp_);
     jacobian_.diagonal().array() += 1.;
-    residual_ = u_free_ - local.u;
-    residual_.noalias() += condensed.S.lazyProduct(p);
+    for (const HeldMeasure &h : held)
+      jacobian_(h.measure, h.measure) -= 1.;
+    residual_ = xi_free_ - xi_;
+    residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
     if (!solve_small(jacobian_, correction_))
       return false;
 
+    for (const HeldMeasure &h : held) // linear in p: nothing to iterate
+    {
+      local.p[h.measure] += correction_[h.measure];
+      correction_[h.measure] = 0.;
+    }
     double size = 0.;
     for (int i = 0; i < correction_.size(); ++i)
     {
       // Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves.
-      scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), condensed.h_beta * std::abs(local.v[i]),
+      scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]),
                             rounding / options_.tolerance * std::abs(local.u[i])});
       if (correction_[i] != 0.)
         size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
     }
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
-    local.u.noalias() += damping * correction_;
+    xi_.noalias() += damping * correction_;
     if (iteration > 0 && size_before > 0.)
       contraction_ = std::clamp(size / size_before, 1e-4, 1.);
     const double remaining = contraction_ < 1. ? size * contraction_ / (1. - contraction_) : size;
     if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
     {
-      // The forces of the corrected measures, to second order in the correction; u = u_free + S p stays exact.
-      p.noalias() += dp_.lazyProduct(correction_);
-      rates(condensed.h_beta, g, g_rate, local);
+      // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
+      local.p.noalias() += dp_.lazyProduct(correction_);
+      motion(form, base, local);
       contraction_ = std::max(contraction_, unknown_contraction);
       return true;
     }
@@ -151,23 +166,26 @@ bool ImplicitStep::iterate(const Condensed &condensed, const Eigen::VectorXd &g,
   return false;
 }
 
-void ImplicitStep::solve(const Condensed &condensed, double t, const Eigen::VectorXd &f, const Eigen::VectorXd &g,
-                         const Eigen::VectorXd &g_rate, Eigen::VectorXd &q, LocalState &local, Eigen::VectorXd &p,
-                         IntegrationWork &work)
+void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base,
+                         Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
 {
   const auto &W = system_.directions();
-  condensed.solver->solve(f, q);
+  condensed.solver->solve(f, x);
   ++work.solves;
-  local.t = t;
+  local.t = base.t;
   if (W.cols() == 0)
     return;
-  u_free_.noalias() = W.transpose() * q;
-  if (!iterate(condensed, g, g_rate, local, p, work))
+  xi_free_.noalias() = W.transpose() * x;
+  if (condensed.form.w_u != 0.)
+    xi_ = (local.u - base.u) / condensed.form.w_u;
+  else
+    xi_ = xi_free_;
+  if (!iterate(condensed, base, local, work))
   {
     contraction_ = unknown_contraction;
-    fail(t);
+    fail(base.t);
   }
-  q.noalias() += condensed.Y.lazyProduct(p);
+  x.noalias() += condensed.Y.lazyProduct(local.p);
 }
 
 void ImplicitStep::fail(double t) const

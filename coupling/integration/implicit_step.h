@@ -3,6 +3,7 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/integration/time_integrator.h"
 
+#include <array>
 #include <map>
 
 namespace gestell::coupling
@@ -15,53 +16,69 @@ struct NewtonOptions
 };
 
 /**
+ * What one step of an implicit method solves for, x [n] in the units of q:
+ *
+ *     (w_M M + w_B B + w_C C) x = f + force W p(u, u', u''),
+ *     u = u_0 + w_u xi,   u' = v_0 + w_v xi,   u'' = a_0 + w_a xi,   xi = W^T x.
+ *
+ * BDF: x = q, (1, h_b, h_b^2), force h_b^2, (w_u, w_v, w_a) = (1, 1/h_b, 1/h_b^2).  The methods of Newmark's family:
+ * x = h^2 q''.
+ */
+struct StepForm
+{
+  double w_M, w_B, w_C, force;
+  double w_u, w_v, w_a;
+  double time; ///< [s] of the order of the step: a measure that moves with u' counts as having gone time u'
+};
+
+/**
  * The nonlinear equation of one implicit step (5.5.2/12), condensed to the measures on which nonlinear forces act.
  *
- *     A q = f + h_beta^2 W p(u, u', u''),   u = W^T q,   u' = (u - g)/h_beta,   u'' = (u' - g')/h_beta
+ * With A constant, A x_free = f, Y = force A^-1 W and S = W^T Y [n_u x n_u] leave Newton only
  *
- * With A constant, A q_free = f, Y = h_beta^2 A^-1 W and S = W^T Y [n_u x n_u] leave Newton only
+ *     xi = W^T x_free + S p(xi),
  *
- *     u = W^T q_free + S p(u),
- *
- * which is (5.5.3/7) in the measures; q = q_free + Y p follows.  One factorisation of A and n_u solves per h_beta, kept
- * for later use.  g, g' hold what the integration formula takes from the past of u and u'.
+ * which is (5.5.3/7) in the measures; x = x_free + Y p follows.  A measure that is held has xi given by its rate and p
+ * as unknown.  One factorisation of A and n_u solves per StepForm, kept for later use.
  */
 class ImplicitStep
 {
 public:
   ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options);
 
-  /// Everything that depends on h_beta alone.
+  /// Everything that depends on the form alone.
   struct Condensed
   {
-    double                        h_beta;
+    StepForm                      form;
     std::unique_ptr<LinearSolver> solver;
     Eigen::MatrixXd               Y; // [n x n_u]
     Eigen::MatrixXd               S; // [n_u x n_u]
   };
-  const Condensed &condensed(double h_beta, IntegrationWork &work);
+  const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
-  /// Solves for q [n] at time t.  `local.u` holds the prediction on entry; local and p the solution on return.
+  /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures; base holds u_0, v_0, a_0
+  /// and the time t.  local is the solution on return.
   /// @throws ConvergenceFailure
-  void solve(const Condensed &condensed, double t, const Eigen::VectorXd &f, const Eigen::VectorXd &g,
-             const Eigen::VectorXd &g_rate, Eigen::VectorXd &q, LocalState &local, Eigen::VectorXd &p,
-             IntegrationWork &work);
+  void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
+             LocalState &local, IntegrationWork &work);
 
   /// A new motion begins with the measures u: their excursions are counted from there.
   void begin(const Eigen::VectorXd &u);
 
 private:
-  bool iterate(const Condensed &condensed, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate, LocalState &local,
-               Eigen::VectorXd &p, IntegrationWork &work);
-  void rates(double h_beta, const Eigen::VectorXd &g, const Eigen::VectorXd &g_rate, LocalState &local) const;
+  bool iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
+  void motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
 
-  const SecondOrderSystem    &system_;
-  NewtonOptions               options_;
-  std::map<double, Condensed> cache_;
-  Eigen::VectorXd             u_free_, residual_, u_begin_, scale_, correction_;
-  Eigen::MatrixXd             dp_, jacobian_;
-  double                      contraction_; ///< of Newton's corrections, as seen last
+  const SecondOrderSystem                   &system_;
+  NewtonOptions                              options_;
+  std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
+  Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, correction_;
+  Eigen::MatrixXd                            dp_, jacobian_;
+  double                                     contraction_; ///< of Newton's corrections, as seen last
 };
+
+/// Gaussian elimination with partial pivoting in place, for a few unknowns; no allocation.  False: singular.
+bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x);
 
 } // namespace gestell::coupling

@@ -3,6 +3,17 @@
 namespace gestell::coupling
 {
 
+bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
+{
+  return false;
+}
+
+const std::vector<HeldMeasure> &SecondOrderSystem::held() const
+{
+  static const std::vector<HeldMeasure> none;
+  return none;
+}
+
 void SecondOrderSystem::constraints(double, const Eigen::VectorXd &, Eigen::VectorXd &g) const
 {
   g.resize(0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "coupling/integration/excitation.h"
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -20,11 +22,25 @@ public:
   virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
 };
 
-/// Motion of all local measures u = W^T q at one instant.
+/// Motion of all local measures u = W^T q at one instant, and the forces conjugate to them.
 struct LocalState
 {
   double          t = 0.;
   Eigen::VectorXd u, v, a; // [n_u]
+  Eigen::VectorXd p;       // [n_u]
+
+  void resize(Eigen::Index n_u)
+  {
+    for (Eigen::VectorXd *x : {&u, &v, &a, &p})
+      x->setZero(n_u);
+  }
+};
+
+/// A measure that sticks: its rate is u' = rate, and its force p is the unknown.
+struct HeldMeasure
+{
+  int    measure;
+  double rate;
 };
 
 enum class GuardCrossing
@@ -68,17 +84,26 @@ public:
   virtual std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const                 = 0;
   virtual std::vector<SpectrumLine>     spectrum() const                                                    = 0;
   /// f_t(t) [n].
-  virtual void excitation(double t, Eigen::VectorXd &f) const = 0;
-  /// True if f_t does not depend on time: integrators then evaluate it once.
-  virtual bool excitation_is_constant() const = 0;
+  virtual const Excitation &excitation() const = 0;
+  /// M, B, C as dense matrices [n x n], for integrators that work in the modes of the base system; false: too large.
+  virtual bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const;
 
   // --- local nonlinear forces
   /// W [n x n_u].
   virtual const Eigen::SparseMatrix<double> &directions() const                                             = 0;
   virtual void                               local_force(const LocalState &state, Eigen::VectorXd &p) const = 0;
   /// p [n_u] and  w_u dp/du + w_v dp/dv + w_a dp/da  [n_u x n_u], block diagonal by element.
+  /// Rows of held measures are left as they are.
   virtual void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                              Eigen::MatrixXd &dp) const = 0;
+  /// p [n_u], dp/du and dp/dv [n_u x n_u], block diagonal by element: only its blocks are written.
+  virtual void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+                                 Eigen::MatrixXd &dp_dv) const = 0;
+  /// Measures that stick in the branches that are active now; changed by start(), transition(), restore_history().
+  virtual const std::vector<HeldMeasure> &held() const;
+  /// True: laws follow the branch their history names, smoothly continued beyond its switching point, as is right where
+  /// events are located.  False: by the motion itself.
+  virtual void follow_history(bool follow) = 0;
 
   // --- history of the elements: changes on accept() and transition() only
   virtual Eigen::VectorXd save_history() const                          = 0;

@@ -25,12 +25,13 @@ SmallSystem driven_chain()
   B << 60., -10., -10., 40.;
   C << 300., -100., -100., 250.;
   SmallSystem system(M, B, C);
-  system.load = [=](double t) -> Vector
+  system.set_load(
+      [=](double t) -> Vector
   {
     const Eigen::Vector2d q(std::sin(2. * t), std::exp(-t)), v(2. * std::cos(2. * t), -std::exp(-t)),
         a(-4. * std::sin(2. * t), std::exp(-t));
     return M * a + B * v + C * q;
-  };
+  });
   return system;
 }
 
@@ -109,8 +110,10 @@ TEST(Bdf, CondensedStepSolvesTheWholeEquationOfTheStep)
   const Vector &q = bdf.instant().q;
   double        p, du, dv;
   const Vector  w = system.W * Vector::Ones(1);
+  Vector        load(2);
+  system.excitation().at(h, load);
   stiffening(w.dot(q), 0., p, du, dv);
-  const Vector right = system.M * q0 + h * (system.M * v0 + system.B * q0) + h * h * (system.load(h) + w * p);
+  const Vector right = system.M * q0 + h * (system.M * v0 + system.B * q0) + h * h * (load + w * p);
   const Vector left  = system.M * q + h * (system.B * q) + h * h * (system.C * q);
   EXPECT_LT((left - right).norm(), 1e-12 * right.norm());
 }

@@ -19,9 +19,17 @@ public:
   using Law = std::function<void(double u, double v, double &p, double &dp_du, double &dp_dv)>;
 
   SmallSystem(Matrix mass, Matrix damping, Matrix stiffness)
-      : M(std::move(mass)), B(std::move(damping)), C(std::move(stiffness)), W(M.rows(), 0)
+      : M(std::move(mass)), B(std::move(damping)), C(std::move(stiffness)), W(M.rows(), 0),
+        excitation_(static_cast<int>(M.rows()))
   {
   }
+
+  /// f_t(t), any function.
+  void set_load(std::function<Vector(double)> load)
+  {
+    excitation_.set_rest([load](double t, Vector &f) { f += load(t); });
+  }
+  coupling::Excitation &loads() { return excitation_; }
 
   void set_law(const Vector &w, Law law_of_force)
   {
@@ -45,8 +53,12 @@ public:
     return std::make_unique<Dense>(w_M * M + w_B * B + w_C * C);
   }
   std::vector<coupling::SpectrumLine> spectrum() const override { return {}; }
-  void excitation(double t, Vector &f) const override { f = load ? load(t) : Vector::Zero(size()); }
-  bool excitation_is_constant() const override { return !load; }
+  const coupling::Excitation         &excitation() const override { return excitation_; }
+  bool dense_matrices(Matrix &mass, Matrix &damping, Matrix &stiffness) const override
+  {
+    mass = M, damping = B, stiffness = C;
+    return true;
+  }
 
   const Eigen::SparseMatrix<double> &directions() const override { return W; }
   void                               local_force(const coupling::LocalState &state, Vector &p) const override
@@ -62,6 +74,12 @@ public:
     law(state.u[0], state.v[0], p[0], dp_du, dp_dv);
     dp(0, 0) = w_u * dp_du + w_v * dp_dv;
   }
+  void local_derivatives(const coupling::LocalState &state, Vector &p, Matrix &dp_du, Matrix &dp_dv) const override
+  {
+    if (law)
+      law(state.u[0], state.v[0], p[0], dp_du(0, 0), dp_dv(0, 0));
+  }
+  void follow_history(bool) override {}
 
   Vector save_history() const override { return Vector::Constant(1, transitions); }
   void   restore_history(const Vector &saved) override { transitions = static_cast<int>(saved[0]); }
@@ -93,10 +111,12 @@ public:
   Matrix                        M, B, C;
   Eigen::SparseMatrix<double>   W;
   Law                           law;
-  std::function<Vector(double)> load;
   bool                          watched     = false;
   double                        level       = 0.;
   int                           transitions = 0;
+
+private:
+  coupling::Excitation excitation_;
 };
 
 } // namespace gestell::tests

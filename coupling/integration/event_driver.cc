@@ -1,0 +1,226 @@
+#include "coupling/integration/event_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gestell::coupling
+{
+
+EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
+    : system_(system), integrator_(integrator), options_(options), detection_(system)
+{
+  before_.resize(system.directions().cols());
+  between_.resize(system.directions().cols());
+  make_room();
+}
+
+void EventDriver::make_room()
+{
+  const Eigen::Index room = system_.n_guards() + 4 * system_.directions().cols() + 4;
+  for (Eigen::VectorXd &g : g_)
+    g.setZero(room);
+  probe_.setZero(room);
+}
+
+void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  before_.t           = t;
+  before_.u.noalias() = system_.directions().transpose() * q;
+  before_.v.noalias() = system_.directions().transpose() * v;
+  before_.a.setZero();
+  before_.p.setZero();
+  system_.follow_history(false);
+  system_.start(before_);
+  system_.follow_history(options_.locate);
+  integrator_.begin(t, q, v);
+  before_ = integrator_.local();
+  detection_.begin(before_);
+  window_begin_ = t;
+  in_window_    = 0;
+}
+
+void EventDriver::advance()
+{
+  if (!options_.locate)
+  {
+    step_over();
+    return;
+  }
+  integrator_.advance();
+  const double full = integrator_.time() - integrator_.step_begin();
+  if (integrator_.time() - window_begin_ > length_ + full)
+  {
+    window_begin_ = integrator_.step_begin();
+    in_window_    = 0;
+  }
+  length_ = full;
+
+  Crossing crossing;
+  if (!first_crossing(crossing))
+  {
+    system_.accept(integrator_.local());
+    before_ = integrator_.local();
+    return;
+  }
+  take(crossing);
+  if (++in_window_ > options_.max_per_step)
+  {
+    ++chattering_;
+    in_window_ = 0;
+    system_.follow_history(false);
+    detection_.begin(integrator_.local());
+    step_over();
+    system_.follow_history(true);
+    integrator_.restart();
+    before_ = integrator_.local();
+  }
+}
+
+/// A step with all laws following the motion; its events are found afterwards.
+void EventDriver::step_over()
+{
+  before_ = integrator_.local();
+  integrator_.advance();
+  detection_.step(before_, integrator_.local(), events_);
+  system_.accept(integrator_.local());
+}
+
+double EventDriver::value_at(int guard, double t)
+{
+  integrator_.interpolate(t, between_);
+  system_.guard_values(between_, probe_);
+  return sign(guard) * probe_[guard];
+}
+
+/// Illinois' variant of regula falsi on the dense output; ends just past the zero.
+void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
+{
+  const double finest = 4. * std::numeric_limits<double>::epsilon() * std::max(std::abs(high), high - low);
+  int          side   = 0;
+  double       f_low = g_low, f_high = g_high;
+  for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
+  {
+    double t = f_high - f_low > 0. ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
+    if (!(t > low && t < high) || k % 8 == 7)
+      t = 0.5 * (low + high);
+    const double g = value_at(guard, t);
+    if (g < 0.)
+    {
+      crossing.slope = (g_high - g) / std::max(high - t, finest);
+      low = t, f_low = g;
+      if (side == -1)
+        f_high *= 0.5;
+      side = -1;
+    }
+    else
+    {
+      crossing.slope = (g - g_low) / std::max(t - low, finest);
+      high = t, f_high = g, g_high = g;
+      if (side == 1)
+        f_low *= 0.5;
+      side = 1;
+    }
+  }
+  crossing.guard = guard;
+  crossing.t     = high;
+}
+
+bool EventDriver::first_crossing(Crossing &first)
+{
+  const int n = system_.n_guards();
+  if (n == 0)
+    return false;
+  if (n > probe_.size())
+    make_room();
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  constexpr int last = n_inside + 1;
+  double        t[last + 1];
+  for (int k = 0; k <= last; ++k)
+    t[k] = k == last ? end : begin + (end - begin) * k / last;
+  system_.guard_values(before_, g_[0]);
+  for (int k = 1; k < last; ++k)
+  {
+    integrator_.interpolate(t[k], between_);
+    system_.guard_values(between_, g_[k]);
+  }
+  system_.guard_values(integrator_.local(), g_[last]);
+
+  first.t = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n; ++i)
+  {
+    const double s = sign(i);
+    for (int k = 0; k < last && t[k] < first.t; ++k)
+    {
+      const double here = s * g_[k][i], next = s * g_[k + 1][i];
+      if (here >= 0. && next > 0. && k == 0)
+      {
+        first = {i, begin, 0.};
+        break;
+      }
+      if (here < 0. && next >= 0. && (next > 0. || k + 1 < last))
+      {
+        Crossing crossing;
+        crossing.slope = (next - here) / (t[k + 1] - t[k]);
+        locate(i, t[k], here, t[k + 1], next, crossing);
+        if (crossing.t < first.t)
+          first = crossing;
+        break;
+      }
+      if (k == 0)
+        continue;
+      // A guard that touches zero between samples: the vertex of the parabola through three of them.
+      const double left = s * g_[k - 1][i], curvature = left - 2. * here + next;
+      if (left < 0. && here < 0. && next < 0. && curvature < 0.)
+      {
+        const double shift = 0.5 * (left - next) / curvature;
+        if (std::abs(shift) < 1. && here - 0.5 * curvature * shift * shift > 0.)
+        {
+          const double vertex = t[k] + shift * (t[k + 1] - t[k]), top = value_at(i, vertex);
+          if (top > 0.)
+          {
+            const int from = shift < 0. ? k - 1 : k;
+            Crossing  crossing;
+            locate(i, t[from], s * g_[from][i], vertex, top, crossing);
+            if (crossing.t < first.t)
+              first = crossing;
+            break;
+          }
+        }
+      }
+    }
+  }
+  return first.guard >= 0;
+}
+
+void EventDriver::take(const Crossing &crossing)
+{
+  const int    guard = crossing.guard;
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  double       t = crossing.t;
+  integrator_.cut(t);
+  // The state at the cut may be better than the dense output: move the cut until its own guard is zero.
+  const double finest = 4. * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), end - begin);
+  double       slope = crossing.slope, t_last = t, g_last = 0.;
+  for (int k = 0; k < 6 && t > begin; ++k)
+  {
+    system_.guard_values(integrator_.local(), probe_);
+    const double g = sign(guard) * probe_[guard];
+    if (k > 0 && t != t_last)
+      slope = (g - g_last) / (t - t_last);
+    const double next = slope > 0. ? std::clamp(t - g / slope, begin, end) : t;
+    if (std::abs(next - t) <= finest)
+      break;
+    t_last = t, g_last = g, t = next;
+    integrator_.cut(t);
+  }
+  const ActiveGuard active = system_.guard(guard);
+  events_.push_back({integrator_.time(), active.name, active.kind});
+  between_ = integrator_.local();
+  system_.accept(between_);
+  system_.transition(guard, between_);
+  integrator_.restart();
+  before_ = integrator_.local();
+}
+
+} // namespace gestell::coupling
