@@ -1,6 +1,7 @@
 #include "mechanism/force_element.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace gestell::mechanism
 {
@@ -42,5 +43,13 @@ std::vector<Guard> ForceElement::guards(const double *) const
 void ForceElement::guard_values(const LocalMotion &, const double *, double *) const {}
 
 void ForceElement::transition(int, const LocalMotion &, double *) const {}
+
+double ForceElement::resistance(const LocalMotion &motion, const double *history) const
+{
+  assert(n_measures() == 1);
+  double p;
+  force(motion, history, &p);
+  return -p;
+}
 
 } // namespace gestell::mechanism

@@ -130,6 +130,10 @@ public:
 
   virtual std::vector<Quantity> quantities() const                                                      = 0;
   virtual double                quantity(int i, const LocalMotion &motion, const double *history) const = 0;
+
+protected:
+  /// -p of an element of one measure: the force it opposes to its motion, what most of them tell as their force.
+  double resistance(const LocalMotion &motion, const double *history) const;
 };
 
 } // namespace gestell::mechanism

@@ -8,24 +8,6 @@
 namespace gestell::mechanism
 {
 
-namespace
-{
-enum Branch
-{
-  rise,
-  fracture,
-  slug_friction,
-  elastic,
-  apart,
-  through
-};
-
-Branch branch_of(const double *history)
-{
-  return static_cast<Branch>(static_cast<int>(history[1]));
-}
-} // namespace
-
 BlankingForce::BlankingForce(const Parameters &parameters) : parameters_(parameters)
 {
   const std::string name = "blanking force";
@@ -50,18 +32,14 @@ BlankingForce::BlankingForce(const Parameters &parameters) : parameters_(paramet
 
 double BlankingForce::lift_off(double z_max) const
 {
-  return z_max - virgin(z_max) / parameters_.elastic_stiffness;
+  return z_max - virgin(virgin_branch(z_max), z_max) / parameters_.elastic_stiffness;
 }
 
 void BlankingForce::start(const LocalMotion &motion, double *history) const
 {
   const double z = motion.u[0] - parameters_.contact_at;
   history[0]     = std::max(0., z);
-  history[1]     = z <= 0.                     ? apart
-                   : z < z_m_                  ? rise
-                   : z < z_d_                  ? fracture
-                   : z < parameters_.thickness ? slug_friction
-                                               : through;
+  history[1]     = virgin_branch(z);
 }
 
 void BlankingForce::accept(const LocalMotion &motion, double *history) const
@@ -121,9 +99,9 @@ void BlankingForce::guard_values(const LocalMotion &motion, const double *histor
 
 void BlankingForce::transition(int i, const LocalMotion &motion, double *history) const
 {
-  constexpr Branch after[]       = {fracture, slug_friction, through}; // rise, fracture, slug friction
-  const double     z             = motion.u[0] - parameters_.contact_at;
-  const auto       virgin_branch = [&](double at) { return at < z_m_ ? rise : at < z_d_ ? fracture : slug_friction; };
+  constexpr Branch after[]  = {fracture, slug_friction, through}; // rise, fracture, slug friction
+  const double     z        = motion.u[0] - parameters_.contact_at;
+  const Branch     furthest = history[0] > 0. ? virgin_branch(history[0]) : rise; // where new material begins
   switch (branch_of(history))
   {
   case rise:
@@ -131,12 +109,14 @@ void BlankingForce::transition(int i, const LocalMotion &motion, double *history
   case slug_friction:
     history[0] = std::max(history[0], z);
     history[1] = i == 0 ? elastic : after[branch_of(history)];
+    if (branch_of(history) == through) // severed for good, though located a rounding error before z = h
+      history[0] = std::max(history[0], parameters_.thickness);
     break;
   case elastic:
-    history[1] = i == 0 ? apart : virgin_branch(history[0]);
+    history[1] = i == 0 ? apart : furthest;
     break;
   case apart:
-    history[1] = virgin(history[0]) > 0. ? elastic : virgin_branch(history[0]);
+    history[1] = virgin(furthest, history[0]) > 0. ? elastic : furthest;
     break;
   default:
     break;
@@ -150,13 +130,7 @@ std::vector<Quantity> BlankingForce::quantities() const
 
 double BlankingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.u[0] - parameters_.contact_at;
-  if (i == 2)
-    return history[0];
-  double p;
-  force(motion, history, &p);
-  return -p;
+  return i == 0 ? resistance(motion, history) : i == 1 ? motion.u[0] - parameters_.contact_at : history[0];
 }
 
 } // namespace gestell::mechanism

@@ -2,6 +2,8 @@
 
 #include "mechanism/differentiable_element.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -43,17 +45,13 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    const double z_max = history[0];
-    const Number z     = m.u[0] - parameters_.contact_at;
-    if (z_max >= parameters_.thickness)
-      p[0] = Number(0.);
-    else if (z >= z_max)
-      p[0] = -virgin(z);
+    const double z_max  = history[0];
+    const Number z      = m.u[0] - parameters_.contact_at;
+    const Branch branch = m.by_history ? branch_of(history) : branch_at(value(z), z_max);
+    if (branch == elastic)
+      p[0] = -(virgin(virgin_branch(z_max), z_max) - parameters_.elastic_stiffness * (z_max - z));
     else
-    {
-      const Number unloading = virgin(z_max) - parameters_.elastic_stiffness * (z_max - z);
-      p[0]                   = unloading > 0. ? Number(-unloading) : Number(0.);
-    }
+      p[0] = -virgin(branch, z);
   }
 
   /// history: z_max [m], active branch.
@@ -72,22 +70,67 @@ public:
   double peak_force() const { return F_max_; } ///< F_max [N]
 
 private:
-  template <typename Number>
-  Number virgin(const Number &z) const
+  enum Branch
   {
-    using std::pow;
+    rise,
+    fracture,
+    slug_friction,
+    elastic,
+    apart,
+    through
+  };
+
+  static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[1])); }
+
+  Branch virgin_branch(double z) const
+  {
+    return !(z > 0.)                   ? apart
+           : z < z_m_                  ? rise
+           : z < z_d_                  ? fracture
+           : z < parameters_.thickness ? slug_friction
+                                       : through;
+  }
+
+  Branch branch_at(double z, double z_max) const
+  {
+    if (z_max >= parameters_.thickness)
+      return through;
+    if (z >= z_max)
+      return virgin_branch(z);
+    const double unloading = virgin(virgin_branch(z_max), z_max) - parameters_.elastic_stiffness * (z_max - z);
+    return unloading > 0. ? elastic : apart;
+  }
+
+  /// F_v by the formula of one branch, also beyond its ends; 0 in those without contact.
+  template <typename Number>
+  Number virgin(Branch branch, const Number &z) const
+  {
     const double h = parameters_.thickness, rho = parameters_.friction_share;
-    if (!(z > 0.) || z >= h)
-      return Number(0.);
-    if (z < z_m_)
-      return F_max_ * (1. - pow(Number(1. - z / z_m_), parameters_.rise_exponent));
-    if (z < z_d_)
+    if (branch == rise)
+      return F_max_ * (1. - power(Number(1. - z / z_m_)));
+    if (branch == fracture)
     {
       const Number xi = (z - z_m_) / (z_d_ - z_m_);
       return F_max_ * (1. - (1. - rho) * xi * xi * (3. - 2. * xi));
     }
-    const Number xi = (z - z_d_) / (h - z_d_);
-    return rho * F_max_ * (1. - xi * xi * (3. - 2. * xi));
+    if (branch == slug_friction)
+    {
+      const Number xi = (z - z_d_) / (h - z_d_);
+      return rho * F_max_ * (1. - xi * xi * (3. - 2. * xi));
+    }
+    return Number(0.);
+  }
+
+  /// x^n; for x < 0, beyond the maximum, only a whole n goes on; else all derivatives that exist at x = 0 are zero
+  /// there and so is the continuation.
+  template <typename Number>
+  Number power(const Number &x) const
+  {
+    using std::pow;
+    const double n = parameters_.rise_exponent;
+    if (x < 0. && n != std::floor(n))
+      return Number(0.);
+    return pow(x, n);
   }
 
   double lift_off(double z_max) const; ///< z_e, penetration at which the unloading line reaches zero

@@ -2,9 +2,6 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace gestell::mechanism
 {
 
@@ -17,11 +14,9 @@ Clearance::Clearance(const Parameters &parameters) : parameters_(parameters)
   require(chi >= 0., name, "dissipation [s/m]", chi, "zero or positive");
 }
 
-// History: the side in contact, -1, 0 or 1.
 void Clearance::start(const LocalMotion &motion, double *history) const
 {
-  const double u = motion.u[0];
-  history[0]     = u > parameters_.gap ? 1. : u < -parameters_.gap ? -1. : 0.;
+  history[0] = branch_at(motion.u[0], motion.v[0]);
 }
 
 void Clearance::engaged(const double *, double *K, double *D) const
@@ -30,35 +25,55 @@ void Clearance::engaged(const double *, double *K, double *D) const
   D[0] = 0.;
 }
 
-double Clearance::stored_energy(const LocalMotion &motion, const double *) const
+double Clearance::stored_energy(const LocalMotion &motion, const double *history) const
 {
-  const double d = std::max(0., std::abs(motion.u[0]) - parameters_.gap);
+  const double u      = motion.u[0];
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(u, motion.v[0]);
+  const double d      = branch == open ? 0. : side(branch) * u - parameters_.gap;
   return 0.5 * parameters_.stiffness * d * d;
-}
-
-int Clearance::n_guards(const double *history) const
-{
-  return history[0] == 0. ? 2 : 1;
 }
 
 std::vector<Guard> Clearance::guards(const double *history) const
 {
-  if (history[0] == 0.)
+  const Branch branch = branch_of(history);
+  if (branch == open)
     return {{"contact_positive", Crossing::rising}, {"contact_negative", Crossing::falling}};
-  return {{"separation", history[0] > 0. ? Crossing::falling : Crossing::rising}};
+  const Guard separation{"separation", branch > 0 ? Crossing::falling : Crossing::rising};
+  if (in_slack(branch))
+    return {separation, {"contact_grip", Crossing::rising}};
+  return {separation, {"contact_slack", Crossing::falling}};
 }
 
 void Clearance::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const double u = motion.u[0], gap = parameters_.gap;
-  g[0] = history[0] < 0. ? u + gap : u - gap;
-  if (history[0] == 0.)
-    g[1] = u + gap;
+  const auto &[gap, c, chi] = parameters_;
+  const double u            = motion.u[0];
+  const Branch branch       = branch_of(history);
+  const double s            = side(branch);
+  g[0]                      = u - s * gap;
+  g[1]                      = branch == open ? u + gap : 1. + (chi * s) * motion.v[0];
 }
 
 void Clearance::transition(int i, const LocalMotion &, double *history) const
 {
-  history[0] = history[0] != 0. ? 0. : i == 0 ? 1. : -1.;
+  switch (branch_of(history))
+  {
+  case open:
+    history[0] = i == 0 ? contact_positive : contact_negative;
+    break;
+  case contact_positive:
+    history[0] = i == 0 ? open : slack_positive;
+    break;
+  case contact_negative:
+    history[0] = i == 0 ? open : slack_negative;
+    break;
+  case slack_positive:
+    history[0] = i == 0 ? open : contact_positive;
+    break;
+  case slack_negative:
+    history[0] = i == 0 ? open : contact_negative;
+    break;
+  }
 }
 
 std::vector<Quantity> Clearance::quantities() const
@@ -68,11 +83,7 @@ std::vector<Quantity> Clearance::quantities() const
 
 double Clearance::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.u[0];
-  double p;
-  force(motion, history, &p);
-  return -p;
+  return i == 0 ? resistance(motion, history) : motion.u[0];
 }
 
 } // namespace gestell::mechanism

@@ -12,7 +12,9 @@ namespace gestell::mechanism
  *
  *     d > 0 and 1 + chi s u' > 0:   p = -s c d (1 + chi s u'),        otherwise p = 0.
  *
- * The factor (Hunt and Crossley) makes the force continuous at touch-down and lift-off.
+ * The factor (Hunt and Crossley) makes the force continuous at touch-down and lift-off.  Where the body leaves faster
+ * than 1/chi the force is gone before the indentation is (branch of slack): until lift-off ("separation"), or until the
+ * body slows down and the factor is positive again.
  * Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  */
 class Clearance : public DifferentiableElement<Clearance, 1>
@@ -28,20 +30,27 @@ public:
   explicit Clearance(const Parameters &parameters);
 
   template <typename Number>
-  void law(const Measures<Number> &m, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const auto &[gap, c, chi] = parameters_;
-    const double s            = value(m.u[0]) < 0. ? -1. : 1.;
-    const Number d            = s * m.u[0] - gap;
-    const Number factor       = 1. + (chi * s) * m.v[0];
-    p[0]                      = d > 0. && factor > 0. ? Number(-s * c * d * factor) : Number(0.);
+    const Branch branch       = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+    if (branch != contact_negative && branch != contact_positive)
+    {
+      p[0] = Number(0.);
+      return;
+    }
+    const double s      = side(branch);
+    const Number d      = s * m.u[0] - gap;
+    const Number factor = 1. + (chi * s) * m.v[0];
+    p[0]                = -s * c * d * factor;
   }
 
+  /// history: active branch.
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
-  int                   n_guards(const double *history) const override;
+  int                   n_guards(const double *) const override { return 2; }
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void                  transition(int i, const LocalMotion &motion, double *history) const override;
@@ -49,6 +58,29 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
+  enum Branch
+  {
+    slack_negative   = -2,
+    contact_negative = -1,
+    open             = 0,
+    contact_positive = 1,
+    slack_positive   = 2
+  };
+
+  static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
+  static double side(Branch branch) { return branch < 0 ? -1. : 1.; } ///< s; of no meaning when open
+  static bool   in_slack(Branch branch) { return branch == slack_negative || branch == slack_positive; }
+
+  Branch branch_at(double u, double v) const
+  {
+    const auto &[gap, c, chi] = parameters_;
+    const double s            = u < 0. ? -1. : 1.;
+    if (!(s * u - gap > 0.))
+      return open;
+    const bool pressed = 1. + (chi * s) * v > 0.;
+    return s < 0. ? (pressed ? contact_negative : slack_negative) : (pressed ? contact_positive : slack_positive);
+  }
+
   Parameters parameters_;
 };
 

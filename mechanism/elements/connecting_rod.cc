@@ -2,26 +2,10 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::mechanism
 {
-
-namespace
-{
-enum Branch
-{
-  compressed,
-  gap,
-  pulled
-};
-
-Branch branch_of(const double *history)
-{
-  return static_cast<Branch>(static_cast<int>(history[0]));
-}
-} // namespace
 
 ConnectingRod::ConnectingRod(const Parameters &parameters) : parameters_(parameters)
 {
@@ -45,9 +29,8 @@ double ConnectingRod::rate(const LocalMotion &motion) const
 
 void ConnectingRod::start(const LocalMotion &motion, double *history) const
 {
-  double       gradient[3];
-  const double delta = compression(motion.u, gradient);
-  history[0]         = delta > 0. ? compressed : delta < -parameters_.clearance ? pulled : gap;
+  double gradient[3];
+  history[0] = branch_at(compression(motion.u, gradient));
 }
 
 void ConnectingRod::engaged(const double *u, double *K, double *D) const
@@ -73,11 +56,12 @@ bool ConnectingRod::closure(const double *u, const double *v, double &g, double 
   return true;
 }
 
-double ConnectingRod::stored_energy(const LocalMotion &motion, const double *) const
+double ConnectingRod::stored_energy(const LocalMotion &motion, const double *history) const
 {
   double       gradient[3];
-  const double delta = compression(motion.u, gradient);
-  const double e     = delta > 0. ? delta : std::min(0., delta + parameters_.clearance);
+  const double delta  = compression(motion.u, gradient);
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(delta);
+  const double e      = branch == compressed ? delta : branch == pulled ? delta + parameters_.clearance : 0.;
   return 0.5 * parameters_.stiffness * e * e;
 }
 
@@ -120,7 +104,7 @@ std::vector<Quantity> ConnectingRod::quantities() const
   return {{"force", "N"}, {"compression", "m"}, {"compression_rate", "m/s"}, {"rod_force", "N"}, {"side_force", "N"}};
 }
 
-double ConnectingRod::quantity(int i, const LocalMotion &motion, const double *) const
+double ConnectingRod::quantity(int i, const LocalMotion &motion, const double *history) const
 {
   double       gradient[3];
   const double delta = compression(motion.u, gradient);
@@ -129,7 +113,8 @@ double ConnectingRod::quantity(int i, const LocalMotion &motion, const double *)
   const double delta_rate = rate(motion);
   if (i == 2)
     return delta_rate;
-  const double push = chain_force(delta, delta_rate), tan_psi = -gradient[2];
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(delta);
+  const double push = chain_force(branch, delta, delta_rate), tan_psi = -gradient[2];
   return i == 0 ? push : i == 3 ? push * std::sqrt(1. + tan_psi * tan_psi) : push * tan_psi;
 }
 

@@ -2,6 +2,8 @@
 
 #include "mechanism/differentiable_element.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -42,16 +44,17 @@ public:
   explicit ConnectingRod(const Parameters &parameters);
 
   template <typename Number>
-  void law(const Measures<Number> &m, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     Number       gradient[3];
     const Number delta = compression(m.u, gradient);
     const Number rate  = gradient[0] * m.v[0] + gradient[1] * m.v[1] + gradient[2] * m.v[2];
-    const Number push  = chain_force(delta, rate);
+    const Number push  = chain_force(m.by_history ? branch_of(history) : branch_at(value(delta)), delta, rate);
     for (int i = 0; i < 3; ++i)
       p[i] = -push * gradient[i];
   }
 
+  /// history: active branch.
   int    n_history() const override { return 1; }
   void   start(const LocalMotion &motion, double *history) const override;
   void   engaged(const double *u, double *K, double *D) const override;
@@ -69,20 +72,42 @@ public:
   const Parameters &parameters() const { return parameters_; }
 
 private:
-  /// F(delta, delta').
-  template <typename Number>
-  Number chain_force(const Number &delta, const Number &rate) const
+  enum Branch
   {
-    using std::exp;
+    compressed,
+    gap,
+    pulled
+  };
+
+  static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
+  Branch        branch_at(double delta) const
+  {
+    return delta > 0. ? compressed : delta < -parameters_.clearance ? pulled : gap;
+  }
+
+  /// F(delta, delta') of one branch, also beyond its ends.
+  template <typename Number>
+  Number chain_force(Branch branch, const Number &delta, const Number &rate) const
+  {
     const auto &[r, l, c, b, p0, s_cl, b_O] = parameters_;
-    if (delta > 0.)
-      return b_O * rate + c * delta + b * (1. - exp(-delta / p0)) * rate;
-    if (delta < -s_cl)
+    if (branch == compressed)
+      return b_O * rate + c * delta + b * fade_in(Number(delta / p0)) * rate;
+    if (branch == pulled)
     {
       const Number e = -(delta + s_cl);
-      return b_O * rate - c * e + b * (1. - exp(-e / p0)) * rate;
+      return b_O * rate - c * e + b * fade_in(Number(e / p0)) * rate;
     }
     return b_O * rate;
+  }
+
+  /// 1 - exp(-x); far below the switching point x = 0, where only a trial motion gets, its tangent at x = -1: finite.
+  template <typename Number>
+  static Number fade_in(const Number &x)
+  {
+    using std::exp;
+    if (x < -1.)
+      return 1. + std::exp(1.) * x;
+    return 1. - exp(-x);
   }
 
   /// delta(phi, s, y) and its gradient.

@@ -32,11 +32,7 @@ std::vector<Quantity> CubicSpring::quantities() const
 
 double CubicSpring::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.u[0];
-  double p;
-  force(motion, history, &p);
-  return -p;
+  return i == 0 ? resistance(motion, history) : motion.u[0];
 }
 
 } // namespace gestell::mechanism

@@ -14,7 +14,6 @@ CuttingForce::CuttingForce(const Parameters &parameters) : parameters_(parameter
   require(v0 > 0., name, "speed [m/s]", v0, "positive");
 }
 
-// History: 1 in contact, 0 apart.
 void CuttingForce::start(const LocalMotion &motion, double *history) const
 {
   history[0] = motion.u[0] > parameters_.contact_at ? 1. : 0.;
@@ -44,11 +43,7 @@ std::vector<Quantity> CuttingForce::quantities() const
 
 double CuttingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.u[0] - parameters_.contact_at;
-  double p;
-  force(motion, history, &p);
-  return -p;
+  return i == 0 ? resistance(motion, history) : motion.u[0] - parameters_.contact_at;
 }
 
 } // namespace gestell::mechanism

@@ -2,6 +2,8 @@
 
 #include "mechanism/differentiable_element.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -28,22 +30,21 @@ public:
   explicit CuttingForce(const Parameters &parameters);
 
   template <typename Number>
-  void law(const Measures<Number> &m, const double *, Number *p) const
+  void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    using std::exp;
     using std::tanh;
     const auto &[F, z_p, x_T, v0] = parameters_;
     const Number x                = (m.u[0] - x_T) / z_p;
-    if (!(x > 0.))
+    if (!(m.by_history ? history[0] != 0. : x > 0.))
     {
       p[0] = Number(0.);
       return;
     }
-    const Number shape = x * exp(1. - x);
-    const Number gate  = 0.5 * (1. + tanh(m.v[0] / v0));
-    p[0]               = -F * shape * gate;
+    const Number gate = 0.5 * (1. + tanh(m.v[0] / v0));
+    p[0]              = -F * shape(x) * gate;
   }
 
+  /// history: 1 in contact, 0 apart.
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   int                   n_guards(const double *) const override { return 1; }
@@ -54,6 +55,16 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
+  /// x exp(1 - x); far below the switching point x = 0, where only a trial motion gets, its tangent at x = -1: finite.
+  template <typename Number>
+  static Number shape(const Number &x)
+  {
+    using std::exp;
+    if (x < -1.)
+      return std::exp(2.) * (2. * x + 1.);
+    return x * exp(1. - x);
+  }
+
   Parameters parameters_;
 };
 

@@ -20,11 +20,7 @@ std::vector<Quantity> RegularisedFriction::quantities() const
 
 double RegularisedFriction::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.v[0];
-  double p;
-  force(motion, history, &p);
-  return -p;
+  return i == 0 ? resistance(motion, history) : motion.v[0];
 }
 
 } // namespace gestell::mechanism

@@ -13,14 +13,35 @@ struct Probe
   double          t = 0.;
   Eigen::VectorXd u, v, a;
 
-  mechanism::LocalMotion motion() const { return {t, u.data(), v.data(), a.data()}; }
+  mechanism::LocalMotion motion(bool by_history = false, const double *p = nullptr) const
+  {
+    return {t, u.data(), v.data(), a.data(), p, by_history};
+  }
+
+  /// The motion of constant acceleration through this one, dt later.
+  Probe moved(double dt) const { return {t + dt, u + dt * v + 0.5 * dt * dt * a, v + dt * a, a}; }
 };
 
-inline Eigen::VectorXd force(const mechanism::ForceElement &element, const Probe &probe, const double *history)
+inline Probe probe1(double u, double v, double a = 0.)
+{
+  return {0.3, Eigen::VectorXd::Constant(1, u), Eigen::VectorXd::Constant(1, v), Eigen::VectorXd::Constant(1, a)};
+}
+
+inline Eigen::VectorXd force(const mechanism::ForceElement &element, const Probe &probe, const double *history,
+                             bool by_history = false)
 {
   Eigen::VectorXd p(element.n_measures());
-  element.force(probe.motion(), history, p.data());
+  element.force(probe.motion(by_history), history, p.data());
   return p;
+}
+
+/// Value of a guard, turned so that it is open while negative and due when it has become positive.
+inline double past(const mechanism::ForceElement &element, int guard, const Probe &probe, const double *history)
+{
+  const auto      guards = element.guards(history);
+  Eigen::VectorXd g(guards.size());
+  element.guard_values(probe.motion(true), history, g.data());
+  return guards[guard].crossing == mechanism::Crossing::rising ? g[guard] : -g[guard];
 }
 
 /// History of a motion that starts at the probe.

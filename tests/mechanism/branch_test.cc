@@ -1,0 +1,374 @@
+// What holds for every element with branches: its law by the branch in the history is the law by the motion, smoothly
+// continued, and its guards tell every change of branch.
+
+#include "mechanism/elements/blanking_force.h"
+#include "mechanism/elements/clearance.h"
+#include "mechanism/elements/connecting_rod.h"
+#include "mechanism/elements/cutting_force.h"
+#include "tests/mechanism/element_probe.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <set>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace mechanism;
+
+const ConnectingRod::Parameters rod{0.08, 0.8, 9e8, 1.8e5, 1e-4, 4e-4, 5e4};
+const Clearance::Parameters     play{5e-5, 1e9, 4.};
+const CuttingForce::Parameters  tool{5e3, 6e-4, 4e-4, 0.02};
+
+BlankingForce::Parameters sheet(double exponent)
+{
+  return {0.004, 0.8, 3.2e8, 0.35, exponent, 0.25, 0.08, 9e9, 0.152};
+}
+
+double rod_position(double phi)
+{
+  const double c = rod.crank_radius * std::sin(phi);
+  return -rod.crank_radius * std::cos(phi) + std::sqrt(rod.length * rod.length - c * c) -
+         (rod.length - rod.crank_radius);
+}
+
+/// The rod with the compression delta at its rate, the crank nearly at rest.
+Probe rod_probe(double delta, double rate)
+{
+  const double phi = 2.5;
+  return {0., Eigen::Vector3d(phi, delta - rod_position(phi), 0.), Eigen::Vector3d(1e-3, rate, 0.),
+          Eigen::Vector3d::Zero()};
+}
+
+Probe sheet_probe(double z, double v, double a = 0.)
+{
+  return probe1(0.152 + z, v, a);
+}
+
+// --- one transition
+
+/// A motion at a switching point, on its way through it.
+struct Switch
+{
+  std::string                   name;
+  std::shared_ptr<ForceElement> element;
+  Eigen::VectorXd               history; ///< of the branch before
+  Probe                         probe;
+  int                           guard;
+  std::string                   kind;
+};
+
+std::ostream &operator<<(std::ostream &out, const Switch &s)
+{
+  return out << s.name;
+}
+
+Eigen::VectorXd numbers(double first, double second = 0.)
+{
+  return Eigen::Vector2d(first, second);
+}
+
+std::vector<Switch> switches()
+{
+  const auto conrod  = std::make_shared<ConnectingRod>(rod);
+  const auto contact = std::make_shared<Clearance>(play);
+  const auto cut     = std::make_shared<CuttingForce>(tool);
+  const auto loaded  = [&](const ForceElement &e, const Probe &p) { return started(e, p); };
+
+  std::vector<Switch> all = {
+      {"rod_opens", conrod, loaded(*conrod, rod_probe(1e-4, 0.)), rod_probe(0., -0.2), 0, "conrod_open"},
+      {"rod_closes", conrod, loaded(*conrod, rod_probe(-1e-4, 0.)), rod_probe(0., 0.2), 0, "conrod_close_compression"},
+      {"rod_taut", conrod, loaded(*conrod, rod_probe(-1e-4, 0.)), rod_probe(-4e-4, -0.2), 1, "conrod_close_tension"},
+      {"rod_slack", conrod, loaded(*conrod, rod_probe(-5e-4, 0.)), rod_probe(-4e-4, 0.2), 0, "conrod_leave_tension"},
+      {"tool_in", cut, numbers(0.), probe1(4e-4, 0.03), 0, "tool_contact"},
+      {"tool_out", cut, numbers(1.), probe1(4e-4, -0.03), 0, "tool_release"}};
+  for (const double s : {-1., 1.})
+  {
+    const std::string side   = s < 0. ? "negative" : "positive";
+    const auto        inside = [&](double v) { return loaded(*contact, probe1(s * 7e-5, s * v)); };
+    all.push_back(
+        {"touch_" + side, contact, numbers(0.), probe1(s * 5e-5, s * 0.1), s > 0. ? 0 : 1, "contact_" + side});
+    all.push_back({"leave_" + side, contact, inside(0.), probe1(s * 5e-5, s * -0.1), 0, "separation"});
+    all.push_back({"lose_" + side, contact, inside(0.), probe1(s * 6e-5, s * -0.25, s * -1e3), 1, "contact_slack"});
+    all.push_back({"regain_" + side, contact, inside(-0.3), probe1(s * 6e-5, s * -0.25, s * 1e3), 1, "contact_grip"});
+    all.push_back({"drop_" + side, contact, inside(-0.3), probe1(s * 5e-5, s * -0.4), 0, "separation"});
+  }
+  for (const double n : {1., 2., 7.5, 8.})
+  {
+    const auto            blanking = std::make_shared<BlankingForce>(sheet(n));
+    const std::string     power    = "_n" + std::to_string(static_cast<int>(10. * n));
+    const auto            at       = [&](double z) { return loaded(*blanking, sheet_probe(z, 0.1)); };
+    const Eigen::VectorXd out      = at(-1e-3);
+    const auto            unloaded = [&](double z_max) // having turned at z_max
+    {
+      Eigen::VectorXd history = at(z_max);
+      blanking->transition(0, sheet_probe(z_max, 0.).motion(true), history.data());
+      return history;
+    };
+    const auto released = [&](double z_max)
+    {
+      Eigen::VectorXd history = unloaded(z_max);
+      blanking->transition(0, sheet_probe(0., -0.1).motion(true), history.data());
+      return history;
+    };
+    all.push_back({"sheet_met" + power, blanking, out, sheet_probe(0., 0.1), 0, "tool_contact"});
+    all.push_back(
+        {"force_maximum" + power, blanking, at(1e-3), sheet_probe(1.4e-3, 0.1), 1, "tool_force_maximum_passed"});
+    all.push_back({"broken" + power, blanking, at(2e-3), sheet_probe(2.4e-3, 0.1), 1, "fracture_branch_end"});
+    all.push_back({"severed" + power, blanking, at(3e-3), sheet_probe(4e-3, 0.1), 1, "sheet_severed"});
+    for (const double z_max : {3e-4, 2e-3, 3e-3})
+    {
+      const std::string     where = power + "_at_" + std::to_string(static_cast<int>(1e6 * z_max)) + "um";
+      const double          z_e   = z_max + force(*blanking, sheet_probe(z_max, 0.), at(z_max).data())[0] / 9e9;
+      const Eigen::VectorXd line = unloaded(z_max), free = released(z_max);
+      all.push_back({"turns" + where, blanking, at(z_max), sheet_probe(z_max, 0., -5.), 0, "tool_unload"});
+      all.push_back({"releases" + where, blanking, line, sheet_probe(z_e, -0.1), 0, "tool_release"});
+      all.push_back({"returns" + where, blanking, free, sheet_probe(z_e, 0.1), 0, "tool_contact"});
+      all.push_back({"reloads" + where, blanking, line, sheet_probe(z_max, 0.1), 1, "tool_reload"});
+    }
+  }
+  return all;
+}
+
+class Branches : public ::testing::TestWithParam<Switch>
+{
+};
+
+// dt = 1e-7 s moves u by some 1e-8 m, far above the rounding of u = 0.15 m (3e-17 m) and far inside every branch.
+constexpr double dt = 1e-7;
+
+TEST_P(Branches, GuardsCrossZeroAtTheSwitchingPointAndTheNextOnesAreOpenBehindIt)
+{
+  const Switch   &s       = GetParam();
+  Eigen::VectorXd history = s.history;
+  ASSERT_EQ(s.element->guards(history.data())[s.guard].kind, s.kind);
+  EXPECT_LT(past(*s.element, s.guard, s.probe.moved(-dt), history.data()), 0.);
+  EXPECT_GT(past(*s.element, s.guard, s.probe.moved(dt), history.data()), 0.);
+  EXPECT_NEAR(past(*s.element, s.guard, s.probe, history.data()), 0., 1e-15);
+
+  s.element->transition(s.guard, s.probe.motion(true), history.data());
+  for (int i = 0; i < s.element->n_guards(history.data()); ++i)
+  {
+    EXPECT_LE(past(*s.element, i, s.probe, history.data()), 1e-15);
+    EXPECT_LT(past(*s.element, i, s.probe.moved(dt), history.data()), 0.) << s.element->guards(history.data())[i].kind;
+  }
+}
+
+TEST_P(Branches, ForceAndEnergyDoNotJumpAtATransition)
+{
+  const Switch   &s       = GetParam();
+  Eigen::VectorXd history = s.history;
+  const auto      motion  = s.probe.motion(true);
+  const auto      before  = force(*s.element, s.probe, history.data(), true);
+  const double    energy  = s.element->stored_energy(motion, history.data());
+  s.element->transition(s.guard, motion, history.data());
+  // The switching point is exact to the rounding of u, 3e-17 m, with stiffnesses up to 9e9 N/m; F_max = 1e6 N.
+  EXPECT_LT((force(*s.element, s.probe, history.data(), true) - before).norm(), 1e-6);
+  EXPECT_NEAR(s.element->stored_energy(motion, history.data()), energy, 1e-12);
+}
+
+// One branch goes on beyond its switching point with continuous first derivatives: how much they change across it falls
+// with the distance, where the law by motion has a kink that stays.
+TEST_P(Branches, LawOfABranchIsSmoothAcrossItsSwitchingPoints)
+{
+  const Switch   &s     = GetParam();
+  const int       k     = s.element->n_measures();
+  Eigen::VectorXd after = s.history;
+  s.element->transition(s.guard, s.probe.motion(true), after.data());
+  for (const Eigen::VectorXd &history : {s.history, after})
+  {
+    const auto slopes = [&](double time)
+    {
+      Eigen::VectorXd p(k);
+      Eigen::MatrixXd d(k, 2 * k); // dp/du, dp/dv
+      s.element->derivatives(s.probe.moved(time).motion(true), history.data(), p.data(), d.data(), d.data() + k * k);
+      return d;
+    };
+    // Ten times nearer, ten times less (or still less); 10 N/m of rounding in slopes up to 9e9 N/m, 1e-3 N s/m.
+    const Eigen::MatrixXd near = slopes(0.1 * dt) - slopes(-0.1 * dt), far = slopes(dt) - slopes(-dt);
+    EXPECT_LT(near.leftCols(k).norm(), 0.11 * far.leftCols(k).norm() + 10.);
+    EXPECT_LT(near.rightCols(k).norm(), 0.11 * far.rightCols(k).norm() + 1e-3);
+
+    // Central quotient over the switching point, measure by measure.
+    for (int j = 0; j < k; ++j)
+    {
+      const double d    = 1e-8;
+      Probe        plus = s.probe, minus = s.probe;
+      plus.u[j] += d, minus.u[j] -= d;
+      const Eigen::VectorXd quotient =
+          (force(*s.element, plus, history.data(), true) - force(*s.element, minus, history.data(), true)) / (2. * d);
+      // A third derivative, up to F_max n^3 / z_m^3, times d^2 / 6 is 3 N/m; the rounding of u, 3e-17 m, 30 N/m.
+      EXPECT_LT((quotient - slopes(0.).col(j)).norm(), 1e-6 * slopes(0.).norm() + 100.);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Branches, ::testing::ValuesIn(switches()),
+                         [](const auto &information) { return information.param.name; });
+
+// --- a whole motion
+
+/// An element driven along a prescribed motion u(t), u'(t).
+struct Drive
+{
+  std::string                   name;
+  std::shared_ptr<ForceElement> element;
+  std::function<Probe(double)>  motion;
+  double                        end;
+  std::set<std::string>         kinds; ///< of all events on the way
+};
+
+std::ostream &operator<<(std::ostream &out, const Drive &d)
+{
+  return out << d.name;
+}
+
+/// offset + slope t + amplitude sin(omega t)
+Probe swinging(double t, double offset, double slope, double amplitude, double omega)
+{
+  Probe probe =
+      probe1(offset + slope * t + amplitude * std::sin(omega * t), slope + amplitude * omega * std::cos(omega * t));
+  probe.t = t;
+  return probe;
+}
+
+std::vector<Drive> drives()
+{
+  return {{"sheet",
+           std::make_shared<BlankingForce>(sheet(7.5)),
+           [](double t) { return swinging(t, 0.1519, 4e-3, 3e-4, 20.); },
+           1.2,
+           {"tool_contact", "tool_unload", "tool_release", "tool_reload", "tool_force_maximum_passed",
+            "fracture_branch_end", "sheet_severed"}},
+          {"play",
+           std::make_shared<Clearance>(play),
+           [](double t)
+           {
+             const Probe slow = swinging(t, 1e-6, 0., 8e-5, 600.), fast = swinging(t, 0., 0., 4e-5, 9000.);
+             return Probe{t, slow.u + fast.u, slow.v + fast.v, slow.a};
+           },
+           0.05,
+           {"contact_positive", "contact_negative", "separation", "contact_slack", "contact_grip"}},
+          {"rod",
+           std::make_shared<ConnectingRod>(rod),
+           [](double t)
+           {
+             const Probe  slide = swinging(t, -2e-4, 0., 5e-4, 300.);
+             const double phi = 2.5 + 3. * t, d = 1e-6;
+             const double rate = (rod_position(phi + d) - rod_position(phi - d)) / (2. * d);
+             return Probe{t, Eigen::Vector3d(phi, slide.u[0] - rod_position(phi), 0.),
+                          Eigen::Vector3d(3., slide.v[0] - 3. * rate, 0.), Eigen::Vector3d::Zero()};
+           },
+           0.1,
+           {"conrod_open", "conrod_close_compression", "conrod_close_tension", "conrod_leave_tension"}},
+          {"tool",
+           std::make_shared<CuttingForce>(tool),
+           [](double t) { return swinging(t, 3e-4, 0., 8e-4, 100.); },
+           0.2,
+           {"tool_contact", "tool_release"}}};
+}
+
+class Path : public ::testing::TestWithParam<Drive>
+{
+};
+
+// Were a kink of a law not a guard, or a transition wrong, the branch in the history would part from the one of the
+// motion, and so would their forces.
+TEST_P(Path, LawFollowedByItsGuardsIsTheLawOfTheMotion)
+{
+  const Drive          &drive   = GetParam();
+  const ForceElement   &element = *drive.element;
+  constexpr int         steps   = 20000;
+  const double          h       = drive.end / steps;
+  Eigen::VectorXd       history = started(element, drive.motion(0.));
+  std::set<std::string> kinds;
+  for (int n = 0; n < steps; ++n)
+  {
+    double       from = n * h;
+    const double to   = (n + 1) * h;
+    for (bool again = true; again;)
+    {
+      again = false;
+      for (int i = 0; i < element.n_guards(history.data()) && !again; ++i)
+      {
+        const auto value = [&](double t) { return past(element, i, drive.motion(t), history.data()); };
+        if (value(to) <= 0.)
+          continue;
+        double open = from, due = to;
+        while (value(open) < 0. && due - open > 1e-14)
+        {
+          const double middle               = 0.5 * (open + due);
+          (value(middle) < 0. ? open : due) = middle;
+        }
+        kinds.insert(element.guards(history.data())[i].kind);
+        element.transition(i, drive.motion(due).motion(true), history.data());
+        from  = due;
+        again = true;
+      }
+    }
+    const Probe probe = drive.motion(to);
+    element.accept(probe.motion(true), history.data());
+    const Eigen::VectorXd by_motion  = force(element, probe, history.data(), false);
+    const Eigen::VectorXd by_history = force(element, probe, history.data(), true);
+    // z_max is located to 1e-14 s, about the rounding of u: 1e-16 m times 9e9 N/m; the rest is equal but for rounding.
+    ASSERT_LE((by_motion - by_history).norm(), 1e-12 * by_motion.norm() + 1e-4) << drive.name << ", t = " << to;
+    ASSERT_NEAR(element.stored_energy(probe.motion(true), history.data()),
+                element.stored_energy(probe.motion(false), history.data()), 1e-12);
+    for (int i = 0; i < static_cast<int>(element.quantities().size()); ++i)
+    {
+      const double expected = element.quantity(i, probe.motion(false), history.data());
+      ASSERT_NEAR(element.quantity(i, probe.motion(true), history.data()), expected, 1e-12 * std::abs(expected) + 1e-4);
+    }
+  }
+  EXPECT_EQ(kinds, drive.kinds);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Path, ::testing::ValuesIn(drives()),
+                         [](const auto &information) { return information.param.name; });
+
+// --- trial motions far away
+
+TEST(Continuation, StaysFiniteFarBeyondTheSwitchingPoint)
+{
+  const ConnectingRod conrod(rod);
+  const CuttingForce  cut(tool);
+  const double        in_contact = 1., compressed = started(conrod, rod_probe(1e-4, 0.))[0];
+  Eigen::VectorXd     p(3);
+  Eigen::MatrixXd     dp(3, 3);
+  conrod.tangent(rod_probe(-0.3, 1.).motion(true), &compressed, {1., 1e5, 0.}, p.data(), dp.data());
+  EXPECT_TRUE(p.allFinite() && dp.allFinite()); // exp(3000) is not
+  cut.tangent(probe1(-1., 1.).motion(true), &in_contact, {1., 1e5, 0.}, p.data(), dp.data());
+  EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(dp(0, 0)));
+}
+
+TEST(Continuation, ByTangentsIsSmoothWhereItBegins)
+{
+  const ConnectingRod conrod(rod);
+  const CuttingForce  cut(tool);
+  const double        in_contact = 1., compressed = started(conrod, rod_probe(1e-4, 0.))[0], d = 1e-10;
+  const auto          slope = [](const ForceElement &element, const Probe &probe, const double *history)
+  {
+    Eigen::VectorXd p(3);
+    Eigen::MatrixXd du(3, 3), dv(3, 3);
+    element.derivatives(probe.motion(true), history, p.data(), du.data(), dv.data());
+    return Eigen::Vector3d(p[0], du(0, 0), dv(0, 0));
+  };
+  const auto expect_equal = [](const Eigen::Vector3d &left, const Eigen::Vector3d &right)
+  {
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(left[i], right[i], 1e-5 * std::abs(left[i])); // 2 d over the lengths p0, z_p: 2e-6
+  };
+  const double start_rod = -rod.closing_length, start_cut = tool.contact_at - tool.peak_penetration;
+  expect_equal(slope(conrod, rod_probe(start_rod - d, 0.5), &compressed),
+               slope(conrod, rod_probe(start_rod + d, 0.5), &compressed));
+  expect_equal(slope(cut, probe1(start_cut - d, 0.01), &in_contact),
+               slope(cut, probe1(start_cut + d, 0.01), &in_contact));
+}
+
+} // namespace
+} // namespace gestell::tests
