@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace gestell::coupling
@@ -51,6 +52,23 @@ void require_semidefinite_stiffness(const MatrixXd &C)
     throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
 }
 
+bool is_diagonal(const MatrixXd &A)
+{
+  return (A - MatrixXd(A.diagonal().asDiagonal())).cwiseAbs().maxCoeff() == 0.;
+}
+
+/// What stands behind the first n_1 coordinates are modes: M_LL = E, C_LL diagonal, C_LN = 0, as reductions write them.
+bool is_modal(const ReducedFrame &frame)
+{
+  const auto n_1 = frame.n_interface, m = int(frame.M.rows()) - n_1;
+  if (m == 0)
+    return false;
+  const MatrixXd M_LL = frame.M.bottomRightCorner(m, m), C_LL = frame.C.bottomRightCorner(m, m);
+  return is_diagonal(M_LL) && (M_LL.diagonal().array() - 1.).abs().maxCoeff() <= 1e-15 && is_diagonal(C_LL) &&
+         (C_LL.diagonal().array() >= 0.).all() &&
+         (n_1 == 0 || frame.C.bottomLeftCorner(m, n_1).cwiseAbs().maxCoeff() == 0.);
+}
+
 } // namespace
 
 ReducedFrame dense_frame(const fem::FrameMatrices &frame)
@@ -62,7 +80,7 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.B           = B(order, order);
   dense.C           = C(order, order);
   dense.n_interface = int(frame.interface_coordinates().size());
-  dense.modal       = false;
+  dense.modal       = is_modal(dense);
   dense.n_full      = int(M.rows());
   dense.mass        = frame.mass;
   dense.interfaces  = renumbered(frame.interfaces, order);
@@ -70,6 +88,12 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
     dense.outputs.push_back({output.name, output.unit, output.on_q(order), output.on_v(order)});
   dense.translations_load = (M * frame.translations)(order, Eigen::all);
   dense.total_mass        = frame.translations.transpose() * M * frame.translations;
+
+  if (dense.modal)
+  {
+    dense.omega0          = dense.C.diagonal().tail(M.rows() - dense.n_interface).cwiseSqrt();
+    dense.static_residual = std::numeric_limits<double>::quiet_NaN(); // of a reduction nothing is known of
+  }
 
   require_semidefinite_stiffness(C);
   const DenseModes modes = dense_modes(C, M);

@@ -11,6 +11,9 @@ namespace gestell::coupling
  *
  *     B + M Phi diag(2 zeta omega) Phi^T M,     C phi = omega^2 M phi,   phi^T M phi = 1.
  *
+ * Matrices of a reduced frame, whose other coordinates are modes (M_LL = E, C_LL diagonal, C_LN = 0), are recognised:
+ * `modal`, so that steps are condensed to the interface.
+ *
  * @param frame  symmetric [n x n]; M may be semidefinite if C holds what has no mass
  * @throws std::invalid_argument if C has a negative eigenvalue, or a motion has neither stiffness nor mass
  */

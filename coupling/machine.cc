@@ -160,12 +160,16 @@ void Machine::add_linear(const std::string &name, const Measure &u, double stiff
   parts_->linear.push_back({name, u, stiffness, damping, preload - stiffness * rest, force_unit});
 }
 
-void Machine::add_load(const Measure &u, double constant, const std::vector<Oscillation> &oscillations)
+void Machine::add_load(const std::string &name, const Measure &u, double constant,
+                       const std::vector<Oscillation> &oscillations, const std::string &force_unit)
 {
+  for (const Oscillation &part : oscillations)
+    if (!(part.omega > 0.))
+      throw std::invalid_argument("load \"" + name + "\": circular frequency " + std::to_string(part.omega) +
+                                  " rad/s must be positive; a constant load is given as such");
   for (const auto &[coordinate, weight] : u)
     parts_->constant_load.emplace_back(coordinate, weight * constant);
-  for (const Oscillation &part : oscillations)
-    parts_->harmonic_loads.push_back({u, part.omega, part.amplitude, part.phase});
+  parts_->loads.push_back({name, force_unit, u, constant, oscillations});
 }
 
 void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
@@ -305,7 +309,8 @@ void Machine::local_force(const LocalState &state, Eigen::VectorXd &p) const
 {
   for (const auto &part : parts_->placed)
     if (!part.holds)
-      part.element->force(part.motion(state, parts_->by_history), parts_->history_of(part), p.data() + part.first_measure);
+      part.element->force(part.motion(state, parts_->by_history), parts_->history_of(part),
+                          p.data() + part.first_measure);
 }
 
 void Machine::local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
@@ -317,8 +322,8 @@ void Machine::local_tangent(const LocalState &state, double w_u, double w_v, dou
   {
     if (part.holds)
       continue;
-    part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a}, p.data() + part.first_measure,
-                          block);
+    part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a},
+                          p.data() + part.first_measure, block);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
         dp(part.first_measure + i, part.first_measure + j) = block[i + part.n_measures * j];

@@ -16,7 +16,7 @@ namespace gestell::coupling
 
 class LinearBase;
 
-/// A scalar the user asks for: scale * (on_q . q + on_v . q' + quantity of an element) + offset.
+/// A scalar the user asks for: scale * (on_q . q + on_v . q' + quantity of an element + load at the time + offset).
 struct Signal
 {
   std::string name; ///< the user's, e.g. "F_P"
@@ -26,6 +26,7 @@ struct Signal
   int         quantity = -1;
   double      scale    = 1.;
   double      offset   = 0.;
+  int         load     = -1; ///< external load
 };
 
 enum class BodyKind
@@ -104,8 +105,10 @@ public:
   void add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
                   double rest, const std::string &force_unit);
 
-  /// External load on a measure u:  f(t) = constant + sum amplitude sin(omega t + phase), with +f on u.
-  void add_load(const Measure &u, double constant, const std::vector<Oscillation> &oscillations);
+  /// External load on a measure u:  f(t) = constant + sum amplitude sin(omega t + phase), with +f on u.  Signal
+  /// quantity "force" (and "torque" in N m).  @throws std::invalid_argument if an omega is not positive
+  void add_load(const std::string &name, const Measure &u, double constant,
+                const std::vector<Oscillation> &oscillations, const std::string &force_unit);
 
   /// Nonlinear element acting on its measures.
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
@@ -140,32 +143,32 @@ public:
               LocalState &local) const;
 
   // --- SecondOrderSystem
-  int                                size() const override;
-  void                               mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                               damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                               stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  std::unique_ptr<LinearSolver>      factorise(double w_M, double w_B, double w_C) const override;
-  std::vector<SpectrumLine>          spectrum() const override;
-  const Excitation                  &excitation() const override;
-  bool            dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const override;
+  int                           size() const override;
+  void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const override;
+  std::vector<SpectrumLine>     spectrum() const override;
+  const Excitation             &excitation() const override;
+  bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const override;
   const Eigen::SparseMatrix<double> &directions() const override;
   void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
-  void            local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                                Eigen::MatrixXd &dp) const override;
-  void            local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
-                                    Eigen::MatrixXd &dp_dv) const override;
+  void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                     Eigen::MatrixXd &dp) const override;
+  void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+                         Eigen::MatrixXd &dp_dv) const override;
   const std::vector<HeldMeasure> &held() const override;
   void                            follow_history(bool follow) override;
-  Eigen::VectorXd save_history() const override;
-  void            restore_history(const Eigen::VectorXd &saved) override;
-  void            start(const LocalState &state) override;
-  void            accept(const LocalState &state) override;
-  int             n_guards() const override;
-  void            guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
-  GuardCrossing   crossing(int i) const override;
-  ActiveGuard     guard(int i) const override;
-  void            transition(int i, const LocalState &state) override;
-  double          local_stored_energy(const LocalState &state) const override;
+  Eigen::VectorXd                 save_history() const override;
+  void                            restore_history(const Eigen::VectorXd &saved) override;
+  void                            start(const LocalState &state) override;
+  void                            accept(const LocalState &state) override;
+  int                             n_guards() const override;
+  void                            guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
+  GuardCrossing                   crossing(int i) const override;
+  ActiveGuard                     guard(int i) const override;
+  void                            transition(int i, const LocalState &state) override;
+  double                          local_stored_energy(const LocalState &state) const override;
   void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const override;
   std::string coordinate_name(int i) const override;
 

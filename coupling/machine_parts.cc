@@ -105,10 +105,11 @@ void Machine::Parts::finish()
     excitation.add_constant(i, weight[i]);
   for (const auto &[coordinate, value] : constant_load)
     excitation.add_constant(coordinate, value);
-  for (const HarmonicLoad &load : harmonic_loads)
-    for (const auto &[coordinate, value] : load.u)
-      excitation.add_harmonic(coordinate, load.omega, value * load.amplitude * std::sin(load.phase),
-                              value * load.amplitude * std::cos(load.phase));
+  for (const Load &load : loads)
+    for (const Oscillation &part : load.oscillations)
+      for (const auto &[coordinate, value] : load.u)
+        excitation.add_harmonic(coordinate, part.omega, value * part.amplitude * std::sin(part.phase),
+                                value * part.amplitude * std::cos(part.phase));
   place_elements(n);
 }
 

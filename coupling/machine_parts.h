@@ -41,11 +41,15 @@ struct Machine::Parts
     }
   };
 
-  /// amplitude sin(omega t + phase) on a measure.
-  struct HarmonicLoad
+  /// External load constant + sum amplitude sin(omega t + phase) on a measure.
+  struct Load
   {
-    Measure u;
-    double  omega, amplitude, phase;
+    std::string              name, unit;
+    Measure                  u;
+    double                   constant;
+    std::vector<Oscillation> oscillations;
+
+    double at(double t) const;
   };
 
   struct PlacedGuard
@@ -68,7 +72,7 @@ struct Machine::Parts
   std::vector<ElementPlacement>       elements;
   Triplets                            M, B, C;
   std::vector<std::pair<int, double>> constant_load;
-  std::vector<HarmonicLoad>           harmonic_loads;
+  std::vector<Load>                   loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
   // finished

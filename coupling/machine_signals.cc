@@ -1,6 +1,8 @@
 #include "coupling/machine_parts.h"
 #include "coupling/nearest_name.h"
 
+#include <cmath>
+
 namespace gestell::coupling
 {
 
@@ -19,6 +21,14 @@ Measure measure_of_row(const Eigen::VectorXd &row)
 }
 
 } // namespace
+
+double Machine::Parts::Load::at(double t) const
+{
+  double f = constant;
+  for (const Oscillation &part : oscillations)
+    f += part.amplitude * std::sin(part.omega * t + part.phase);
+  return f;
+}
 
 // What gravity adds to an output of a reduced frame beyond its rows.
 double Machine::Parts::output_offset(std::size_t i) const
@@ -70,6 +80,17 @@ std::map<std::string, Signal> Machine::Parts::signals() const
         element.offset};
     if (element.unit == "N m")
       signals[element.name + ".torque"] = signals[element.name + ".force"];
+  }
+
+  for (std::size_t i = 0; i < loads.size(); ++i)
+  {
+    const Load &load  = loads[i];
+    Signal     &force = signals[load.name + ".force"];
+    force.name        = load.name + ".force";
+    force.unit        = load.unit;
+    force.load        = static_cast<int>(i);
+    if (load.unit == "N m")
+      signals[load.name + ".torque"] = force;
   }
 
   for (std::size_t e = 0; e < elements.size(); ++e)
@@ -132,6 +153,8 @@ double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const E
     value += weight * q[i];
   for (const auto &[i, weight] : signal.on_v)
     value += weight * v[i];
+  if (signal.load >= 0)
+    value += parts_->loads[signal.load].at(local.t);
   if (signal.element >= 0)
   {
     const auto &part = parts_->placed[signal.element];

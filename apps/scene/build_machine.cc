@@ -59,6 +59,12 @@ void fill(coupling::Machine &machine, const Scene &scene)
              machine.add_linear(spring.name, measure_of(spring.u, machine), spring.stiffness, spring.damping,
                                 spring.preload, spring.rest, spring.force_unit);
            });
+  for (const auto &load : scene.loads)
+    placed(place(load.name),
+           [&] {
+             machine.add_load(load.name, measure_of(load.u, machine), load.constant, load.oscillations,
+                              load.force_unit);
+           });
   for (const auto &element : scene.elements)
     placed(place(element.name),
            [&]

@@ -12,6 +12,7 @@ void read_asynchronous_motor(const SceneTable &, const Names &, Scene &);
 void read_clearance(const SceneTable &, const Names &, Scene &);
 void read_friction(const SceneTable &, const Names &, Scene &);
 void read_cubic_spring(const SceneTable &, const Names &, Scene &);
+void read_force(const SceneTable &, const Names &, Scene &);
 
 const std::vector<ElementType> &element_types()
 {
@@ -20,7 +21,7 @@ const std::vector<ElementType> &element_types()
       {"connecting rod", read_connecting_rod}, {"blanking force", read_blanking_force},
       {"cutting force", read_cutting_force},   {"asynchronous motor", read_asynchronous_motor},
       {"clearance", read_clearance},           {"friction", read_friction},
-      {"cubic spring", read_cubic_spring},
+      {"cubic spring", read_cubic_spring},     {"force", read_force},
   };
   return types;
 }

@@ -77,6 +77,16 @@ struct LinearRequest
   std::string   force_unit;
 };
 
+/// External load constant + sum amplitude sin(omega t + phase) on u.
+struct LoadRequest
+{
+  std::string                        name;
+  MotionMeasure                      u;
+  double                             constant = 0.;
+  std::vector<coupling::Oscillation> oscillations;
+  std::string                        force_unit;
+};
+
 struct ElementRequest
 {
   std::string                              name;
@@ -141,6 +151,7 @@ struct Scene
   ReductionRequest                   reduction;
   std::vector<BodyRequest>           bodies;
   std::vector<LinearRequest>         linear;
+  std::vector<LoadRequest>           loads;
   std::vector<ElementRequest>        elements;
   std::vector<PointMassRequest>      point_masses;
   std::vector<coupling::DrawnRod>    rods;

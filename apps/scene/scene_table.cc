@@ -343,6 +343,19 @@ std::vector<SceneTable> SceneTable::tables(const std::string &key) const
   return result;
 }
 
+std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
+{
+  std::vector<SceneTable> result;
+  const SceneNode        *value = look_up(key);
+  if (!value)
+    return result;
+  if (value->type != Type::array)
+    throw error(key, "needs an array of tables [{ ... }, { ... }], got " + described(*value));
+  for (const auto &element : value->elements)
+    result.push_back({element, *parameters_, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key});
+  return result;
+}
+
 namespace
 {
 
@@ -354,8 +367,12 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
       throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
                                   key + "'" + coupling::suggestion(key, {table.asked.begin(), table.asked.end()}));
     // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
+    const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
     if (value.type == Type::table && (!value.asked.empty() || value.entries.empty()))
-      refuse_unknown(value, (path.empty() ? "" : path + ".") + written_key(key));
+      refuse_unknown(value, own);
+    for (std::size_t i = 0; i < value.elements.size(); ++i)
+      if (!value.elements[i].asked.empty())
+        refuse_unknown(value.elements[i], own + "[" + std::to_string(i + 1) + "]");
   }
 }
 

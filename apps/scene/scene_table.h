@@ -60,6 +60,8 @@ public:
   std::optional<SceneTable> optional_table(const std::string &key) const;
   /// Tables in table `key`, in the order of the file: [body.crank], [body.slide]; none if there is no `key`.
   std::vector<SceneTable> tables(const std::string &key) const;
+  /// The tables of an array, [{ amplitude = 1 }, { amplitude = 2 }]; none if there is no `key`.
+  std::vector<SceneTable> table_array(const std::string &key) const;
   /// Keys of this table in the order of the file.
   std::vector<std::string> keys() const;
 

@@ -67,4 +67,28 @@ TEST(DenseFrame, RefusesAStiffnessThatPushesItselfAway)
   EXPECT_THROW(coupling::dense_frame(frame), std::invalid_argument);
 }
 
+TEST(DenseFrame, RecognisesModesBehindTheInterface)
+{
+  auto frame = chain(0.);
+  EXPECT_FALSE(coupling::dense_frame(frame).modal);
+
+  Eigen::Matrix3d M, C;
+  M << 1., 0., 0.7, 0., 1., -0.2, 0.7, -0.2, 300.; // the interface is row 3
+  C                = Eigen::Vector3d(4e4, 9e4, 2e6).asDiagonal();
+  frame.M          = M.sparseView();
+  frame.C          = C.sparseView();
+  const auto modal = coupling::dense_frame(frame);
+  ASSERT_TRUE(modal.modal);
+  EXPECT_EQ(modal.omega0, Eigen::Vector2d(200., 300.));
+
+  for (const auto &[i, j] : {std::pair(0, 1), std::pair(1, 2)}) // stiffness between modes, or to the interface
+  {
+    auto coupled             = frame;
+    coupled.C.coeffRef(i, j) = coupled.C.coeffRef(j, i) = 1.;
+    EXPECT_FALSE(coupling::dense_frame(coupled).modal);
+  }
+  frame.M.coeffRef(0, 0) = 2.;
+  EXPECT_FALSE(coupling::dense_frame(frame).modal);
+}
+
 } // namespace

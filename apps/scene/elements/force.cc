@@ -1,0 +1,27 @@
+#include "apps/scene/relative_motion.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+
+/// f(t) = constant + sum amplitude sin(2 pi frequency t + phase) acts on `from` along the direction, on `to` against
+/// it.
+void read_force(const SceneTable &table, const Names &names, Scene &scene)
+{
+  const auto  motion = read_relative_motion(table, names);
+  const Kind &kind   = motion.rotation ? kind::torque : kind::force;
+  LoadRequest load;
+  load.name       = table.name();
+  load.u          = motion.u;
+  load.force_unit = motion.force_unit();
+  load.constant   = table.number("constant", kind, 0.);
+  for (const auto &part : table.table_array("harmonics"))
+    load.oscillations.push_back({2. * M_PI * part.positive("frequency", kind::frequency),
+                                 part.number("amplitude", kind), part.number("phase", kind::angle, 0.)});
+  if (!table.has("constant") && !table.has("harmonics"))
+    throw table.error("needs 'constant' or 'harmonics'; with neither it would do nothing");
+  scene.loads.push_back(load);
+}
+
+} // namespace gestell::apps
