@@ -18,10 +18,10 @@ struct LocalMotion
   /// holds() need it.
   const double *p = nullptr;
 
-  /// true: the law is that of the branch the history names, smoothly continued beyond its switching points; so an
-  /// integrator that locates events sees a smooth law up to and slightly past the event.  What the element tells
-  /// (force, energy, quantities) is then continuous through a contact that is a rounding error outside. false: the
-  /// branch follows from the motion itself.
+  /// Which branch of the law is asked for.  true: the one the history names, smoothly continued beyond its switching
+  /// points, so that an integrator that locates events sees a smooth law up to an event and slightly past it, and
+  /// force, energy and quantities do not jump at a contact that is a rounding error outside.  false: the one the motion
+  /// itself is in.
   bool by_history = false;
 };
 
@@ -71,13 +71,11 @@ struct Quantity
  *
  * Events.  Inside a branch the law is smooth; guard_values() are the switching functions of the active branch, open on
  * the side from which they may cross: a rising guard while negative, a falling one while positive.  Right after a
- * transition
- * - the guard that would take it back has the value zero within the rounding of the location, and the motion carries it
- *   to its open side: a guard past zero at the beginning of a step but open at its end is not due;
- * - a guard may be past zero and stay so (a slide comes to rest under a load too large to hold, play of width zero):
- *   past zero at the beginning and the end of a step it is due at its beginning, and its transition is taken at the
- * same instant as the one before.  Values that the transition itself changes (the force of a branch that holds) decide
- *   before any step is made.
+ * transition the guard that would take it back has the value zero within the rounding of the location, and the motion
+ * carries it to its open side: a guard past zero at the beginning of a step but open at its end is not due.  One that
+ * is past zero at both (play of width zero) is due at the beginning: its transition is taken at the same instant as the
+ * one before.  Guards of a branch that holds() depend on a force that jumps at the transition: they are judged with the
+ * new force before any step is made, and if past zero their transition is taken at once.
  */
 class ForceElement
 {

@@ -8,7 +8,7 @@ namespace gestell::mechanism
 /**
  * Coulomb friction smoothed near rest:   p = -F tanh(u'/v0)       [N]
  *
- * Sticking is replaced by slow creep of order v0; a joint that must truly stick needs another element.
+ * Sticking is replaced by slow creep of order v0; a joint that must truly stick needs CoulombFriction.
  */
 class RegularisedFriction : public DifferentiableElement<RegularisedFriction, 1>
 {

@@ -35,12 +35,14 @@ inline Eigen::VectorXd force(const mechanism::ForceElement &element, const Probe
   return p;
 }
 
-/// Value of a guard, turned so that it is open while negative and due when it has become positive.
-inline double past(const mechanism::ForceElement &element, int guard, const Probe &probe, const double *history)
+/// Value of a guard, turned so that it is open while negative and due when it has become positive.  p: force of a
+/// branch that holds.
+inline double past(const mechanism::ForceElement &element, int guard, const Probe &probe, const double *history,
+                   const double *p = nullptr)
 {
   const auto      guards = element.guards(history);
   Eigen::VectorXd g(guards.size());
-  element.guard_values(probe.motion(true), history, g.data());
+  element.guard_values(probe.motion(true, p), history, g.data());
   return guards[guard].crossing == mechanism::Crossing::rising ? g[guard] : -g[guard];
 }
 

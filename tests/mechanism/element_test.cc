@@ -3,6 +3,7 @@
 #include "mechanism/elements/blanking_force.h"
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/connecting_rod.h"
+#include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/cubic_spring.h"
 #include "mechanism/elements/cutting_force.h"
 #include "mechanism/elements/kloss_motor.h"
@@ -57,6 +58,7 @@ std::vector<Case> cases()
   const auto blanking       = std::make_shared<BlankingForce>(sheet);
   const auto clearance      = std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e9, 4.});
   const auto cutting        = std::make_shared<CuttingForce>(CuttingForce::Parameters{5e3, 6e-4, 4e-4, 0.02});
+  const auto coulomb        = std::make_shared<CoulombFriction>(CoulombFriction::Parameters{300., 350., 0.});
   return {{"rod_compressed", connecting_rod, rod_probe(3e-4, 0.1)},
           {"rod_in_gap", connecting_rod, rod_probe(-2e-4, -0.1)},
           {"rod_pulled", connecting_rod, rod_probe(-7e-4, 0.2)},
@@ -70,6 +72,8 @@ std::vector<Case> cases()
           {"cubic_spring", std::make_shared<CubicSpring>(CubicSpring::Parameters{1e6, 5e12}), probe1(3e-4, 0.)},
           {"friction", std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3}),
            probe1(0., 1e-3), 1e-7, 1e-7},
+          {"dry_forward", coulomb, probe1(0., 0.3)},
+          {"dry_backward", coulomb, probe1(0., -0.2)},
           {"motor", std::make_shared<KlossMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}), probe1(0., 3.1)}};
 }
 
