@@ -53,13 +53,39 @@ void Bdf::load(double t)
 void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   newest_ = 0;
-  past(0).q = q;
-  past(0).v = v;
-  past(0).u.noalias()      = system_.directions().transpose() * q;
-  past(0).u_rate.noalias() = system_.directions().transpose() * v;
   local_.p.setZero();
+  set(t, q, v);
   implicit_.begin(past(0).u);
   begin_from(t);
+}
+
+void Bdf::begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vector<Eigen::VectorXd> &v)
+{
+  const int n = static_cast<int>(q.size());
+  if (n == 0 || n >= capacity || v.size() != q.size())
+    throw std::invalid_argument("BDF: a history of " + std::to_string(n) + " points q and " + std::to_string(v.size()) +
+                                " points v; it needs as many of both, 1 to " + std::to_string(capacity - 1));
+  newest_ = 0;
+  local_.p.setZero();
+  for (int i = n - 1; i >= 0; --i)
+  {
+    push();
+    set(t - i * options_.step, q[i], v[i]);
+    begin_from(past(0).t);
+  }
+  n_past_ = n;
+  implicit_.begin(past(0).u);
+}
+
+/// The newest point becomes t, q, v with their measures.
+void Bdf::set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  Point &point           = past(0);
+  point.t                = t;
+  point.q                = q;
+  point.v                = v;
+  point.u.noalias()      = system_.directions().transpose() * q;
+  point.u_rate.noalias() = system_.directions().transpose() * v;
 }
 
 /// Starts at past(0), of which q, v, u, u' are known.
@@ -79,9 +105,28 @@ void Bdf::begin_from(double t)
   local_.v = first.u_rate;
   local_.a.setZero();
   system_.local_force(local_, local_.p);
-  first.a = local_.a;
-  first.p = local_.p;
+  if (!system_.held().empty())
+    forces_of_held();
+  first.a    = local_.a;
+  first.p    = local_.p;
   now_known_ = false;
+}
+
+/// What holds a measure in the first instant is no law's value, but follows from the equation of motion.  Where M is
+/// singular, the first step finds it.
+void Bdf::forces_of_held()
+{
+  if (!consistent_ && !massless_)
+    try
+    {
+      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF");
+    }
+    catch (const std::invalid_argument &)
+    {
+      massless_ = true;
+    }
+  if (consistent_)
+    consistent_->solve(past(0).q, past(0).v, product_, local_, work_);
 }
 
 void Bdf::restart()
@@ -234,11 +279,11 @@ void Bdf::multistep(double t)
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
 {
   const BdfFormula &formula = bdf_formulas[order - 1];
-  const double      h_beta  = formula.beta0 * step, inverse = 1. / h_beta;
-  h_q_                      = -formula.alpha[0] * past[0]->q;
-  h_w_                      = -formula.alpha[0] * past[0]->w;
-  g_rate_                   = -formula.alpha[0] * past[0]->u_rate;
-  g_                        = -formula.alpha[0] * past[0]->u;
+  const double      h_beta = formula.beta0 * step, inverse = 1. / h_beta;
+  h_q_    = -formula.alpha[0] * past[0]->q;
+  h_w_    = -formula.alpha[0] * past[0]->w;
+  g_rate_ = -formula.alpha[0] * past[0]->u_rate;
+  g_      = -formula.alpha[0] * past[0]->u;
   for (int i = 1; i < order; ++i)
   {
     h_q_ -= formula.alpha[i] * past[i]->q;

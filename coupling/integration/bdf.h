@@ -1,10 +1,13 @@
 #pragma once
 
 #include "coupling/integration/bdf_formula.h"
+#include "coupling/integration/consistent_start.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
 
 #include <array>
+#include <memory>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -37,6 +40,10 @@ public:
   Bdf(const SecondOrderSystem &system, const Options &options);
 
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  /// Continues a motion that is known at t and at steps before: q[i], v[i] [n] at t - i h.  As many points as the order
+  /// has (at most 7) make steps of the start unnecessary.
+  /// @throws std::invalid_argument for no points, too many, or not as many q as v
+  void begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vector<Eigen::VectorXd> &v);
   void advance() override;
 
   const LocalState      &local() const override { return local_; }
@@ -59,7 +66,9 @@ private:
   Point       &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
   const Point &past(int i) const { return points_[(newest_ + capacity - i) % capacity]; }
   void         push();
+  void         set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
   void         begin_from(double t);
+  void         forces_of_held();
   void         multistep(double t);
   void         start_value(double t);
   void         euler_chain(const Point &from, double length, int n, Point &to);
@@ -86,6 +95,9 @@ private:
   LocalState                  local_, base_;
   Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
   bool                        load_known_ = false;
+
+  std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first
+  bool                             massless_ = false; ///< M is singular: there is none
 };
 
 } // namespace gestell::coupling
