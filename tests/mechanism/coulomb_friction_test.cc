@@ -107,8 +107,8 @@ private:
   double          t_ = 0., u_, v_, history_ = 0.;
 };
 
-// Half a period omits 2 R/c of the amplitude; the slide rests for good where |c u| <= R0.  The
-// oscillator adds up thousands of exact steps: 1e-11 covers their rounding, here and below.
+// Half a period takes 2 R/c off the amplitude; the slide rests for good where |c u| <= R0.  The oscillator adds up
+// thousands of exact steps: 1e-11 covers their rounding, here and below.
 TEST(CoulombFriction, LetsAFreeVibrationFallByEqualAmountsUntilItSticks)
 {
   const double       R = 3.;
