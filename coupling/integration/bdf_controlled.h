@@ -1,0 +1,131 @@
+#pragma once
+
+#include "coupling/integration/backward_differences.h"
+#include "coupling/integration/bdf_order_limit.h"
+#include "coupling/integration/error_scale.h"
+#include "coupling/integration/implicit_step.h"
+#include "coupling/integration/time_integrator.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * BDF with controlled step and order, on the equations and the condensed step of Bdf.
+ *
+ * Steps are h_max / 2^rung and change by powers of two only, so that a factorisation, one per rung and order, is found
+ * again whenever the step returns.  Between changes the step is constant: BDF in backward differences of q, q' and of
+ * the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences).  With q' in place
+ * of w = M q' + B q the equation of the step is the same (5.5.2/12), f = M h^q + h_b (M h^{q'} + B h^q) + h_b^2 f_t,
+ * and the error of the velocities is at hand.
+ *
+ * Error.  The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the measure of ErrorScale,
+ * must not exceed the tolerance.  A step is refused if it does, or if Newton's method fails; then everything is as
+ * before it, and it is tried with half the length or less.  Two refusals lower the order to 2, three start anew.  The
+ * step grows, by up to three rungs at once, after k + 1 steps of equal length, and only if the error expected is below
+ * 0.3 of the tolerance, so that it does not come back at once.
+ *
+ * Order.  With every growth orders k - 1 and k + 1 are looked at as well.  From order 3 on BDF makes lightly damped
+ * modes grow where omega h is neither small nor very large, so at each rung only orders are used for which no mode of
+ * the base system grows (BdfOrderLimit): frames with damping of 1 % stay at order 2 unless the step resolves their
+ * highest mode some twenty times per radian.  Closed contacts change the spectrum; what grows then shows in the error,
+ * and refusals lower the order.  With fixed_order this rule does not hold: the caller has looked.
+ *
+ * Start, and restart at events.  Chains of one, two and four implicit Euler steps over the same length, extrapolated to
+ * third order, give three points: BDF2 goes on from there at once with half that length.  Their local error, tested as
+ * that of any step, is that of the extrapolation to second order.  A fixed order above 2 is reached within a few steps,
+ * which are as small as the tolerance makes order 2.
+ *
+ * Newton's tolerance is 1e-2 of the error tolerance, and not below 1e-12.
+ *
+ * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
+ * of a start; the polynomial of degree k + 1 from order 3 on.
+ */
+class BdfControlled : public TimeIntegrator
+{
+public:
+  struct Options
+  {
+    double        tolerance     = 1e-4;         ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 1
+    double        largest_step  = 0.;           ///< h_max [s]; 0: 1 / omega of the slowest elastic mode
+    double        smallest_step = 0.;           ///< [s]; 0: 2^-40 of the largest
+    int           min_order = 1, max_order = 5; ///< 1..6
+    bool          fixed_order = false;          ///< max_order throughout
+    NewtonOptions newton;                       ///< max_iterations; the tolerance follows from that of the error
+  };
+
+  /// @throws std::invalid_argument naming the option, its value and what it may be
+  BdfControlled(const SecondOrderSystem &system, const Options &options);
+
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  /// @throws ConvergenceFailure if the step falls below the smallest one
+  void advance() override;
+
+  const LocalState      &local() const override { return local_; }
+  const Instant         &instant() const override;
+  double                 step_begin() const override { return t_begin_; }
+  void                   interpolate(double t, LocalState &state) const override;
+  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void                   cut(double t) override;
+  void                   restart() override;
+  const IntegrationWork &work() const override { return work_; }
+
+  /// Order and length [s] of the step to come.
+  int    order() const { return order_; }
+  double step() const { return step_of(rung_); }
+
+private:
+  /// What happened to a step that was tried.
+  struct Trial
+  {
+    bool   solved = false; ///< Newton converged
+    double error  = 0.;    ///< in units of the tolerance
+  };
+
+  double             step_of(int rung) const;
+  ErrorScale::Motion motion(const Eigen::VectorXd &z) const;
+  void               point(const Eigen::VectorXd &z, double t, LocalState &state) const;
+  void               present(const Eigen::VectorXd &z, double t);
+  void               load(double t);
+  void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
+  void               multistep();
+  void               start();
+  Trial              try_multistep(double h);
+  Trial              try_start(double h);
+  void               euler_chain(double length, int n, Eigen::VectorXd &middle, Eigen::VectorXd &end);
+  void               refuse(const Trial &trial, double exponent);
+  void               choose();
+  double             error_of_order(int order);
+  void               change(int rung, int order);
+  [[noreturn]] void  fail(double h, const Trial &trial) const;
+  void               interpolate_part(double t, Eigen::Index value, Eigen::Index slope, Eigen::VectorXd &x,
+                                      Eigen::VectorXd &rate) const;
+
+  const SecondOrderSystem &system_;
+  Options                  options_;
+  ErrorScale               scale_;
+  BdfOrderLimit            limit_;
+  ImplicitStep             implicit_;
+  IntegrationWork          work_;
+  Eigen::Index             n_, n_u_; ///< z = (q, q', u, u', u'', p) [2 n + 4 n_u]
+  BackwardDifferences      differences_;
+  int                      order_ = 1, rung_ = 0;
+  int                      wanted_order_ = 1, wanted_rung_ = 0; ///< from the next step on
+  int                      since_change_ = 0;                   ///< steps of this length and order
+  int                      barred_       = 0;                   ///< steps for which orders above 2 are not used
+  bool                     fresh_        = true;                ///< the past is forgotten
+  bool                     started_      = false;               ///< the last step was a start
+  bool                     cut_          = false;
+  double                   anchor_       = 0.; ///< t_n = anchor + steps * h
+  long                     steps_        = 0;
+  double                   t_begin_ = 0., t_end_ = 0.; ///< of the last step
+  Eigen::VectorXd          z_begin_, z_cut_, z_, predicted_, difference_, history_;
+  Eigen::VectorXd          chain_[2], middle_[3], end_[3];
+  std::string              reason_; ///< of Newton's last failure
+  LocalState               local_, base_;
+  mutable Instant          now_;
+  mutable bool             now_known_  = false;
+  bool                     load_known_ = false;
+  Eigen::VectorXd          f_t_, f_, h_q_, h_v_, x_, product_;
+};
+
+} // namespace gestell::coupling

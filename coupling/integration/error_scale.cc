@@ -1,0 +1,298 @@
+#include "coupling/integration/error_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double rounding      = 64. * std::numeric_limits<double>::epsilon();
+constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
+constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
+constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
+constexpr double rigid         = 1e-7;  ///< modes below this part of the highest frequency are rigid motions
+constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
+constexpr int    probes        = 64;
+
+double slowest_elastic(const std::vector<SpectrumLine> &spectrum)
+{
+  double highest = 0., lowest = std::numeric_limits<double>::infinity();
+  for (const SpectrumLine &line : spectrum)
+    highest = std::max(highest, line.omega);
+  for (const SpectrumLine &line : spectrum)
+    if (line.omega > rigid * highest)
+      lowest = std::min(lowest, line.omega);
+  return lowest;
+}
+
+void enlarge(Eigen::VectorXd &largest, const Eigen::VectorXd &before, Eigen::Index i, double value)
+{
+  largest[i] = std::max(before[i], value);
+}
+} // namespace
+
+ErrorScale::ErrorScale(const SecondOrderSystem &system, double tolerance)
+    : system_(system), tolerance_(tolerance), omega_1_(slowest_elastic(system.spectrum()))
+{
+  find_masses();
+  find_groups();
+  find_ends();
+  const auto n = m_.size(), n_u = system.directions().cols(), n_ends = Eigen::Index(end_index_.size());
+  for (Eigen::VectorXd *x : {&q_begin_, &v_begin_})
+    x->setZero(n);
+  for (Eigen::VectorXd *x : {&u_begin_, &rate_begin_, &inverse_u_, &inverse_rate_})
+    x->setZero(n_u);
+  for (Eigen::VectorXd *x : {&inverse_q_, &inverse_v_})
+    x->setZero(n_groups_);
+  for (Excursions *x : {&accepted_, &considered_})
+  {
+    x->q.setZero(n_groups_);
+    x->v.setZero(n_groups_);
+    x->u.setZero(n_u);
+    x->u_rate.setZero(n_u);
+    x->end_q.setZero(n_ends);
+    x->end_v.setZero(n_ends);
+  }
+  sums_.assign(n_groups_, 0.);
+  sums_v_.assign(n_groups_, 0.);
+}
+
+/// M_ii: by unit vectors, or for large systems from x_i (M x)_i with many x of random signs, of which the mean is M_ii.
+void ErrorScale::find_masses()
+{
+  const int       n = system_.size();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), y(n);
+  m_.setZero(n);
+  if (n <= exact_masses)
+    for (int i = 0; i < n; ++i)
+    {
+      x[i] = 1.;
+      system_.mass_times(x, y);
+      m_[i] = y[i];
+      x[i]  = 0.;
+    }
+  else
+  {
+    std::mt19937 random(1);
+    for (int k = 0; k < probes; ++k)
+    {
+      for (int i = 0; i < n; ++i)
+        x[i] = (random() & 1u) != 0 ? 1. : -1.;
+      system_.mass_times(x, y);
+      m_ += x.cwiseProduct(y) / probes;
+    }
+  }
+  m_        = m_.cwiseMax(0.);
+  massless_ = static_cast<int>((m_.array() <= 0.).count());
+  if (massless_ == n)
+    m_.setOnes();
+}
+
+/// Connected components of the graph of M, B, C: what a product with them reaches from a coordinate.  Vectors have
+/// irregular entries, so that a rigid motion does not hide couplings.
+void ErrorScale::find_groups()
+{
+  const int        n = system_.size();
+  std::vector<int> group(n, -1);
+  Eigen::VectorXd  x(n), y(n);
+  for (int seed = 0; seed < n; ++seed)
+  {
+    if (group[seed] >= 0)
+      continue;
+    group[seed]          = n_groups_;
+    int          reached = 1, before = 0;
+    std::mt19937 random(1);
+    while (reached > before)
+    {
+      before = reached;
+      for (int i = 0; i < n; ++i)
+        x[i] = group[i] == n_groups_ ? 1. + random() / 4294967296. : 0.;
+      for (const auto product :
+           {&SecondOrderSystem::mass_times, &SecondOrderSystem::damping_times, &SecondOrderSystem::stiffness_times})
+      {
+        (system_.*product)(x, y);
+        const double least = uncoupled * y.lpNorm<Eigen::Infinity>();
+        for (int i = 0; i < n; ++i)
+          if (group[i] < 0 && std::abs(y[i]) > least)
+          {
+            group[i] = n_groups_;
+            ++reached;
+          }
+      }
+    }
+    ++n_groups_;
+  }
+  for (int i = 0; i < n; ++i)
+    if (runs_.empty() || runs_.back().group != group[i])
+      runs_.push_back({i, 1, group[i]});
+    else
+      ++runs_.back().size;
+}
+
+void ErrorScale::find_ends()
+{
+  const auto      &W = system_.directions();
+  std::vector<int> place(W.rows(), -1);
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < W.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+    {
+      int &row = place[it.row()];
+      if (row < 0)
+      {
+        row = static_cast<int>(end_index_.size());
+        end_index_.push_back(static_cast<int>(it.row()));
+      }
+      entries.emplace_back(row, j, std::abs(it.value()));
+    }
+  ends_.resize(static_cast<Eigen::Index>(end_index_.size()), W.cols());
+  ends_.setFromTriplets(entries.begin(), entries.end());
+}
+
+/// sum m_i (x_i - from_i)^2 of each group; returns the largest.
+double ErrorScale::energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const
+{
+  std::fill(sums.begin(), sums.end(), 0.);
+  for (const Run &run : runs_)
+  {
+    const auto m = m_.segment(run.first, run.size).array();
+    const auto y = x.segment(run.first, run.size).array();
+    sums[run.group] +=
+        from ? (m * (y - from->segment(run.first, run.size).array()).square()).sum() : (m * y.square()).sum();
+  }
+  return *std::max_element(sums.begin(), sums.end());
+}
+
+void ErrorScale::begin(const Motion &at)
+{
+  q_begin_    = at.q;
+  v_begin_    = at.v;
+  u_begin_    = at.u;
+  rate_begin_ = at.u_rate;
+  for (Eigen::VectorXd Excursions::*x :
+       {&Excursions::q, &Excursions::v, &Excursions::u, &Excursions::u_rate, &Excursions::end_q, &Excursions::end_v})
+    (accepted_.*x).setZero();
+}
+
+void ErrorScale::accept()
+{
+  accepted_.q      = considered_.q;
+  accepted_.v      = considered_.v;
+  accepted_.u      = considered_.u;
+  accepted_.u_rate = considered_.u_rate;
+  accepted_.end_q  = considered_.end_q;
+  accepted_.end_v  = considered_.end_v;
+}
+
+void ErrorScale::consider(double h, const Motion &to, const Motion &change)
+{
+  energy(to.q, &q_begin_, sums_);
+  energy(to.v, &v_begin_, sums_v_);
+  for (int g = 0; g < n_groups_; ++g)
+  {
+    enlarge(considered_.q, accepted_.q, g, std::sqrt(sums_[g]));
+    enlarge(considered_.v, accepted_.v, g, std::sqrt(sums_v_[g]));
+  }
+  for (Eigen::Index j = 0; j < u_begin_.size(); ++j)
+  {
+    enlarge(considered_.u, accepted_.u, j, std::abs(to.u[j] - u_begin_[j]));
+    enlarge(considered_.u_rate, accepted_.u_rate, j, std::abs(to.u_rate[j] - rate_begin_[j]));
+  }
+  for (std::size_t k = 0; k < end_index_.size(); ++k)
+  {
+    const int i = end_index_[k];
+    enlarge(considered_.end_q, accepted_.end_q, Eigen::Index(k), std::abs(to.q[i] - q_begin_[i]));
+    enlarge(considered_.end_v, accepted_.end_v, Eigen::Index(k), std::abs(to.v[i] - v_begin_[i]));
+  }
+  set_scales(h, to, change);
+}
+
+void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
+{
+  const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
+  const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
+  // chi, and from it 1 / (scale chi), but not above what rounding leaves; a motion that does not move has no error.
+  const auto invert = [&](double E, double V, double change_of_speed, double size, double &of_q, double &of_v)
+  {
+    const double chi = E > 0. && V > 0. ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
+    const double q = std::max(E * chi, floor * size), v = std::max(V * chi, floor * size / h);
+    of_q = q > 0. ? 1. / q : 0.;
+    of_v = v > 0. ? 1. / v : 0.;
+  };
+
+  double most = 0., fastest = 0.;
+  for (int g = 0; g < n_groups_; ++g)
+  {
+    most    = std::max(most, bounded(considered_.q[g], considered_.v[g]));
+    fastest = std::max(fastest, considered_.v[g]);
+  }
+  energy(to.q, nullptr, sums_);
+  energy(change.v, nullptr, sums_v_);
+  for (int g = 0; g < n_groups_; ++g)
+    invert(std::max(bounded(considered_.q[g], considered_.v[g]), group_floor * most),
+           std::max(considered_.v[g], group_floor * fastest), std::sqrt(sums_v_[g]), std::sqrt(sums_[g]), inverse_q_[g],
+           inverse_v_[g]);
+
+  for (int j = 0; j < ends_.outerSize(); ++j)
+  {
+    double way = 0., speed = 0., size = std::abs(to.u[j]);
+    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
+    {
+      way += it.value() * bounded(considered_.end_q[it.row()], considered_.end_v[it.row()]);
+      speed += it.value() * considered_.end_v[it.row()];
+      size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
+    }
+    invert(std::max(bounded(considered_.u[j], considered_.u_rate[j]), measure_floor * way),
+           std::max(considered_.u_rate[j], measure_floor * speed), std::abs(change.u_rate[j]), size, inverse_u_[j],
+           inverse_rate_[j]);
+  }
+}
+
+double ErrorScale::error_of_measures(const Vector &e_u, const Vector &e_rate) const
+{
+  double largest = 0.;
+  for (Eigen::Index j = 0; j < e_u.size(); ++j)
+    largest = std::max({largest, std::abs(e_u[j]) * inverse_u_[j], std::abs(e_rate[j]) * inverse_rate_[j]});
+  return largest;
+}
+
+double ErrorScale::error(const Motion &e) const
+{
+  double largest = error_of_measures(e.u, e.u_rate);
+  energy(e.q, nullptr, sums_);
+  energy(e.v, nullptr, sums_v_);
+  for (int g = 0; g < n_groups_; ++g)
+    largest = std::max({largest, std::sqrt(sums_[g]) * inverse_q_[g], std::sqrt(sums_v_[g]) * inverse_v_[g]});
+  return largest;
+}
+
+std::string ErrorScale::worst(const Motion &e) const
+{
+  double      largest = -1.;
+  std::string name;
+  const auto  compare = [&](double size, int coordinate, const char *what)
+  {
+    if (size > largest)
+    {
+      largest = size;
+      name    = what + system_.coordinate_name(coordinate);
+    }
+  };
+  for (const Run &run : runs_)
+    for (int i = run.first; i < run.first + run.size; ++i)
+      compare(std::sqrt(m_[i]) *
+                  std::max(std::abs(e.q[i]) * inverse_q_[run.group], std::abs(e.v[i]) * inverse_v_[run.group]),
+              i, "");
+  for (int j = 0; j < ends_.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
+      compare(std::max(std::abs(e.u[j]) * inverse_u_[j], std::abs(e.u_rate[j]) * inverse_rate_[j]),
+              end_index_[it.row()], "the force on ");
+  return name;
+}
+
+} // namespace gestell::coupling

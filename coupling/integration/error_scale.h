@@ -1,0 +1,99 @@
+#pragma once
+
+#include "coupling/integration/second_order_system.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * How large an error of a motion is, as one number in the units of the tolerance; for any integrator.
+ *
+ * Metres, radians and modal coordinates are made comparable by mass, m_i = M_ii: |x|^2 = sum m_i x_i^2 is the kinetic
+ * energy's norm (its diagonal, which costs n multiplications instead of a product with M).  Coordinates that the base
+ * system does not couple, directly or through others, form groups of their own: a shaft that turns a thousand times
+ * says nothing about the frame it shakes.  In each group
+ *
+ *     e_q / E,   e_v / V,     V = max |v - v_begin|,     E = min(max |q - q_begin|, V / omega_1),
+ *
+ * with the maxima over the motion so far.  The second bound of E is the way gone in the time of the slowest elastic
+ * mode of the base system: a free rotation has no largest excursion.  The same for every measure u_j alone, because
+ * forces depend on measures, and a contact moves a thousandth of what its two sides move:
+ *
+ *     e_u / U_j,   e_u' / U'_j,     U_j not below 1e-3 of the excursions of the coordinates it is made of.
+ *
+ * What counts is the error for the way gone: each ratio is divided by chi, the part of its range that the motion passes
+ * in the step, chi = min(1, max(h V / E, |v(t + h) - v(t)| / V)).  A sum of such errors stays below the tolerance times
+ * the number of times the motion goes through its range, however many steps that takes: global errors are proportional
+ * to the tolerance.  A method of order k has an error of order h^k in this measure.
+ *
+ * Errors that rounding explains do not count: E is not below |q| rounding / tolerance.
+ */
+class ErrorScale
+{
+public:
+  using Vector = Eigen::Ref<const Eigen::VectorXd>;
+
+  /// q, v [n], u, u' [n_u] of an instant, or of a difference of two.
+  struct Motion
+  {
+    Vector q, v, u, u_rate;
+  };
+
+  /// @param tolerance  with which errors are compared, > 0
+  ErrorScale(const SecondOrderSystem &system, double tolerance);
+
+  /// The motion begins here.
+  void begin(const Motion &at);
+
+  /// A step of length h [s] would lead to `to`, changing the motion by `change`: the scales for its errors.
+  void consider(double h, const Motion &to, const Motion &change);
+  /// The step last considered is taken: its excursions count from now on.
+  void accept();
+
+  /// Error relative to the scales of the step last considered, per chi; the largest of all groups and measures.
+  double error(const Motion &e) const;
+  /// Of the measures alone, where the coordinates follow from them exactly.
+  double error_of_measures(const Vector &e_u, const Vector &e_rate) const;
+  /// Coordinate with the largest part in the error e, for messages: "q3", or "the force on q3".
+  std::string worst(const Motion &e) const;
+
+  /// Frequency [rad/s] of the slowest elastic mode of the base system; infinite if it has none.
+  double slowest() const { return omega_1_; }
+  /// n [1] of coordinates without mass; their errors count through measures and neighbours alone.
+  int massless() const { return massless_; }
+
+private:
+  /// Coordinates first .. first + size - 1 belong to one group.
+  struct Run
+  {
+    int first, size, group;
+  };
+  /// Largest excursions squared of each group, and of each measure.
+  struct Excursions
+  {
+    Eigen::VectorXd q, v, u, u_rate; // [groups], [groups], [n_u], [n_u]
+    Eigen::VectorXd end_q, end_v;    // of the coordinates that measures are made of [n_ends]
+  };
+
+  void   find_masses();
+  void   find_groups();
+  void   find_ends();
+  double energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const;
+  void   set_scales(double h, const Motion &to, const Motion &change);
+
+  const SecondOrderSystem    &system_;
+  double                      tolerance_, omega_1_;
+  int                         massless_ = 0, n_groups_ = 0;
+  std::vector<Run>            runs_;
+  Eigen::VectorXd             m_;         ///< [n]
+  Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
+  std::vector<int>            end_index_; ///< those coordinates
+  Eigen::VectorXd             q_begin_, v_begin_, u_begin_, rate_begin_;
+  Excursions                  accepted_, considered_;
+  Eigen::VectorXd             inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
+  mutable std::vector<double> sums_, sums_v_;                                    // [groups]
+};
+
+} // namespace gestell::coupling
