@@ -12,17 +12,11 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr int    rungs_below    = 40;   ///< of the ladder, if no smallest step is given
-constexpr int    first_rung     = 5;    ///< tried at the begin of a run
-constexpr int    highest_growth = 3;    ///< rungs at once
-constexpr int    deepest_fall   = 6;    ///< rungs at once, in a start
-constexpr double safety         = 0.3;  ///< of the tolerance, that an error expected may reach
-constexpr double newton_part    = 1e-2; ///< of the tolerance
-constexpr double finest_newton  = 1e-12;
-constexpr int    steps_barred   = 40;
-constexpr double worth_an_order = 1.3; ///< factor of the step expected, for which the order is raised
-const double     unbounded      = std::numeric_limits<double>::infinity();
-
+constexpr int    rungs_below      = 40; ///< of the ladder, if no smallest step is given
+constexpr int    most_rungs_below = 60;
+constexpr int    first_rung       = 5;    ///< tried at the begin of a run
+constexpr double newton_part      = 1e-2; ///< of the tolerance
+constexpr double finest_newton    = 1e-12;
 template <typename Value>
 void require(bool valid, const char *option, Value value, const char *needed)
 {
@@ -33,13 +27,21 @@ void require(bool valid, const char *option, Value value, const char *needed)
   throw std::invalid_argument(message.str());
 }
 
-BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem &system)
+BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem &system,
+                               const std::vector<SpectrumLine> &spectrum)
 {
   require(o.tolerance >= 1e-13 && o.tolerance <= 1., "tolerance", o.tolerance, "between 1e-13 and 1");
   require(o.max_order >= 1 && o.max_order <= 6, "max_order", o.max_order, "1 to 6");
   require(o.min_order >= 1 && o.min_order <= o.max_order, "min_order", o.min_order, "1 to max_order");
   require(system.n_constraints() == 0, "the number of constraints", system.n_constraints(),
           "zero: ideal joints are not integrated here; use compliant joints");
+  if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))
+    o.largest_step = 1. / omega;
+  require(o.largest_step > 0. && std::isfinite(o.largest_step), "largest_step [s]", o.largest_step, "positive");
+  if (o.smallest_step == 0.)
+    o.smallest_step = std::ldexp(o.largest_step, -rungs_below);
+  require(o.smallest_step <= o.largest_step && o.smallest_step >= std::ldexp(o.largest_step, -most_rungs_below),
+          "smallest_step [s]", o.smallest_step, "between 2^-60 and 1 of the largest one");
   o.newton.tolerance = std::max(newton_part * o.tolerance, finest_newton);
   if (o.fixed_order)
     o.min_order = o.max_order;
@@ -48,20 +50,16 @@ BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem
 } // namespace
 
 BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &options)
-    : system_(system), options_(checked(options, system)), scale_(system, options_.tolerance), limit_({}, 0, 0.),
-      implicit_(system, options_.newton), n_(system.size()), n_u_(system.directions().cols())
+    : BdfControlled(system, options, system.spectrum())
 {
-  if (options_.largest_step == 0. && std::isfinite(scale_.slowest()))
-    options_.largest_step = 1. / scale_.slowest();
-  require(options_.largest_step > 0. && std::isfinite(options_.largest_step), "largest_step [s]", options_.largest_step,
-          "positive");
-  if (options_.smallest_step == 0.)
-    options_.smallest_step = std::ldexp(options_.largest_step, -rungs_below);
-  require(options_.smallest_step <= options_.largest_step &&
-              options_.smallest_step >= std::ldexp(options_.largest_step, -60),
-          "smallest_step [s]", options_.smallest_step, "between 2^-60 and 1 of the largest one");
-  limit_ = BdfOrderLimit(system.spectrum(), static_cast<int>(n_) - scale_.massless(), options_.largest_step);
+}
 
+BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &options,
+                             const std::vector<SpectrumLine> &spectrum)
+    : system_(system), options_(checked(options, system, spectrum)), scale_(system, spectrum, options_.tolerance),
+      limit_(spectrum, system.size() - scale_.massless(), options_.largest_step), implicit_(system, options_.newton),
+      n_(system.size()), n_u_(system.directions().cols())
+{
   const Eigen::Index size = 2 * n_ + 4 * n_u_;
   differences_.resize(size);
   for (Eigen::VectorXd *x : {&z_begin_, &z_cut_, &z_, &predicted_, &difference_, &history_, &chain_[0], &chain_[1],
@@ -147,8 +145,30 @@ void BdfControlled::restart()
   fresh_   = true;
   t_begin_ = t_end_ = local_.t;
   system_.local_force(local_, local_.p);
+  if (!system_.held().empty())
+    forces_of_held();
   z_.tail(n_u_) = local_.p;
   now_known_    = false;
+}
+
+/// What holds a measure at a start is no law's value, but follows from the equation of motion.  Where M is singular,
+/// the first step finds it.
+void BdfControlled::forces_of_held()
+{
+  if (!consistent_ && !massless_)
+    try
+    {
+      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF with controlled step");
+    }
+    catch (const std::invalid_argument &)
+    {
+      massless_ = true;
+    }
+  if (!consistent_)
+    return;
+  h_q_ = z_.head(n_);
+  h_v_ = z_.segment(n_, n_);
+  consistent_->solve(h_q_, h_v_, product_, local_, work_);
 }
 
 /// z at t from  h_beta z' = z - history  for z = q, q'; local_.u, local_.p are the prediction.
@@ -173,271 +193,6 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   z.segment(2 * n_ + n_u_, n_u_)     = local_.v;
   z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;
   z.segment(2 * n_ + 3 * n_u_, n_u_) = local_.p;
-}
-
-void BdfControlled::advance()
-{
-  if (cut_)
-    restart();
-  const double t = t_end_;
-  z_begin_       = z_;
-  try
-  {
-    if (fresh_)
-      start();
-    else
-      multistep();
-  }
-  catch (const ConvergenceFailure &)
-  {
-    z_       = z_begin_;
-    t_begin_ = t_end_ = t;
-    present(z_, t);
-    fresh_ = true;
-    throw;
-  }
-  ++work_.steps;
-  present(z_, t_end_);
-}
-
-BdfControlled::Trial BdfControlled::try_multistep(double h)
-{
-  Trial trial;
-  differences_.predict(order_, predicted_);
-  differences_.history(order_, history_);
-  local_.u = predicted_.segment(2 * n_, n_u_);
-  local_.p = predicted_.segment(2 * n_ + 3 * n_u_, n_u_);
-  try
-  {
-    implicit_step(anchor_ + static_cast<double>(steps_ + 1) * h, h / bdf_gamma(order_), history_, z_);
-  }
-  catch (const ConvergenceFailure &failure)
-  {
-    reason_ = failure.what();
-    return trial;
-  }
-  difference_ = z_ - z_begin_;
-  if (!difference_.allFinite())
-    return trial;
-  scale_.consider(h, motion(z_), motion(difference_));
-  difference_  = z_ - predicted_;
-  trial.solved = true;
-  trial.error  = scale_.error(motion(difference_)) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
-  return trial;
-}
-
-void BdfControlled::multistep()
-{
-  change(wanted_rung_, wanted_order_);
-  for (int refusals = 0;;)
-  {
-    const double h     = step_of(rung_);
-    const Trial  trial = try_multistep(h);
-    if (trial.solved && trial.error <= 1.)
-    {
-      t_begin_ = t_end_;
-      t_end_   = anchor_ + static_cast<double>(++steps_) * h;
-      break;
-    }
-    ++work_.rejected;
-    z_ = z_begin_;
-    refuse(trial, order_);
-    if (++refusals == 2 && !options_.fixed_order)
-      wanted_order_ = std::min(wanted_order_, std::max(2, options_.min_order));
-    if (refusals == 3)
-    {
-      rung_ = wanted_rung_;
-      start();
-      return;
-    }
-    change(wanted_rung_, wanted_order_);
-  }
-  scale_.accept();
-  differences_.push(order_, difference_);
-  ++since_change_;
-  barred_  = std::max(0, barred_ - 1);
-  started_ = false;
-  choose();
-}
-
-/// A step was refused: how much shorter the next one, and of which order.  The error goes with h^exponent.
-void BdfControlled::refuse(const Trial &trial, double exponent)
-{
-  int rungs = 1;
-  if (trial.solved)
-    rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
-                       fresh_ ? deepest_fall : highest_growth);
-  if (step_of(rung_ + rungs) < options_.smallest_step)
-    fail(step_of(rung_), trial);
-  wanted_rung_  = rung_ + rungs;
-  wanted_order_ = order_;
-  if (order_ > 2 && !options_.fixed_order)
-  {
-    barred_       = since_change_ == 0 ? steps_barred : 0; // refused again at once: order 2 for a while
-    wanted_order_ = std::max(order_ - 1, options_.min_order);
-    while (wanted_order_ > options_.min_order && !limit_.allows(wanted_order_, wanted_rung_))
-      --wanted_order_;
-  }
-}
-
-double BdfControlled::error_of_order(int order)
-{
-  history_ = differences_[order + 1];
-  return scale_.error(motion(history_)) / (bdf_gamma(order) * (order + 1) * options_.tolerance);
-}
-
-/// Order and length of the next step, once enough steps of this length tell.
-void BdfControlled::choose()
-{
-  wanted_rung_  = rung_;
-  wanted_order_ = order_;
-  if (order_ < options_.min_order && since_change_ > order_)
-  {
-    wanted_order_ = order_ + 1;
-    return;
-  }
-  if (since_change_ <= order_)
-    return;
-  double best = 0., gain_here = 0.;
-  for (const int order : {order_, order_ - 1, order_ + 1})
-  {
-    if (order < options_.min_order || order > options_.max_order || order + 1 > differences_.known())
-      continue;
-    if (order > 2 && order > order_ && barred_ > 0)
-      continue;
-    const double error = error_of_order(order);
-    const double gain  = error > 0. ? std::pow(safety / error, 1. / order) : unbounded;
-    int          rungs =
-        std::clamp(static_cast<int>(std::floor(std::log2(std::min(gain, 1e3)))), 0, std::min(highest_growth, rung_));
-    const bool free = options_.fixed_order;
-    while (rungs > 0 && !free && !limit_.allows(order, rung_ - rungs))
-      --rungs;
-    if (rungs == 0 && !free && order != order_ && !limit_.allows(order, rung_))
-      continue;
-    // Among steps that end on the same rung the present order, unless another one lets hope for more.
-    double worth = std::ldexp(1., rungs);
-    if (order == order_)
-      gain_here = gain;
-    else if (rung_ - rungs > 0 && gain > worth_an_order * gain_here && gain > 1.)
-      worth *= 1.1;
-    else
-      worth *= 0.9;
-    if (worth > best)
-    {
-      best          = worth;
-      wanted_order_ = order;
-      wanted_rung_  = rung_ - rungs;
-    }
-  }
-}
-
-void BdfControlled::change(int rung, int order)
-{
-  if (rung == rung_ && order == order_)
-    return;
-  if (rung != rung_)
-  {
-    differences_.rescale(std::ldexp(1., rung_ - rung), std::min(differences_.known(), order + 1));
-    anchor_ = t_end_;
-    steps_  = 0;
-  }
-  rung_         = rung;
-  order_        = order;
-  since_change_ = 0;
-}
-
-/// n implicit Euler steps over the length, from z_begin_: where they are after half of it, and at the end.
-void BdfControlled::euler_chain(double length, int n, Eigen::VectorXd &middle, Eigen::VectorXd &end)
-{
-  const double h = length / n;
-  point(z_begin_, t_end_, local_);
-  const Eigen::VectorXd *from = &z_begin_;
-  for (int i = 1; i <= n; ++i)
-  {
-    Eigen::VectorXd &to = i == n ? end : 2 * i == n ? middle : chain_[i % 2];
-    local_.u            = from->segment(2 * n_, n_u_) + h * from->segment(2 * n_ + n_u_, n_u_);
-    implicit_step(t_end_ + i * h, h, *from, to);
-    from = &to;
-  }
-}
-
-BdfControlled::Trial BdfControlled::try_start(double h)
-{
-  Trial        trial;
-  const double length = 2. * h;
-  try
-  {
-    for (int i = 0; i < 3; ++i)
-      euler_chain(length, 1 << i, middle_[i], end_[i]);
-  }
-  catch (const ConvergenceFailure &failure)
-  {
-    reason_ = failure.what();
-    return trial;
-  }
-  // Euler's error is a power series in the step: weights 2 and 4 remove its first and second power.
-  middle_[2]  = 2. * middle_[2] - middle_[1];
-  end_[0]     = 2. * end_[1] - end_[0];
-  end_[1]     = 2. * end_[2] - end_[1];
-  difference_ = (end_[1] - end_[0]) / 3.;
-  end_[2]     = end_[1] + difference_;
-  z_          = end_[2] - z_begin_;
-  if (!z_.allFinite())
-    return trial;
-  scale_.consider(length, motion(end_[2]), motion(z_));
-  trial.solved = true;
-  trial.error  = scale_.error(motion(difference_)) / options_.tolerance;
-  return trial;
-}
-
-void BdfControlled::start()
-{
-  fresh_ = true;
-  order_ = std::min(2, options_.max_order);
-  rung_  = std::max(rung_, 1); // a start is two steps long
-  for (;;)
-  {
-    const Trial trial = try_start(step_of(rung_));
-    if (trial.solved && trial.error <= 1.)
-      break;
-    ++work_.rejected;
-    z_ = z_begin_;
-    refuse(trial, 2.);
-    rung_ = wanted_rung_;
-  }
-  scale_.accept();
-  z_ = end_[2];
-  // u'' and p at the begin may be those of another branch: they continue what follows.
-  chain_[0]                = z_begin_;
-  chain_[0].tail(2 * n_u_) = 2. * middle_[2].tail(2 * n_u_) - z_.tail(2 * n_u_);
-  differences_.start(chain_[0], middle_[2], z_);
-  anchor_       = t_end_;
-  steps_        = 2;
-  t_begin_      = t_end_;
-  t_end_        = anchor_ + 2. * step_of(rung_);
-  wanted_rung_  = rung_;
-  wanted_order_ = order_;
-  since_change_ = 1;
-  fresh_        = false;
-  started_      = true;
-}
-
-void BdfControlled::fail(double h, const Trial &trial) const
-{
-  std::ostringstream message;
-  message << "BDF with controlled step: at t = " << t_end_ << " s the step of " << h
-          << " s is to be divided below the smallest one, " << options_.smallest_step << " s; ";
-  if (trial.solved)
-    message
-        << "the local error of order " << order_ << " is still " << trial.error << " times the tolerance "
-        << options_.tolerance << ", and largest in " << scale_.worst(motion(difference_))
-        << ".  Does a force jump there without an event?  Locate events, smooth the force, allow a larger tolerance "
-           "or a smaller step";
-  else if (!reason_.empty())
-    message << reason_ << ".  Look at the force there, or allow a smaller step";
-  else
-    message << "the motion is no longer finite";
-  throw ConvergenceFailure(message.str());
 }
 
 void BdfControlled::interpolate_part(double t, Eigen::Index value, Eigen::Index slope, Eigen::VectorXd &x,

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/backward_differences.h"
 #include "coupling/integration/bdf_order_limit.h"
+#include "coupling/integration/consistent_start.h"
 #include "coupling/integration/error_scale.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
@@ -74,6 +75,8 @@ public:
   double step() const { return step_of(rung_); }
 
 private:
+  BdfControlled(const SecondOrderSystem &system, const Options &options, const std::vector<SpectrumLine> &spectrum);
+
   /// What happened to a step that was tried.
   struct Trial
   {
@@ -86,6 +89,7 @@ private:
   void               point(const Eigen::VectorXd &z, double t, LocalState &state) const;
   void               present(const Eigen::VectorXd &z, double t);
   void               load(double t);
+  void               forces_of_held();
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
   void               multistep();
   void               start();
@@ -100,32 +104,34 @@ private:
   void               interpolate_part(double t, Eigen::Index value, Eigen::Index slope, Eigen::VectorXd &x,
                                       Eigen::VectorXd &rate) const;
 
-  const SecondOrderSystem &system_;
-  Options                  options_;
-  ErrorScale               scale_;
-  BdfOrderLimit            limit_;
-  ImplicitStep             implicit_;
-  IntegrationWork          work_;
-  Eigen::Index             n_, n_u_; ///< z = (q, q', u, u', u'', p) [2 n + 4 n_u]
-  BackwardDifferences      differences_;
-  int                      order_ = 1, rung_ = 0;
-  int                      wanted_order_ = 1, wanted_rung_ = 0; ///< from the next step on
-  int                      since_change_ = 0;                   ///< steps of this length and order
-  int                      barred_       = 0;                   ///< steps for which orders above 2 are not used
-  bool                     fresh_        = true;                ///< the past is forgotten
-  bool                     started_      = false;               ///< the last step was a start
-  bool                     cut_          = false;
-  double                   anchor_       = 0.; ///< t_n = anchor + steps * h
-  long                     steps_        = 0;
-  double                   t_begin_ = 0., t_end_ = 0.; ///< of the last step
-  Eigen::VectorXd          z_begin_, z_cut_, z_, predicted_, difference_, history_;
-  Eigen::VectorXd          chain_[2], middle_[3], end_[3];
-  std::string              reason_; ///< of Newton's last failure
-  LocalState               local_, base_;
-  mutable Instant          now_;
-  mutable bool             now_known_  = false;
-  bool                     load_known_ = false;
-  Eigen::VectorXd          f_t_, f_, h_q_, h_v_, x_, product_;
+  const SecondOrderSystem         &system_;
+  Options                          options_;
+  ErrorScale                       scale_;
+  BdfOrderLimit                    limit_;
+  ImplicitStep                     implicit_;
+  std::unique_ptr<ConsistentStart> consistent_;       ///< once a measure is held
+  bool                             massless_ = false; ///< M is singular: no consistent start
+  IntegrationWork                  work_;
+  Eigen::Index                     n_, n_u_; ///< z = (q, q', u, u', u'', p) [2 n + 4 n_u]
+  BackwardDifferences              differences_;
+  int                              order_ = 1, rung_ = 0;
+  int                              wanted_order_ = 1, wanted_rung_ = 0; ///< from the next step on
+  int                              since_change_ = 0;                   ///< steps of this length and order
+  int                              barred_       = 0;                   ///< steps for which orders above 2 are not used
+  bool                             fresh_        = true;                ///< the past is forgotten
+  bool                             started_      = false;               ///< the last step was a start
+  bool                             cut_          = false;
+  double                           anchor_       = 0.; ///< t_n = anchor + steps * h
+  long                             steps_        = 0;
+  double                           t_begin_ = 0., t_end_ = 0.; ///< of the last step
+  Eigen::VectorXd                  z_begin_, z_cut_, z_, predicted_, difference_, history_;
+  Eigen::VectorXd                  chain_[2], middle_[3], end_[3];
+  std::string                      reason_; ///< of Newton's last failure
+  LocalState                       local_, base_;
+  mutable Instant                  now_;
+  mutable bool                     now_known_  = false;
+  bool                             load_known_ = false;
+  Eigen::VectorXd                  f_t_, f_, h_q_, h_v_, x_, product_;
 };
 
 } // namespace gestell::coupling

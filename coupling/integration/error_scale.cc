@@ -18,6 +18,12 @@ constexpr double rigid         = 1e-7;  ///< modes below this part of the highes
 constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
 constexpr int    probes        = 64;
 
+void enlarge(Eigen::VectorXd &largest, const Eigen::VectorXd &before, Eigen::Index i, double value)
+{
+  largest[i] = std::max(before[i], value);
+}
+} // namespace
+
 double slowest_elastic(const std::vector<SpectrumLine> &spectrum)
 {
   double highest = 0., lowest = std::numeric_limits<double>::infinity();
@@ -29,14 +35,8 @@ double slowest_elastic(const std::vector<SpectrumLine> &spectrum)
   return lowest;
 }
 
-void enlarge(Eigen::VectorXd &largest, const Eigen::VectorXd &before, Eigen::Index i, double value)
-{
-  largest[i] = std::max(before[i], value);
-}
-} // namespace
-
-ErrorScale::ErrorScale(const SecondOrderSystem &system, double tolerance)
-    : system_(system), tolerance_(tolerance), omega_1_(slowest_elastic(system.spectrum()))
+ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<SpectrumLine> &spectrum, double tolerance)
+    : system_(system), tolerance_(tolerance), omega_1_(slowest_elastic(spectrum))
 {
   find_masses();
   find_groups();

@@ -41,8 +41,9 @@ public:
     Vector q, v, u, u_rate;
   };
 
+  /// @param spectrum   of the system: its slowest elastic mode
   /// @param tolerance  with which errors are compared, > 0
-  ErrorScale(const SecondOrderSystem &system, double tolerance);
+  ErrorScale(const SecondOrderSystem &system, const std::vector<SpectrumLine> &spectrum, double tolerance);
 
   /// The motion begins here.
   void begin(const Motion &at);
@@ -59,8 +60,6 @@ public:
   /// Coordinate with the largest part in the error e, for messages: "q3", or "the force on q3".
   std::string worst(const Motion &e) const;
 
-  /// Frequency [rad/s] of the slowest elastic mode of the base system; infinite if it has none.
-  double slowest() const { return omega_1_; }
   /// n [1] of coordinates without mass; their errors count through measures and neighbours alone.
   int massless() const { return massless_; }
 
@@ -95,5 +94,8 @@ private:
   Eigen::VectorXd             inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
   mutable std::vector<double> sums_, sums_v_;                                    // [groups]
 };
+
+/// Frequency [rad/s] of the slowest elastic mode of a spectrum; infinite if there is none.
+double slowest_elastic(const std::vector<SpectrumLine> &spectrum);
 
 } // namespace gestell::coupling
