@@ -1,7 +1,9 @@
 #include "coupling/integration/method.h"
 
 #include "coupling/integration/bdf.h"
+#include "coupling/integration/exact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -113,6 +115,20 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
     options.max_halvings = o.max_halvings;
     options.newton       = o.newton;
     return std::make_unique<Bdf>(system, options);
+  }
+  case Method::exact:
+  {
+    Exact::Options options;
+    options.force     = o.force;
+    options.order     = o.order;
+    options.step      = o.step;
+    options.tolerance = o.tolerance;
+    options.newton    = o.newton;
+    if (o.tolerance > 0.)
+      options.newton.tolerance = std::clamp(1e-3 * o.tolerance, 1e-13, o.newton.tolerance);
+    else
+      options.max_halvings = o.max_halvings;
+    return std::make_unique<Exact>(system, options);
   }
   default:
     throw std::invalid_argument(method_name(o) + " is not available yet");

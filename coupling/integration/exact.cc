@@ -1,0 +1,320 @@
+#include "coupling/integration/exact.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the grid is joined with the next step
+constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
+
+/// A step to begin with: an eighth of the longest period of the base system.
+double natural_step(const ModalBlocks &modes)
+{
+  double slowest = 0.;
+  for (int b = 0; b < modes.n_modal; ++b)
+    if (modes.blocks[b].kind == ModalBlock::oscillating && (slowest == 0. || modes.blocks[b].w < slowest))
+      slowest = modes.blocks[b].w;
+  return slowest > 0. ? 0.125 * 6.283185307179586 / slowest : 1e-2;
+}
+} // namespace
+
+Exact::Exact(const SecondOrderSystem &system, const Options &options)
+    : system_(system), options_(options), modes_(modal_blocks(system))
+{
+  context_.system   = &system;
+  context_.measures = ModalMeasures(modes_, system);
+  context_.newton   = options.newton;
+  const auto n_u    = system.directions().cols();
+  context_.u_begin.setZero(n_u);
+  context_.scale.setZero(n_u);
+  force_ = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)
+                                                   : make_fused_step(context_, options.force);
+  Q_     = reordered(modes_.Q, context_.measures.n_p);
+  V_     = reordered(modes_.V, context_.measures.n_p);
+  accelerate_.noalias() = context_.measures.read_v.transpose() * context_.measures.put;
+  step_                 = options.step > 0. ? options.step : natural_step(modes_);
+  local_.resize(n_u);
+  local_begin_.resize(n_u);
+  for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
+    x->setZero(2 * context_.measures.n_p);
+  forces_.setZero(force_->basis().size() * n_u);
+  now_.local.resize(n_u);
+}
+
+void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  x_            = reordered(modes_.state(t, q, v).transpose(), context_.measures.n_p).transpose();
+  local_.t      = t;
+  local_.u.noalias() = system_.directions().transpose() * q;
+  local_.v.noalias() = system_.directions().transpose() * v;
+  local_.p.setZero();
+  context_.u_begin = local_.u;
+  context_.scale.setZero();
+  t_origin_ = t;
+  tick_     = 0;
+  on_grid_  = true;
+  rung_     = 0;
+  start_piece();
+}
+
+/// Harmonics of the load as they are at local_.t, in x_: what rounding did to them goes.
+void Exact::turn_harmonics()
+{
+  for (std::size_t j = 0; j < modes_.harmonics.size(); ++j)
+  {
+    const auto b                  = modes_.n_modal + Eigen::Index(j);
+    x_[b]                         = std::cos(modes_.harmonics[j] * local_.t);
+    x_[context_.measures.n_p + b] = std::sin(modes_.harmonics[j] * local_.t);
+  }
+}
+
+/// Forces and acceleration at x_; the first step from here knows no past.
+void Exact::start_piece()
+{
+  t_begin_ = t_full_ = local_.t;
+  stepped_ = cut_ = false;
+  now_known_      = false;
+  system_.local_force(local_, local_.p);
+  // u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p;  a held measure has u'' = 0 and p to be found.
+  const ModalMeasures &m = context_.measures;
+  for (int b = 0; b < m.n_p; ++b)
+  {
+    const ModalBlock &block = m.blocks[b];
+    const double      x_1 = x_[b], x_2 = x_[m.n_p + b];
+    double           &y_1 = x_work_[b], &y_2 = x_work_[m.n_p + b];
+    switch (block.kind)
+    {
+    case ModalBlock::oscillating:
+      y_1 = block.s * x_1 - block.w * x_2;
+      y_2 = block.w * x_1 + block.s * x_2;
+      break;
+    case ModalBlock::decaying:
+      y_1 = block.s * x_1;
+      y_2 = block.w * x_2;
+      break;
+    case ModalBlock::free:
+      y_1 = x_2;
+      y_2 = 0.;
+      break;
+    }
+  }
+  x_work_ += m.constant;
+  local_.a.noalias() = m.read_v.transpose() * x_work_;
+  const auto &held   = system_.held();
+  if (!held.empty())
+  {
+    const int       n = int(held.size());
+    Eigen::MatrixXd D(n, n);
+    Eigen::VectorXd rest(n);
+    for (const HeldMeasure &h : held)
+      local_.p[h.measure] = 0.;
+    for (int i = 0; i < n; ++i)
+    {
+      rest[i] = -local_.a[held[i].measure] - accelerate_.row(held[i].measure).dot(local_.p);
+      for (int j = 0; j < n; ++j)
+        D(i, j) = accelerate_(held[i].measure, held[j].measure);
+    }
+    const Eigen::VectorXd p = D.fullPivLu().solve(rest);
+    for (int i = 0; i < n; ++i)
+      local_.p[held[i].measure] = p[i];
+  }
+  local_.a.noalias() += accelerate_ * local_.p;
+  force_->begin(x_, local_);
+  local_begin_ = local_;
+}
+
+Exact::Target Exact::next_target() const
+{
+  Target target;
+  int    rung = rung_;
+  if (on_grid_)
+  {
+    while (tick_ % (int64_t(1) << (finest - rung)) != 0)
+      ++rung;
+    target.on_grid = true;
+    target.tick    = tick_ + (int64_t(1) << (finest - rung));
+    target.h       = spacing(rung);
+  }
+  else
+  {
+    const int64_t unit = int64_t(1) << (finest - rung);
+    target.tick        = (int64_t(std::floor((local_begin_.t - t_origin_) / spacing(rung))) + 1) * unit;
+    const auto time_of = [&](int64_t tick) { return t_origin_ + double(tick) * std::ldexp(step_, -finest); };
+    if (time_of(target.tick) - local_begin_.t < shortest_partial * spacing(rung))
+      target.tick += unit;
+    target.h = time_of(target.tick) - local_begin_.t;
+  }
+  target.t    = t_origin_ + double(target.tick) * std::ldexp(step_, -finest);
+  target.rung = rung;
+  return target;
+}
+
+const StepTable &Exact::table_for(const Target &target)
+{
+  if (target.on_grid)
+  {
+    StepTable &table = tables_[target.rung];
+    if (table.h != target.h)
+    {
+      table.fill(context_.measures, force_->basis(), target.h);
+      ++context_.work.factorisations;
+    }
+    return table;
+  }
+  if (partial_.h != target.h)
+  {
+    partial_.fill(context_.measures, force_->basis(), target.h);
+    ++context_.work.factorisations;
+  }
+  return partial_;
+}
+
+bool Exact::attempt(const Target &target)
+{
+  ++context_.work.solves;
+  return force_->solve(table_for(target), local_);
+}
+
+void Exact::advance()
+{
+  if (cut_)
+    restart();
+  if (stepped_)
+  {
+    force_->accept();
+    tick_        = target_.tick;
+    on_grid_     = true;
+    local_begin_ = local_;
+    t_begin_     = local_.t;
+    stepped_     = false;
+  }
+  now_known_ = false;
+  for (;;)
+  {
+    const Target target = next_target();
+    const bool   solved = attempt(target);
+    const double error  = solved && options_.tolerance > 0. ? force_->error() / options_.tolerance : 0.;
+    if (solved && error <= 1.)
+    {
+      target_  = target;
+      local_.t = t_full_ = target.t;
+      stepped_           = true;
+      ++context_.work.steps;
+      const double grown = error * std::ldexp(1., force_->error_order());
+      if (rung_ > 0 && grown < safety)
+        --rung_;
+      return;
+    }
+    ++context_.work.rejected;
+    if (rung_ >= options_.max_halvings || rung_ + 1 >= finest)
+    {
+      local_ = local_begin_;
+      fail(solved ? "the local error stays above the tolerance" : "Newton's method did not converge");
+    }
+    rung_ = std::max(rung_, target.rung) + 1;
+  }
+}
+
+void Exact::cut(double t)
+{
+  now_known_ = false;
+  cut_       = true;
+  if (!(t > t_begin_))
+  {
+    local_ = local_begin_;
+    return;
+  }
+  Target target;
+  target.h = t - t_begin_;
+  if (!attempt(target))
+  {
+    local_ = local_begin_;
+    fail("Newton's method did not converge in the step to an event");
+  }
+  local_.t = t;
+}
+
+void Exact::restart()
+{
+  if (cut_ && local_.t > t_begin_)
+    force_->end_state(x_);
+  else if (cut_ || !stepped_)
+    force_->begin_state(x_);
+  else
+    force_->end_state(x_);
+  if (cut_)
+    on_grid_ = on_grid_ && local_.t == t_begin_;
+  else if (stepped_)
+  {
+    tick_    = target_.tick;
+    on_grid_ = true;
+  }
+  turn_harmonics();
+  start_piece();
+}
+
+const Instant &Exact::instant() const
+{
+  if (!now_known_)
+  {
+    if (!stepped_ || (cut_ && !(local_.t > t_begin_)))
+      force_->begin_state(x_work_);
+    else
+      force_->end_state(x_work_);
+    now_.t           = local_.t;
+    now_.q.noalias() = Q_ * x_work_;
+    now_.v.noalias() = V_ * x_work_;
+    now_.local       = local_;
+    now_known_       = true;
+  }
+  return now_;
+}
+
+void Exact::interpolate(double t, LocalState &state) const
+{
+  const double h = local_.t - t_begin_;
+  if (!(h > 0.))
+  {
+    state   = local_;
+    state.t = t;
+    return;
+  }
+  force_->interpolate((t - t_begin_) / h, state);
+  state.t = t;
+}
+
+void Exact::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+{
+  const double h = local_.t - t_begin_;
+  if (t >= local_.t || !(h > 0.))
+  {
+    q = instant().q;
+    v = instant().v;
+    return;
+  }
+  force_->begin_state(x_inside_);
+  if (t > t_begin_)
+  {
+    force_->forces(forces_);
+    carry_inside(context_.measures, force_->basis(), t - t_begin_, h, forces_, x_inside_);
+  }
+  q.noalias() = Q_ * x_inside_;
+  v.noalias() = V_ * x_inside_;
+}
+
+void Exact::fail(const std::string &reason) const
+{
+  std::ostringstream message;
+  message << reason << " at t = " << local_begin_.t << " s; the step was halved to " << spacing(rung_)
+          << " s; take a smaller step, locate events, or loosen the tolerance if it lies near rounding";
+  throw ConvergenceFailure(message.str());
+}
+
+} // namespace gestell::coupling

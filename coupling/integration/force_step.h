@@ -1,0 +1,73 @@
+#pragma once
+
+#include "coupling/integration/exact_tables.h"
+#include "coupling/integration/method.h"
+#include "coupling/integration/small_lu.h"
+
+#include <memory>
+
+namespace gestell::coupling
+{
+
+/// What the steps of exact propagation share: the system, its measures in modes, scales and counts.
+struct ExactContext
+{
+  const SecondOrderSystem *system = nullptr;
+  ModalMeasures            measures;
+  NewtonOptions            newton;
+  Eigen::VectorXd          u_begin, scale; ///< [n_u] largest excursion of every measure so far
+  IntegrationWork          work;
+
+  /// Counts an excursion; floors: the way of one step, and what rounding in u leaves.
+  void grow_scale(const Eigen::VectorXd &u, const Eigen::VectorXd &v, double h);
+};
+
+/**
+ * One step of exact propagation: x(t_k + h) and the forces over the step, which are unknown.
+ *
+ *     begin(x, local)      a piece starts at x with the motion and forces of `local`
+ *     solve(table, end)    tries a step from there; may be asked again with another table
+ *     accept()             the end of the step tried last is where the next one starts
+ */
+class ForceStep
+{
+public:
+  virtual ~ForceStep() = default;
+
+  virtual const ForceBasis &basis() const                                         = 0;
+  virtual void              begin(const Eigen::VectorXd &x, const LocalState &at) = 0;
+  /// u, v, p at the end of the step; false: Newton did not converge.
+  virtual bool solve(const StepTable &table, LocalState &end) = 0;
+  virtual void accept()                                       = 0;
+  virtual void begin_state(Eigen::VectorXd &x) const          = 0;
+  virtual void end_state(Eigen::VectorXd &x) const            = 0;
+  /// Largest local error of a measure in the step solved last, relative to its scale.
+  virtual double error() const { return 0.; }
+  /// Order of error() in h.
+  virtual int error_order() const { return 1; }
+  /// u, v, p inside the step solved last, sigma in [0, 1].
+  virtual void interpolate(double sigma, LocalState &state) const = 0;
+  /// p_j of the basis in the step solved last [n_basis n_u].
+  virtual void forces(Eigen::VectorXd &p) const = 0;
+};
+
+std::unique_ptr<ForceStep> make_collocation_step(ExactContext &context, int stages);
+/// Linear force or step-averaged force.
+std::unique_ptr<ForceStep> make_fused_step(ExactContext &context, ForceRule rule);
+
+/// Hermite's interpolation of u, v through nodes sigma_i of a step, at which both are known.
+class HermiteNodes
+{
+public:
+  explicit HermiteNodes(std::vector<double> sigma = {});
+  /// Weights of values and slopes (in sigma) for the value and its slope at sigma; each [n nodes].
+  void weights(double sigma, double *value, double *slope, double *rate_value, double *rate_slope) const;
+  int  size() const { return static_cast<int>(sigma_.size()); }
+
+  static constexpr int max_nodes = 8;
+
+private:
+  std::vector<double> sigma_, inverse_, own_slope_; ///< 1/prod (sigma_i - sigma_j), L_i'(sigma_i)
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// LU factors of a few unknowns with partial pivoting; nothing allocates after resize().  Zeros below the pivot, as rows
+/// of idle elements have, are skipped.
+class SmallLu
+{
+public:
+  void resize(int n)
+  {
+    a_.setZero(n, n);
+    pivot_.assign(n, 0);
+  }
+  /// To be filled, then factorised.
+  Eigen::MatrixXd &matrix() { return a_; }
+
+  /// False: singular.
+  bool factorise()
+  {
+    const int n = static_cast<int>(pivot_.size());
+    for (int k = 0; k < n; ++k)
+    {
+      int pivot = k;
+      for (int i = k + 1; i < n; ++i)
+        if (std::abs(a_(i, k)) > std::abs(a_(pivot, k)))
+          pivot = i;
+      pivot_[k] = pivot;
+      if (!(std::abs(a_(pivot, k)) > 0.) || !std::isfinite(a_(pivot, k)))
+        return false;
+      if (pivot != k)
+        for (int j = 0; j < n; ++j)
+          std::swap(a_(k, j), a_(pivot, j));
+      a_(k, k) = 1. / a_(k, k);
+      for (int i = k + 1; i < n; ++i)
+        a_(i, k) *= a_(k, k);
+      for (int j = k + 1; j < n; ++j)
+        if (const double factor = a_(k, j); factor != 0.)
+          for (int i = k + 1; i < n; ++i)
+            a_(i, j) -= a_(i, k) * factor;
+    }
+    return true;
+  }
+
+  void solve_in_place(Eigen::VectorXd &x) const
+  {
+    const int n = static_cast<int>(pivot_.size());
+    for (int k = 0; k < n; ++k)
+      std::swap(x[k], x[pivot_[k]]);
+    for (int k = 0; k < n; ++k)
+      for (int i = k + 1; i < n; ++i)
+        x[i] -= a_(i, k) * x[k];
+    for (int k = n - 1; k >= 0; --k)
+    {
+      x[k] *= a_(k, k);
+      for (int i = 0; i < k; ++i)
+        x[i] -= a_(i, k) * x[k];
+    }
+  }
+
+private:
+  Eigen::MatrixXd  a_;
+  std::vector<int> pivot_;
+};
+
+} // namespace gestell::coupling
