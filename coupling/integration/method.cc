@@ -2,6 +2,8 @@
 
 #include "coupling/integration/bdf.h"
 #include "coupling/integration/exact.h"
+#include "coupling/integration/newmark.h"
+#include "coupling/integration/wilson.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,8 +132,30 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
       options.max_halvings = o.max_halvings;
     return std::make_unique<Exact>(system, options);
   }
+  case Method::wilson:
+  {
+    Wilson::Options options;
+    options.theta        = o.theta;
+    options.step         = o.step;
+    options.max_halvings = o.max_halvings;
+    options.newton       = o.newton;
+    return std::make_unique<Wilson>(system, options);
+  }
   default:
-    throw std::invalid_argument(method_name(o) + " is not available yet");
+  {
+    Newmark::Options options = o.method == Method::hht                 ? Newmark::hht(o.alpha)
+                               : o.method == Method::generalised_alpha ? Newmark::generalised_alpha(o.rho_inf)
+                                                                       : Newmark::central_difference();
+    if (o.method == Method::newmark)
+    {
+      options.beta  = o.beta;
+      options.gamma = o.gamma;
+    }
+    options.step         = o.step;
+    options.max_halvings = o.max_halvings;
+    options.newton       = o.newton;
+    return std::make_unique<Newmark>(system, options);
+  }
   }
 }
 
