@@ -1,0 +1,265 @@
+#include "apps/peers/first_order_form.h"
+
+#include <cmath>
+
+namespace gestell::peers
+{
+namespace
+{
+
+/// Columns A^-1 W and S = W^T A^-1 W.
+void condense(const coupling::LinearSolver &solver, const Eigen::SparseMatrix<double> &W, Eigen::VectorXd &column,
+              Eigen::VectorXd &solution, Eigen::MatrixXd &Y, Eigen::MatrixXd &S)
+{
+  for (Eigen::Index j = 0; j < W.cols(); ++j)
+  {
+    column.setZero();
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(W, j); entry; ++entry)
+      column[entry.row()] = entry.value();
+    solver.solve(column, solution);
+    Y.col(j) = solution;
+  }
+  S.noalias() = W.transpose() * Y;
+}
+
+} // namespace
+
+FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
+    : system_(system), n_(system.size()), n_u_(int(system.directions().cols())), mass_(system.factorise(1., 0., 0.)),
+      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_), small_(n_u_, n_u_),
+      dp_du_(Matrix::Zero(n_u_, n_u_)), dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_),
+      v_(n_), f_(n_), a_(n_), product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
+{
+  if (system.n_constraints() > 0)
+    throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
+                                " constraints; they are compared without joints only.");
+  local_.resize(n_u_);
+  condense(*mass_, system_.directions(), column_, a_, Y_M_, S_M_);
+}
+
+void FirstOrderForm::local_state(double t, const double *y, coupling::LocalState &local)
+{
+  if (system_.held().empty())
+  {
+    const auto &W     = system_.directions();
+    local.t           = t;
+    local.u.noalias() = W.transpose() * Eigen::Map<const Vector>(y, n_);
+    local.v.noalias() = W.transpose() * Eigen::Map<const Vector>(y + n_, n_);
+    system_.local_force(local, local.p);
+    return;
+  }
+  load(t, y);
+  local = local_;
+}
+
+/// f_ = f_t + W p - B v - C q; local_ is the motion of the measures with their forces.
+void FirstOrderForm::load(double t, const double *y)
+{
+  const auto &W      = system_.directions();
+  q_                 = Eigen::Map<const Vector>(y, n_);
+  v_                 = Eigen::Map<const Vector>(y + n_, n_);
+  local_.t           = t;
+  local_.u.noalias() = W.transpose() * q_;
+  local_.v.noalias() = W.transpose() * v_;
+  system_.local_force(local_, local_.p);
+  for (const coupling::HeldMeasure &held : system_.held())
+    local_.p[held.measure] = 0.;
+
+  system_.excitation().at(t, f_);
+  f_.noalias() += W * local_.p;
+  system_.damping_times(v_, product_);
+  f_ -= product_;
+  system_.stiffness_times(q_, product_);
+  f_ -= product_;
+  if (!system_.held().empty())
+    add_held_forces();
+}
+
+void FirstOrderForm::add_held_forces()
+{
+  const auto        &held = system_.held();
+  const auto        &W    = system_.directions();
+  const Eigen::Index n_h  = Eigen::Index(held.size());
+  Matrix             S(n_h, n_h);
+  Vector             free(n_h);
+  mass_->solve(f_, a_);
+  for (Eigen::Index i = 0; i < n_h; ++i)
+  {
+    free[i] = W.col(held[i].measure).dot(a_);
+    for (Eigen::Index j = 0; j < n_h; ++j)
+      S(i, j) = S_M_(held[i].measure, held[j].measure);
+  }
+  const Vector force = S.partialPivLu().solve(-free);
+  for (Eigen::Index i = 0; i < n_h; ++i)
+  {
+    local_.p[held[i].measure] = force[i];
+    f_ += force[i] * W.col(held[i].measure);
+  }
+}
+
+void FirstOrderForm::rate(double t, const double *y, double *y_rate)
+{
+  ++work_.evaluations;
+  load(t, y);
+  mass_->solve(f_, a_);
+  Eigen::Map<Vector>(y_rate, n_)      = v_;
+  Eigen::Map<Vector>(y_rate + n_, n_) = a_;
+}
+
+void FirstOrderForm::residual(double t, const double *y, const double *y_rate, double *r)
+{
+  ++work_.evaluations;
+  load(t, y);
+  Eigen::Map<Vector>(r, n_) = Eigen::Map<const Vector>(y_rate, n_) - v_;
+  a_                        = Eigen::Map<const Vector>(y_rate + n_, n_);
+  system_.mass_times(a_, product_);
+  Eigen::Map<Vector>(r + n_, n_) = product_ - f_;
+}
+
+void FirstOrderForm::linearise(double t, const double *y)
+{
+  const auto &W      = system_.directions();
+  local_.t           = t;
+  local_.u.noalias() = W.transpose() * Eigen::Map<const Vector>(y, n_);
+  local_.v.noalias() = W.transpose() * Eigen::Map<const Vector>(y + n_, n_);
+  system_.local_derivatives(local_, local_.p, dp_du_, dp_dv_);
+  for (const coupling::HeldMeasure &held : system_.held())
+  {
+    dp_du_.row(held.measure).setZero();
+    dp_dv_.row(held.measure).setZero();
+  }
+}
+
+/// Woodbury in the measures: with A_0 = M + gamma B + gamma^2 C, Y = A_0^-1 W, S = W^T Y and D the tangent,
+///     x = x_0 + Y z,   (I - D S) z = D W^T x_0;   a held measure has  (S z)_h = given - (W^T x_0)_h  instead.
+bool FirstOrderForm::factorise(double gamma)
+{
+  ++work_.factorisations;
+  if (gamma != gamma_)
+  {
+    shifted_ = system_.factorise(1., gamma, gamma * gamma);
+    condense(*shifted_, system_.directions(), column_, a_, Y_, S_);
+    work_.solves += n_u_;
+    gamma_ = gamma;
+  }
+  tangent_         = gamma * dp_dv_ + (gamma * gamma) * dp_du_;
+  small_.noalias() = -tangent_ * S_;
+  small_.diagonal().array() += 1.;
+  for (const coupling::HeldMeasure &held : system_.held())
+    small_.row(held.measure) = S_.row(held.measure);
+  if (n_u_ > 0)
+    small_lu_.compute(small_);
+  return small_.allFinite();
+}
+
+/// f_ := A^-1 f_, with W_h^T f_ = held_rate_ afterwards where measures are held.
+void FirstOrderForm::solve_velocity()
+{
+  ++work_.solves;
+  shifted_->solve(f_, a_);
+  if (n_u_ > 0)
+  {
+    xi_.noalias() = system_.directions().transpose() * a_;
+    z_.noalias()  = tangent_ * xi_;
+    for (const coupling::HeldMeasure &held : system_.held())
+      z_[held.measure] = held_rate_[held.measure] - xi_[held.measure];
+    z_ = small_lu_.solve(z_);
+    a_.noalias() += Y_ * z_;
+  }
+  f_ = a_;
+}
+
+/// dq - gamma dv = b1,   A dv = M b2 - gamma (C - W dp/du W^T) b1.
+void FirstOrderForm::solve_rate_form(double *b)
+{
+  Eigen::Map<Vector> b1(b, n_), b2(b + n_, n_);
+  const auto        &W = system_.directions();
+  q_                   = b1;
+  v_                   = b2;
+  system_.mass_times(v_, f_);
+  system_.stiffness_times(q_, product_);
+  f_ -= gamma_ * product_;
+  xi_.noalias() = W.transpose() * q_;
+  z_.noalias()  = gamma_ * dp_du_ * xi_;
+  f_.noalias() += W * z_;
+  held_rate_.noalias() = W.transpose() * v_;
+  solve_velocity();
+  b1 += gamma_ * f_;
+  b2 = f_;
+}
+
+/// dq/gamma - dv = b1,   A dv = gamma (b2 - gamma (C - W dp/du W^T) b1),   dq = gamma (b1 + dv).
+void FirstOrderForm::solve_residual_form(double *b)
+{
+  Eigen::Map<Vector> b1(b, n_), b2(b + n_, n_);
+  const auto        &W = system_.directions();
+  q_                   = b1;
+  f_                   = gamma_ * b2;
+  if (!system_.held().empty())
+  {
+    mass_->solve(f_, a_);
+    held_rate_.noalias() = W.transpose() * a_;
+  }
+  system_.stiffness_times(q_, product_);
+  f_ -= gamma_ * gamma_ * product_;
+  xi_.noalias() = W.transpose() * q_;
+  z_.noalias()  = gamma_ * gamma_ * dp_du_ * xi_;
+  f_.noalias() += W * z_;
+  solve_velocity();
+  b1 = gamma_ * (b1 + f_);
+  b2 = f_;
+}
+
+void FirstOrderForm::know_dense()
+{
+  if (dense_known_)
+    return;
+  if (!system_.dense_matrices(M_, B_, C_))
+    throw std::invalid_argument("peers: the system is too large for dense matrices; take the condensed solver.");
+  const auto lu = M_.partialPivLu();
+  M_inv_B_      = lu.solve(B_);
+  M_inv_C_      = lu.solve(C_);
+  dense_known_  = true;
+}
+
+void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
+{
+  know_dense();
+  const auto &W = system_.directions();
+  J.topLeftCorner(n_, n_).setZero();
+  J.topRightCorner(n_, n_).setIdentity();
+  J.bottomLeftCorner(n_, n_)  = -M_inv_C_;
+  J.bottomRightCorner(n_, n_) = -M_inv_B_;
+  J.bottomLeftCorner(n_, n_) += Matrix(Y_M_ * dp_du_) * W.transpose();
+  J.bottomRightCorner(n_, n_) += Matrix(Y_M_ * dp_dv_) * W.transpose();
+  // Held measures: J - M^-1 W_h (W_h^T M^-1 W_h)^-1 W_h^T J.
+  const auto        &held = system_.held();
+  const Eigen::Index n_h  = Eigen::Index(held.size());
+  if (n_h == 0)
+    return;
+  Matrix S(n_h, n_h), free(n_h, 2 * n_), Y(n_, n_h);
+  for (Eigen::Index i = 0; i < n_h; ++i)
+  {
+    Y.col(i)    = Y_M_.col(held[i].measure);
+    free.row(i) = Vector(W.col(held[i].measure)).transpose() * J.bottomRows(n_);
+    for (Eigen::Index j = 0; j < n_h; ++j)
+      S(i, j) = S_M_(held[i].measure, held[j].measure);
+  }
+  J.bottomRows(n_) -= Y * S.partialPivLu().solve(free);
+}
+
+void FirstOrderForm::residual_jacobian(double gamma, Eigen::Ref<Matrix> J)
+{
+  know_dense();
+  if (!system_.held().empty())
+    throw coupling::ConvergenceFailure("IDA with a dense Jacobian does not treat measures that are held");
+  const auto &W               = system_.directions();
+  J.topLeftCorner(n_, n_)     = Matrix::Identity(n_, n_) / gamma;
+  J.topRightCorner(n_, n_)    = -Matrix::Identity(n_, n_);
+  J.bottomLeftCorner(n_, n_)  = C_;
+  J.bottomRightCorner(n_, n_) = M_ / gamma + B_;
+  J.bottomLeftCorner(n_, n_) -= Matrix(W * dp_du_) * W.transpose();
+  J.bottomRightCorner(n_, n_) -= Matrix(W * dp_dv_) * W.transpose();
+}
+
+} // namespace gestell::peers

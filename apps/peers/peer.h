@@ -1,0 +1,86 @@
+#pragma once
+
+#include "coupling/integration/second_order_system.h"
+#include "coupling/integration/time_integrator.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::peers
+{
+
+/// General-purpose integrators the methods of this program are compared with.
+enum class PeerKind
+{
+  cvode_bdf,   ///< CVODE, BDF with variable step and order 1..5
+  cvode_adams, ///< CVODE, Adams-Moulton with variable step and order 1..12, its equation solved by Newton too
+  ida,         ///< IDA, BDF of order 1..5 on M v' + B v + C q = f + W p, no mass matrix inverted in its equation
+  explicit_rk  ///< ARKODE, explicit embedded Runge-Kutta: order 5 (Dormand-Prince) or 8 (Fehlberg 7-8)
+};
+
+/// How the linear equations of Newton's iteration are solved.
+enum class PeerSolver
+{
+  condensed, ///< with SecondOrderSystem::factorise(1, gamma, gamma^2) and the local tangent as update of low rank
+  dense      ///< the library's own LU of the analytic Jacobian [2 n x 2 n]
+};
+
+/// Where the comparison begins, and the sizes coordinates have in it.
+struct PeerProblem
+{
+  double              t = 0.;
+  Eigen::VectorXd     q, v;             ///< [n] at t
+  Eigen::VectorXd     q_scale, v_scale; ///< [n] > 0: absolute tolerance = relative tolerance * scale
+  std::vector<double> samples;          ///< ascending, >= t: instants of which q, v are wanted
+};
+
+struct PeerOptions
+{
+  PeerKind   kind      = PeerKind::cvode_bdf;
+  int        order     = 5; ///< the highest used; explicit_rk: 5 or 8
+  PeerSolver solver    = PeerSolver::condensed;
+  double     tolerance = 1e-4;  ///< relative: error weights are tolerance (|y_i| + scale_i)
+  bool       events    = false; ///< located by the library's root finding, which is restarted there; else passed over
+  double     cpu_limit = 60.;   ///< [s]; longer runs are given up
+};
+
+/// The motion at one instant, with the history of the elements that forces at it depend on.
+struct MotionSample
+{
+  double          t;
+  Eigen::VectorXd q, v, history;
+};
+
+struct PeerResult
+{
+  std::vector<MotionSample> samples; ///< as far as it came
+  coupling::IntegrationWork work;    ///< evaluations: of the right-hand side or the residual
+  long                      events = 0;
+  double                    cpu_s  = 0.; ///< of the stepping thread, from the library's set-up to the last sample
+  std::string               failure;     ///< not empty: why it stopped early
+};
+
+/// "CVODE BDF 5, condensed", "IDA 5, dense", "ARKODE explicit 8"
+std::string peer_name(const PeerOptions &options);
+
+/// False if this build has no SUNDIALS; run_peer() then throws std::invalid_argument.
+bool peers_available();
+
+/// The version of the library, "SUNDIALS 6.4.1"; empty without it.
+std::string peer_version();
+
+/**
+ * Integrates a system by a general-purpose library in the first order form y = (q, v), v = q':
+ *
+ *     q' = v,     M v' = f_t + W p - B v - C q          (M regular)
+ *
+ * A measure that is held has u'' = 0, and its force is what that takes.
+ *
+ * @throws std::invalid_argument for options outside their range, sizes that do not fit or a singular M
+ */
+PeerResult run_peer(coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options);
+
+/// CPU time of the calling thread [s].
+double thread_seconds();
+
+} // namespace gestell::peers

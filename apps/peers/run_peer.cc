@@ -1,0 +1,243 @@
+#include "apps/peers/peer.h"
+#include "apps/peers/stepper.h"
+#include "coupling/integration/event_detection.h"
+
+#include <algorithm>
+
+namespace gestell::peers
+{
+namespace
+{
+
+using coupling::GuardCrossing;
+
+void require(bool condition, const std::string &message)
+{
+  if (!condition)
+    throw std::invalid_argument("peers: " + message);
+}
+
+void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
+{
+  const int n = system.size();
+  for (const Eigen::VectorXd *x : {&problem.q, &problem.v, &problem.q_scale, &problem.v_scale})
+    require(x->size() == n,
+            "vectors of " + std::to_string(x->size()) + " numbers for " + std::to_string(n) + " coordinates.");
+  require((problem.q_scale.array() > 0.).all() && (problem.v_scale.array() > 0.).all(),
+          "every coordinate needs a positive scale.");
+  require(options.tolerance > 0. && options.tolerance < 1., "the tolerance must lie between 0 and 1.");
+  require(!problem.samples.empty() && std::is_sorted(problem.samples.begin(), problem.samples.end()) &&
+              problem.samples.front() >= problem.t,
+          "the instants of the samples must ascend from the start.");
+  const bool rk = options.kind == PeerKind::explicit_rk, adams = options.kind == PeerKind::cvode_adams;
+  require(rk ? options.order == 5 || options.order == 8 : options.order >= 1 && options.order <= (adams ? 12 : 5),
+          "order " + std::to_string(options.order) + "; BDF has 1 to 5, Adams 1 to 12, explicit Runge-Kutta 5 or 8.");
+}
+
+std::unique_ptr<Stepper> make_stepper(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)
+{
+  switch (options.kind)
+  {
+  case PeerKind::ida:
+    return make_ida(callbacks, problem, options);
+  case PeerKind::explicit_rk:
+    return make_explicit_rk(callbacks, problem, options);
+  default:
+    return make_cvode(callbacks, problem, options);
+  }
+}
+
+/// Leads a library through time and keeps the history of the elements as EventDriver does for our own methods.
+class PeerRun
+{
+public:
+  PeerRun(coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
+      : system_(system), problem_(problem), options_(options), form_(system),
+        detection_(system), callbacks_{form_, [this](double t, const double *y, double *g) { guards_at(t, y, g); }},
+        n_(system.size()), y_(2 * n_), restart_y_(2 * n_)
+  {
+    for (coupling::LocalState *local : {&before_, &now_, &between_})
+      local->resize(system.directions().cols());
+    y_ << problem.q, problem.v;
+  }
+
+  void go(PeerResult &result)
+  {
+    begin();
+    stepper_ = make_stepper(callbacks_, problem_, options_);
+    watch();
+    before_guards();
+    const double began = thread_seconds();
+    sample(problem_.t, y_.data(), result);
+    for (long k = 1; result.samples.size() < problem_.samples.size(); ++k)
+    {
+      const Stepper::Outcome outcome = stepper_->step();
+      if (outcome == Stepper::Outcome::failed)
+      {
+        result.failure = stepper_->failure();
+        break;
+      }
+      if (options_.events && overdue())
+        continue;
+      while (result.samples.size() < problem_.samples.size() &&
+             problem_.samples[result.samples.size()] <= stepper_->time())
+      {
+        const double t = problem_.samples[result.samples.size()];
+        stepper_->interpolate(t, y_.data());
+        sample(t, y_.data(), result);
+      }
+      accept(outcome == Stepper::Outcome::root);
+      if (k % 64 == 0 && thread_seconds() - began > options_.cpu_limit)
+      {
+        result.failure = "more than " + std::to_string(int(options_.cpu_limit)) + " s of CPU time";
+        break;
+      }
+    }
+    result.work = form_.work();
+    stepper_->count(result.work);
+    result.events = n_events_ + long(passed_.size());
+  }
+
+private:
+  void begin()
+  {
+    motion(problem_.t, y_.data(), before_);
+    system_.follow_history(false);
+    system_.start(before_);
+    system_.follow_history(options_.events);
+    form_.local_state(problem_.t, y_.data(), before_);
+    detection_.begin(before_);
+  }
+
+  void motion(double t, const double *y, coupling::LocalState &local) const
+  {
+    const auto &W     = system_.directions();
+    local.t           = t;
+    local.u.noalias() = W.transpose() * Eigen::Map<const Eigen::VectorXd>(y, n_);
+    local.v.noalias() = W.transpose() * Eigen::Map<const Eigen::VectorXd>(y + n_, n_);
+  }
+
+  void guards_at(double t, const double *y, double *g)
+  {
+    form_.local_state(t, y, between_);
+    g_.resize(system_.n_guards());
+    system_.guard_values(between_, g_);
+    std::copy(g_.data(), g_.data() + g_.size(), g);
+  }
+
+  void sample(double t, const double *y, PeerResult &result)
+  {
+    if (result.samples.size() >= problem_.samples.size() || problem_.samples[result.samples.size()] != t)
+      return;
+    result.samples.push_back({t, Eigen::Map<const Eigen::VectorXd>(y, n_),
+                              Eigen::Map<const Eigen::VectorXd>(y + n_, n_), system_.save_history()});
+  }
+
+  void watch()
+  {
+    if (!options_.events)
+      return;
+    std::vector<int> directions;
+    for (int i = 0; i < system_.n_guards(); ++i)
+      directions.push_back(system_.crossing(i) == GuardCrossing::rising ? 1 : -1);
+    stepper_->watch(directions);
+  }
+
+  void accept(bool root)
+  {
+    if (!options_.events)
+    {
+      motion(stepper_->time(), stepper_->state(), now_);
+      detection_.step(before_, now_, passed_);
+      system_.accept(now_);
+      std::swap(before_, now_);
+      return;
+    }
+    form_.local_state(stepper_->time(), stepper_->state(), now_);
+    system_.accept(now_);
+    if (root)
+    {
+      y_ = Eigen::Map<const Eigen::VectorXd>(stepper_->state(), 2 * n_);
+      transition(stepper_->root(), stepper_->time(), now_);
+    }
+  }
+
+  void transition(int guard, double t, const coupling::LocalState &local)
+  {
+    system_.transition(guard, local);
+    ++n_events_;
+    stepper_->restart(t, y_.data());
+    watch();
+    before_guards();
+  }
+
+  /// Remembers the guards at a start, where the library does not look for roots.
+  void before_guards()
+  {
+    if (!options_.events)
+      return;
+    restart_y_ = y_;
+    restart_t_ = stepper_->time();
+    guards_at(restart_t_, restart_y_.data(), (start_guards_.resize(system_.n_guards()), start_guards_.data()));
+    fresh_ = true;
+  }
+
+  /// A guard past zero at a start that stays so is due there, not later: the step is given back.
+  bool overdue()
+  {
+    if (!fresh_)
+      return false;
+    fresh_ = false;
+    end_guards_.resize(system_.n_guards());
+    guards_at(stepper_->time(), stepper_->state(), end_guards_.data());
+    for (int i = 0; i < int(start_guards_.size()); ++i)
+    {
+      const double s = system_.crossing(i) == GuardCrossing::rising ? 1. : -1.;
+      if (s * start_guards_[i] >= 0. && s * end_guards_[i] > 0.)
+      {
+        y_ = restart_y_;
+        form_.local_state(restart_t_, y_.data(), now_);
+        transition(i, restart_t_, now_);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  coupling::SecondOrderSystem &system_;
+  const PeerProblem           &problem_;
+  const PeerOptions           &options_;
+  FirstOrderForm               form_;
+  coupling::EventDetection     detection_;
+  Callbacks                    callbacks_;
+  std::unique_ptr<Stepper>     stepper_;
+  const int                    n_;
+  Eigen::VectorXd              y_, restart_y_, g_;
+  coupling::LocalState         before_, now_, between_;
+  std::vector<coupling::Event> passed_;
+  std::vector<double>          start_guards_, end_guards_;
+  double                       restart_t_ = 0.;
+  bool                         fresh_     = false; ///< no step since the last start
+  long                         n_events_  = 0;
+};
+
+} // namespace
+
+PeerResult run_peer(coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
+{
+  check(system, problem, options);
+  PeerResult   result;
+  const double began = thread_seconds();
+  try
+  {
+    PeerRun(system, problem, options).go(result);
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    result.failure = failure.what();
+  }
+  result.cpu_s = thread_seconds() - began;
+  return result;
+}
+
+} // namespace gestell::peers

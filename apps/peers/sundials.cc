@@ -1,0 +1,161 @@
+#include "apps/peers/sundials.h"
+
+#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+
+namespace gestell::peers
+{
+namespace
+{
+
+SUNMatrix_ID matrix_id(SUNMatrix)
+{
+  return SUNMATRIX_CUSTOM;
+}
+int matrix_zero(SUNMatrix)
+{
+  return 0;
+}
+void matrix_destroy(SUNMatrix A)
+{
+  SUNMatFreeEmpty(A);
+}
+
+struct CondensedSolver
+{
+  FirstOrderForm *form;
+  Form            which;
+};
+
+SUNLinearSolver_Type solver_type(SUNLinearSolver)
+{
+  return SUNLINEARSOLVER_DIRECT;
+}
+SUNLinearSolver_ID solver_id(SUNLinearSolver)
+{
+  return SUNLINEARSOLVER_CUSTOM;
+}
+int solver_ready(SUNLinearSolver)
+{
+  return 0;
+}
+int solver_setup(SUNLinearSolver, SUNMatrix)
+{
+  return 0;
+}
+int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype)
+{
+  const auto &own = *static_cast<CondensedSolver *>(solver->content);
+  if (x != b)
+    N_VScale(1., b, x);
+  if (own.which == Form::rate)
+    own.form->solve_rate_form(values(x));
+  else
+    own.form->solve_residual_form(values(x));
+  return 0;
+}
+sunindextype solver_flag(SUNLinearSolver)
+{
+  return 0;
+}
+int solver_free(SUNLinearSolver solver)
+{
+  delete static_cast<CondensedSolver *>(solver->content);
+  SUNLinSolFreeEmpty(solver);
+  return 0;
+}
+
+} // namespace
+
+SUNMatrix empty_matrix(SUNContext context)
+{
+  SUNMatrix A     = SUNMatNewEmpty(context);
+  A->ops->getid   = matrix_id;
+  A->ops->zero    = matrix_zero;
+  A->ops->destroy = matrix_destroy;
+  return A;
+}
+
+SUNLinearSolver condensed_solver(FirstOrderForm &form, Form which, SUNContext context)
+{
+  SUNLinearSolver solver  = SUNLinSolNewEmpty(context);
+  solver->content         = new CondensedSolver{&form, which};
+  solver->ops->gettype    = solver_type;
+  solver->ops->getid      = solver_id;
+  solver->ops->initialize = solver_ready;
+  solver->ops->setup      = solver_setup;
+  solver->ops->solve      = solver_solve;
+  solver->ops->lastflag   = solver_flag;
+  solver->ops->free       = solver_free;
+  return solver;
+}
+
+SundialsParts::SundialsParts(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options,
+                             bool with_solver)
+    : n_(2 * problem.q.size())
+{
+  SUNContext_Create(nullptr, &context);
+  y       = vector();
+  weights = vector();
+  Eigen::Map<Eigen::VectorXd>(values(y), n_) << problem.q, problem.v;
+  Eigen::Map<Eigen::VectorXd>(values(weights), n_) << problem.q_scale, problem.v_scale;
+  N_VScale(options.tolerance, weights, weights);
+  if (!with_solver)
+    return;
+  if (options.solver == PeerSolver::condensed)
+  {
+    matrix = empty_matrix(context);
+    solver = condensed_solver(callbacks.form, options.kind == PeerKind::ida ? Form::residual : Form::rate, context);
+  }
+  else
+  {
+    matrix = SUNDenseMatrix(n_, n_, context);
+    solver = SUNLinSol_Dense(y, matrix, context);
+  }
+}
+
+SundialsParts::~SundialsParts()
+{
+  if (solver)
+    SUNLinSolFree(solver);
+  if (matrix)
+    SUNMatDestroy(matrix);
+  for (N_Vector x : vectors_)
+    N_VDestroy(x);
+  SUNContext_Free(&context);
+}
+
+N_Vector SundialsParts::vector()
+{
+  vectors_.push_back(N_VNew_Serial(n_, context));
+  return vectors_.back();
+}
+
+void keep_message(int code, const char *module, const char *, char *message, void *text)
+{
+  if (code < 0)
+    *static_cast<std::string *>(text) = std::string(module) + ": " + message;
+}
+
+void expect(int code, const char *call)
+{
+  if (code < 0)
+    throw std::invalid_argument(std::string("peers: ") + call + " returned " + std::to_string(code));
+}
+
+bool peers_available()
+{
+  return true;
+}
+
+std::string peer_version()
+{
+  char version[64] = "";
+  SUNDIALSGetVersion(version, sizeof version);
+  return std::string("SUNDIALS ") + version;
+}
+
+} // namespace gestell::peers
