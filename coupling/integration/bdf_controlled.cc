@@ -171,24 +171,24 @@ void BdfControlled::forces_of_held()
   consistent_->solve(h_q_, h_v_, product_, local_, work_);
 }
 
-/// z at t from  h_beta z' = z - history  for z = q, q'; local_.u, local_.p are the prediction.
+/// z at t from  h_b z' = z - history  for z = q, q'; local_.u, local_.p are the prediction.
 void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z)
 {
-  const double inverse = 1. / h_beta;
-  h_q_                 = history.head(n_);
-  h_v_                 = h_q_ + h_beta * history.segment(n_, n_);
+  const double inverse = 1. / h_beta, squared = h_beta * h_beta;
   load(t);
-  system_.mass_times(h_v_, f_);
-  system_.damping_times(h_q_, product_);
-  f_ += h_beta * product_ + (h_beta * h_beta) * f_t_;
+  h_v_ = history.segment(n_, n_);
+  h_q_ = history.head(n_) + h_beta * h_v_;
+  system_.damping_times(h_v_, f_);
+  system_.stiffness_times(h_q_, product_);
+  f_      = squared * (f_t_ - f_ - product_);
   base_.t = t;
-  base_.u.setZero();
-  base_.v = -inverse * history.segment(2 * n_, n_u_);
-  base_.a = inverse * (base_.v - history.segment(2 * n_ + n_u_, n_u_));
-  const StepForm form{1., h_beta, h_beta * h_beta, h_beta * h_beta, 1., inverse, inverse * inverse, h_beta};
+  base_.v = history.segment(2 * n_ + n_u_, n_u_);
+  base_.u = history.segment(2 * n_, n_u_) + h_beta * base_.v;
+  base_.a.setZero();
+  const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   implicit_.solve(implicit_.condensed(form, work_), f_, base_, x_, local_, work_);
-  z.head(n_)                         = x_;
-  z.segment(n_, n_)                  = inverse * (x_ - h_q_);
+  z.head(n_)                         = h_q_ + x_;
+  z.segment(n_, n_)                  = h_v_ + inverse * x_;
   z.segment(2 * n_, n_u_)            = local_.u;
   z.segment(2 * n_ + n_u_, n_u_)     = local_.v;
   z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;

@@ -16,8 +16,12 @@ namespace gestell::coupling
  * Steps are h_max / 2^rung and change by powers of two only, so that a factorisation, one per rung and order, is found
  * again whenever the step returns.  Between changes the step is constant: BDF in backward differences of q, q' and of
  * the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences).  With q' in place
- * of w = M q' + B q the equation of the step is the same (5.5.2/12), f = M h^q + h_b (M h^{q'} + B h^q) + h_b^2 f_t,
- * and the error of the velocities is at hand.
+ * of w = M q' + B q, and with the change x = h_b^2 q'' as the unknown, the equation of the step (5.5.2/12) reads
+ *
+ *     (M + h_b B + h_b^2 C) x = h_b^2 (f_t + W p - B h^{q'} - C (h^q + h_b h^{q'})),
+ *     q = h^q + h_b h^{q'} + x,     q' = h^{q'} + x / h_b,
+ *
+ * in which rounding takes nothing away when h_b^2 C is small beside M, and the error of velocities is at hand.
  *
  * Error.  The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the measure of ErrorScale,
  * must not exceed the tolerance.  A step is refused if it does, or if Newton's method fails; then everything is as

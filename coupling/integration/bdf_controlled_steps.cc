@@ -48,14 +48,15 @@ void BdfControlled::advance()
 
 BdfControlled::Trial BdfControlled::try_multistep(double h)
 {
-  Trial trial;
+  Trial        trial;
+  const double t = anchor_ + static_cast<double>(steps_ + 1) * h;
   differences_.predict(order_, predicted_);
   differences_.history(order_, history_);
   local_.u = predicted_.segment(2 * n_, n_u_);
   local_.p = predicted_.segment(2 * n_ + 3 * n_u_, n_u_);
   try
   {
-    implicit_step(anchor_ + static_cast<double>(steps_ + 1) * h, h / bdf_gamma(order_), history_, z_);
+    implicit_step(t, h / bdf_gamma(order_), history_, z_);
   }
   catch (const ConvergenceFailure &failure)
   {
@@ -65,7 +66,7 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
   difference_ = z_ - z_begin_;
   if (!difference_.allFinite())
     return trial;
-  scale_.consider(h, motion(z_), motion(difference_));
+  scale_.consider(t, h, motion(z_), motion(difference_));
   difference_  = z_ - predicted_;
   trial.solved = true;
   trial.error  = scale_.error(motion(difference_)) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
@@ -110,6 +111,8 @@ void BdfControlled::multistep()
 void BdfControlled::refuse(const Trial &trial, double exponent)
 {
   int rungs = 1;
+  if (trial.solved)
+    scale_.refuse();
   if (trial.solved)
     rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
                        fresh_ ? deepest_fall : highest_growth);
@@ -230,7 +233,7 @@ BdfControlled::Trial BdfControlled::try_start(double h)
   z_          = end_[2] - z_begin_;
   if (!z_.allFinite())
     return trial;
-  scale_.consider(length, motion(end_[2]), motion(z_));
+  scale_.consider(t_end_ + length, length, motion(end_[2]), motion(z_));
   trial.solved = true;
   trial.error  = scale_.error(motion(difference_)) / options_.tolerance;
   return trial;

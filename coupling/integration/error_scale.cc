@@ -10,7 +10,7 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double rounding      = 64. * std::numeric_limits<double>::epsilon();
+constexpr double rounding      = 8. * std::numeric_limits<double>::epsilon();
 constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
 constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
 constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
@@ -18,25 +18,28 @@ constexpr double rigid         = 1e-7;  ///< modes below this part of the highes
 constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
 constexpr int    probes        = 64;
 
-void enlarge(Eigen::VectorXd &largest, const Eigen::VectorXd &before, Eigen::Index i, double value)
+double highest(const std::vector<SpectrumLine> &spectrum)
 {
-  largest[i] = std::max(before[i], value);
+  double omega = 0.;
+  for (const SpectrumLine &line : spectrum)
+    omega = std::max(omega, line.omega);
+  return omega;
 }
+
 } // namespace
 
 double slowest_elastic(const std::vector<SpectrumLine> &spectrum)
 {
-  double highest = 0., lowest = std::numeric_limits<double>::infinity();
+  const double least  = rigid * highest(spectrum);
+  double       lowest = std::numeric_limits<double>::infinity();
   for (const SpectrumLine &line : spectrum)
-    highest = std::max(highest, line.omega);
-  for (const SpectrumLine &line : spectrum)
-    if (line.omega > rigid * highest)
+    if (line.omega > least)
       lowest = std::min(lowest, line.omega);
   return lowest;
 }
 
 ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<SpectrumLine> &spectrum, double tolerance)
-    : system_(system), tolerance_(tolerance), omega_1_(slowest_elastic(spectrum))
+    : system_(system), tolerance_(tolerance), omega_1_(slowest_elastic(spectrum)), omega_n_(highest(spectrum))
 {
   find_masses();
   find_groups();
@@ -48,7 +51,7 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
     x->setZero(n_u);
   for (Eigen::VectorXd *x : {&inverse_q_, &inverse_v_})
     x->setZero(n_groups_);
-  for (Excursions *x : {&accepted_, &considered_})
+  for (Excursions *x : {&accepted_, &reached_, &expected_, &scale_})
   {
     x->q.setZero(n_groups_);
     x->v.setZero(n_groups_);
@@ -59,6 +62,12 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   }
   sums_.assign(n_groups_, 0.);
   sums_v_.assign(n_groups_, 0.);
+}
+
+void ErrorScale::copy(const Excursions &from, Excursions &to)
+{
+  for (const auto x : all)
+    to.*x = from.*x;
 }
 
 /// M_ii: by unit vectors, or for large systems from x_i (M x)_i with many x of random signs, of which the mean is M_ii.
@@ -181,34 +190,39 @@ void ErrorScale::begin(const Motion &at)
 
 void ErrorScale::accept()
 {
-  accepted_.q      = considered_.q;
-  accepted_.v      = considered_.v;
-  accepted_.u      = considered_.u;
-  accepted_.u_rate = considered_.u_rate;
-  accepted_.end_q  = considered_.end_q;
-  accepted_.end_v  = considered_.end_v;
+  copy(reached_, accepted_);
 }
 
-void ErrorScale::consider(double h, const Motion &to, const Motion &change)
+void ErrorScale::refuse()
 {
+  if (t_ <= expected_until_)
+    return;
+  copy(reached_, expected_);
+  expected_until_ = t_;
+}
+
+void ErrorScale::consider(double t, double h, const Motion &to, const Motion &change)
+{
+  t_ = t;
   energy(to.q, &q_begin_, sums_);
   energy(to.v, &v_begin_, sums_v_);
   for (int g = 0; g < n_groups_; ++g)
   {
-    enlarge(considered_.q, accepted_.q, g, std::sqrt(sums_[g]));
-    enlarge(considered_.v, accepted_.v, g, std::sqrt(sums_v_[g]));
+    reached_.q[g] = std::max(accepted_.q[g], std::sqrt(sums_[g]));
+    reached_.v[g] = std::max(accepted_.v[g], std::sqrt(sums_v_[g]));
   }
-  for (Eigen::Index j = 0; j < u_begin_.size(); ++j)
-  {
-    enlarge(considered_.u, accepted_.u, j, std::abs(to.u[j] - u_begin_[j]));
-    enlarge(considered_.u_rate, accepted_.u_rate, j, std::abs(to.u_rate[j] - rate_begin_[j]));
-  }
+  reached_.u      = accepted_.u.cwiseMax((to.u - u_begin_).cwiseAbs());
+  reached_.u_rate = accepted_.u_rate.cwiseMax((to.u_rate - rate_begin_).cwiseAbs());
   for (std::size_t k = 0; k < end_index_.size(); ++k)
   {
-    const int i = end_index_[k];
-    enlarge(considered_.end_q, accepted_.end_q, Eigen::Index(k), std::abs(to.q[i] - q_begin_[i]));
-    enlarge(considered_.end_v, accepted_.end_v, Eigen::Index(k), std::abs(to.v[i] - v_begin_[i]));
+    const int i       = end_index_[k];
+    reached_.end_q[k] = std::max(accepted_.end_q[k], std::abs(to.q[i] - q_begin_[i]));
+    reached_.end_v[k] = std::max(accepted_.end_v[k], std::abs(to.v[i] - v_begin_[i]));
   }
+  copy(reached_, scale_);
+  if (t <= expected_until_)
+    for (const auto x : all)
+      scale_.*x = (scale_.*x).cwiseMax(expected_.*x);
   set_scales(h, to, change);
 }
 
@@ -216,11 +230,14 @@ void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
 {
   const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
   const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
-  // chi, and from it 1 / (scale chi), but not above what rounding leaves; a motion that does not move has no error.
+  // chi, and from it 1 / (scale chi), but not above what rounding leaves, which reaches velocities with the highest
+  // frequency that the step resolves; a motion that does not move has no error.
   const auto invert = [&](double E, double V, double change_of_speed, double size, double &of_q, double &of_v)
   {
-    const double chi = E > 0. && V > 0. ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
-    const double q = std::max(E * chi, floor * size), v = std::max(V * chi, floor * size / h);
+    const bool   moves     = E > 0. && V > 0.;
+    const double chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
+    const double frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
+    const double q = std::max(E * chi, floor * size), v = std::max(V * chi, floor * size * frequency);
     of_q = q > 0. ? 1. / q : 0.;
     of_v = v > 0. ? 1. / v : 0.;
   };
@@ -228,14 +245,14 @@ void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
   double most = 0., fastest = 0.;
   for (int g = 0; g < n_groups_; ++g)
   {
-    most    = std::max(most, bounded(considered_.q[g], considered_.v[g]));
-    fastest = std::max(fastest, considered_.v[g]);
+    most    = std::max(most, bounded(scale_.q[g], scale_.v[g]));
+    fastest = std::max(fastest, scale_.v[g]);
   }
   energy(to.q, nullptr, sums_);
   energy(change.v, nullptr, sums_v_);
   for (int g = 0; g < n_groups_; ++g)
-    invert(std::max(bounded(considered_.q[g], considered_.v[g]), group_floor * most),
-           std::max(considered_.v[g], group_floor * fastest), std::sqrt(sums_v_[g]), std::sqrt(sums_[g]), inverse_q_[g],
+    invert(std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
+           std::max(scale_.v[g], group_floor * fastest), std::sqrt(sums_v_[g]), std::sqrt(sums_[g]), inverse_q_[g],
            inverse_v_[g]);
 
   for (int j = 0; j < ends_.outerSize(); ++j)
@@ -243,12 +260,12 @@ void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
     double way = 0., speed = 0., size = std::abs(to.u[j]);
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
-      way += it.value() * bounded(considered_.end_q[it.row()], considered_.end_v[it.row()]);
-      speed += it.value() * considered_.end_v[it.row()];
+      way += it.value() * bounded(scale_.end_q[it.row()], scale_.end_v[it.row()]);
+      speed += it.value() * scale_.end_v[it.row()];
       size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
     }
-    invert(std::max(bounded(considered_.u[j], considered_.u_rate[j]), measure_floor * way),
-           std::max(considered_.u_rate[j], measure_floor * speed), std::abs(change.u_rate[j]), size, inverse_u_[j],
+    invert(std::max(bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way),
+           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(change.u_rate[j]), size, inverse_u_[j],
            inverse_rate_[j]);
   }
 }

@@ -48,10 +48,13 @@ public:
   /// The motion begins here.
   void begin(const Motion &at);
 
-  /// A step of length h [s] would lead to `to`, changing the motion by `change`: the scales for its errors.
-  void consider(double h, const Motion &to, const Motion &change);
+  /// A step of length h [s] would lead to `to` at t, changing the motion by `change`: the scales for its errors.
+  void consider(double t, double h, const Motion &to, const Motion &change);
   /// The step last considered is taken: its excursions count from now on.
   void accept();
+  /// It is refused.  But it tells how far the motion will have gone by its end, and until then scales are not below
+  /// that: a motion that begins from rest, like t^3, would else have no step small enough.
+  void refuse();
 
   /// Error relative to the scales of the step last considered, per chi; the largest of all groups and measures.
   double error(const Motion &e) const;
@@ -76,21 +79,27 @@ private:
     Eigen::VectorXd end_q, end_v;    // of the coordinates that measures are made of [n_ends]
   };
 
-  void   find_masses();
-  void   find_groups();
-  void   find_ends();
-  double energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const;
-  void   set_scales(double h, const Motion &to, const Motion &change);
+  static constexpr Eigen::VectorXd Excursions::*all[] = {&Excursions::q,      &Excursions::v,     &Excursions::u,
+                                                         &Excursions::u_rate, &Excursions::end_q, &Excursions::end_v};
+
+  static void copy(const Excursions &from, Excursions &to);
+  void        find_masses();
+  void        find_groups();
+  void        find_ends();
+  double      energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const;
+  void        set_scales(double h, const Motion &to, const Motion &change);
 
   const SecondOrderSystem    &system_;
-  double                      tolerance_, omega_1_;
+  double                      tolerance_, omega_1_, omega_n_;
   int                         massless_ = 0, n_groups_ = 0;
   std::vector<Run>            runs_;
   Eigen::VectorXd             m_;         ///< [n]
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
   Eigen::VectorXd             q_begin_, v_begin_, u_begin_, rate_begin_;
-  Excursions                  accepted_, considered_;
+  Excursions                  accepted_, reached_; ///< before and after the step that is considered
+  Excursions                  expected_, scale_;   ///< of a step refused; reached or expected
+  double                      t_ = 0., expected_until_ = 0.;
   Eigen::VectorXd             inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
   mutable std::vector<double> sums_, sums_v_;                                    // [groups]
 };
