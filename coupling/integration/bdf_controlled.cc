@@ -67,6 +67,9 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
     x->setZero(size);
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v})
     x->setZero(n_);
+  dp_du_.setZero(n_u_, n_u_);
+  dp_dv_.setZero(n_u_, n_u_);
+  stiffness_.setZero(n_u_);
   for (LocalState *state : {&local_, &base_, &now_.local})
     state->resize(n_u_);
 }
@@ -134,6 +137,7 @@ void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::Vecto
   barred_     = 0;
   rung_       = first_rung;
   present(z_, t);
+  stiffness_.setZero();
   restart();
 }
 
@@ -149,6 +153,8 @@ void BdfControlled::restart()
     forces_of_held();
   z_.tail(n_u_) = local_.p;
   now_known_    = false;
+  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 
 /// What holds a measure at a start is no law's value, but follows from the equation of motion.  Where M is singular,
@@ -257,6 +263,8 @@ void BdfControlled::cut(double t)
   }
   cut_ = true;
   present(z_cut_, t);
+  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  stiffness_ = dp_du_.diagonal();
 }
 
 } // namespace gestell::coupling

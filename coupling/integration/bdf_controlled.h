@@ -96,6 +96,7 @@ private:
   void               forces_of_held();
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
   void               multistep();
+  void               resolve_stiffness();
   void               start();
   Trial              try_multistep(double h);
   Trial              try_start(double h);
@@ -130,7 +131,9 @@ private:
   double                           t_begin_ = 0., t_end_ = 0.; ///< of the last step
   Eigen::VectorXd                  z_begin_, z_cut_, z_, predicted_, difference_, history_;
   Eigen::VectorXd                  chain_[2], middle_[3], end_[3];
-  std::string                      reason_; ///< of Newton's last failure
+  Eigen::MatrixXd                  dp_du_, dp_dv_;
+  Eigen::VectorXd                  stiffness_; ///< -dp/du by measure, before an event; then its change there [n_u]
+  std::string                      reason_;    ///< of Newton's last failure
   LocalState                       local_, base_;
   mutable Instant                  now_;
   mutable bool                     now_known_  = false;

@@ -15,6 +15,7 @@ namespace
 constexpr int    highest_growth = 3;   ///< rungs at once
 constexpr int    deepest_fall   = 6;   ///< rungs at once, in a start
 constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach
+constexpr double resolved       = 0.5; ///< omega h of a start's shortest Euler step
 constexpr int    steps_barred   = 40;
 constexpr double worth_an_order = 1.3; ///< factor of the step expected, for which the order is raised
 const double     unbounded      = std::numeric_limits<double>::infinity();
@@ -239,11 +240,31 @@ BdfControlled::Trial BdfControlled::try_start(double h)
   return trial;
 }
 
+/// A stiffness that appears at an event (a contact closes) may be far above all before.  Implicit Euler steps that do
+/// not resolve it would damp its motion away, and all chains alike, so that their difference does not tell.  With S,
+/// the compliance over a step, S dp/du = (omega h)^2.
+void BdfControlled::resolve_stiffness()
+{
+  for (;;)
+  {
+    const double h = step_of(rung_ + 1), squared = h * h;
+    if (stiffness_.size() == 0 || stiffness_.maxCoeff() == 0. || h < options_.smallest_step)
+      break;
+    const StepForm form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
+    const double   most = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
+    if (!(most > resolved * resolved))
+      break;
+    rung_ += std::max(1, static_cast<int>(std::ceil(std::log2(std::sqrt(most) / resolved))));
+  }
+  stiffness_.setZero();
+}
+
 void BdfControlled::start()
 {
   fresh_ = true;
   order_ = std::min(2, options_.max_order);
   rung_  = std::max(rung_, 1); // a start is two steps long
+  resolve_stiffness();
   for (;;)
   {
     const Trial trial = try_start(step_of(rung_));
