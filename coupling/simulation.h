@@ -1,6 +1,9 @@
 #pragma once
 
+#include "coupling/integration/event_detection.h"
+#include "coupling/integration/method.h"
 #include "coupling/machine.h"
+#include "coupling/stability_guard.h"
 #include "coupling/steady_start.h"
 
 #include <atomic>
@@ -13,14 +16,26 @@ namespace gestell::coupling
 
 struct RunOptions
 {
-  int    order = 2;                       ///< BDF order
-  double begin = 0., end = 0., step = 0.; ///< [s]
-  double output_step      = 0.;           ///< [s] between rows of the history; 0: every step
-  double picture_step     = 0.;           ///< [s] between saved states for pictures; 0: none
-  int    max_halvings     = 10;           ///< of the step when Newton fails
-  double newton_tolerance = 1e-10;        ///< relative to the scale of each measure
-  bool   energy           = true;
+  MethodOptions method;
+  double        begin = 0., end = 0.;   ///< [s]
+  double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
+  double        picture_step   = 0.;    ///< [s] between saved states for pictures; 0: none
+  bool          events         = true;  ///< located and restarted at; false: gone over, and told afterwards
+  bool          force_unstable = false; ///< runs although the method is unstable with this step
+  bool          energy         = true;
+  bool          allow_large    = false; ///< histories and pictures above 1 GB
 };
+
+/// Time between rows [s]: as asked for, or the fixed step, or with a controlled one a two thousandth of the run.
+double output_step(const RunOptions &options);
+
+/**
+ * What can be told of a run before it is made.
+ *
+ * @throws std::invalid_argument for parameters out of range, an end before the begin, a step longer than the period of
+ * a load, and more than 1 GB of history and pictures (unless allowed), with the size and the way out.
+ */
+void check_run(const Machine &machine, const RunOptions &options, std::size_t n_signals);
 
 struct SignalSummary
 {
@@ -28,15 +43,10 @@ struct SignalSummary
   double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
 };
 
-struct EventRecord
+/// What the integration cost.
+struct WorkCounts : IntegrationWork
 {
-  double      t;
-  std::string name, kind;
-};
-
-struct WorkCounts
-{
-  long steps = 0, rejected = 0, newton = 0, factorisations = 0, solves = 0;
+  long chatter = 0; ///< steps in which events were so many that they were gone over
 };
 
 struct EnergySummary
@@ -47,10 +57,12 @@ struct EnergySummary
 struct RunResult
 {
   std::vector<SignalSummary> signals;
+  std::string                method;   ///< name of the method, for people
+  std::vector<ModeAccuracy>  accuracy; ///< what it makes of each mode; empty with a controlled step
   /// Rows of history.csv: t, every signal, then energy input, stored, dissipated.
   std::vector<std::string>     columns, units;
   std::vector<double>          rows; ///< row major, columns.size() wide
-  std::vector<EventRecord>     events;
+  std::vector<Event>           events;
   WorkCounts                   work;
   EnergySummary                energy;
   std::vector<double>          picture_times;
@@ -63,6 +75,7 @@ struct RunResult
 
 /// Integrates from `initial` to options.end.  Never throws ConvergenceFailure: it is told in `failure`, with all that
 /// was computed up to then.  `progress` is called now and then with the time reached; `stop` ends the run early.
+/// @throws std::invalid_argument as check_run() and check_stability(), and if the method cannot treat the machine.
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress = {},
                    const std::atomic<bool> *stop = nullptr);

@@ -17,10 +17,21 @@ namespace
 {
 std::string settings_text(const Scene &scene)
 {
-  const coupling::RunOptions &run = scene.run.options;
-  std::ostringstream          text;
-  text << "BDF of order " << run.order << ", fixed step " << run.step << " s, from " << run.begin << " s to " << run.end
-       << " s; events located on the dense output, the integration is not restarted at them";
+  const coupling::RunOptions    &run    = scene.run.options;
+  const coupling::MethodOptions &method = run.method;
+  std::ostringstream             text;
+  text << coupling::method_name(method) << ", ";
+  if (method.tolerance > 0.)
+  {
+    text << "step controlled to a tolerance of " << method.tolerance;
+    if (method.step > 0.)
+      text << ", at most " << method.step << " s";
+  }
+  else
+    text << "fixed step " << method.step << " s";
+  text << ", from " << run.begin << " s to " << run.end << " s; "
+       << (run.events ? "events located, the integration restarts at each of them"
+                      : "events are gone over and told afterwards");
   return text.str();
 }
 
@@ -41,9 +52,9 @@ void print_answer(const coupling::RunResult &run)
     std::cout << std::left << std::setw(12) << signal.name << std::right << std::setprecision(7) << std::setw(16)
               << signal.min << std::setw(14) << signal.t_min << std::setw(16) << signal.max << std::setw(14)
               << signal.t_max << "  " << signal.unit << '\n';
-  std::cout << run.events.size() << " events, " << run.work.steps << " steps, " << std::setprecision(3)
-            << double(run.work.newton) / std::max(1L, run.work.steps) << " Newton iterations a step, "
-            << run.work.factorisations << " factorisations, " << run.wall_s << " s\n"
+  std::cout << run.method << ": " << run.events.size() << " events, " << run.work.steps << " steps, "
+            << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
+            << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n"
             << "energy residual " << run.energy.residual << " J of " << run.energy.input << " J supplied\n";
 }
 } // namespace

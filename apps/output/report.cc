@@ -14,7 +14,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9;
+constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
 
 std::string section(const std::string &id, const std::string &title, const std::string &content)
 {
@@ -135,7 +135,7 @@ std::string events_section(const Result &result)
                        "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
                        "<th>object</th><th>transition</th></tr>\n";
   int         number = 0;
-  for (const coupling::EventRecord &event : result.run->events)
+  for (const coupling::Event &event : result.run->events)
     html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(event.t, 7) + cell(escape_xml(event.name)) +
             cell(escape_xml(event.kind)) + "</tr>\n";
   return section("events", "Events", html + "</table></div>\n");
@@ -216,6 +216,28 @@ std::string modes_section(const Result &result, Report &report)
   return section("modes", "Natural frequencies and modes", html);
 }
 
+/// What the method makes of each mode, the lowest first; modes above them follow the motion of the drives only.
+std::string accuracy_table(const coupling::RunResult &run)
+{
+  if (run.accuracy.empty())
+    return "";
+  std::string html = "<h3>Modes as " + escape_xml(run.method) +
+                     " carries them</h3><div class=\"scroll\"><table><tr><th>modes of</th><th class=\"n\">f [Hz]</th>"
+                     "<th class=\"n\">damping ratio</th><th class=\"n\">ω h</th><th class=\"n\">numerical damping "
+                     "ratio</th><th class=\"n\">period too long by</th><th class=\"n\">growth per step</th></tr>\n";
+  std::size_t shown = 0;
+  for (const coupling::ModeAccuracy &mode : run.accuracy)
+  {
+    if (++shown > most_accuracy_rows && !mode.unstable)
+      continue;
+    html += "<tr>" + cell(mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements") +
+            number_cell(mode.mode.omega / (2. * M_PI)) + number_cell(mode.mode.zeta) + number_cell(mode.omega_h) +
+            number_cell(mode.numerical_damping, 3) + cell(short_text(100. * mode.period_error, 3) + " %", "n") +
+            (mode.unstable ? cell(short_text(mode.spectral_radius, 6), "n peak") : cell("stable", "n")) + "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
 std::string numerics_section(const Result &result)
 {
   const ModelFacts &m = result.model;
@@ -240,6 +262,9 @@ std::string numerics_section(const Result &result)
     work.quantity("Newton iterations per step", w.steps > 0 ? static_cast<double>(w.newton) / w.steps : std::nan(""),
                   "");
     work.count("factorisations", w.factorisations);
+    work.count("evaluations of the elements", w.evaluations);
+    if (w.chatter > 0)
+      work.count("steps of chatter, gone over", w.chatter);
     work.quantity("time per step",
                   w.steps > 0 && result.run->wall_s > 0. ? 1e6 * result.run->wall_s / w.steps : std::nan(""), "µs");
   }
@@ -249,6 +274,8 @@ std::string numerics_section(const Result &result)
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
   if (!result.settings.empty())
     html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
+  if (result.run)
+    html += accuracy_table(*result.run);
   return section("numerics", "Model and work", html);
 }
 

@@ -103,7 +103,7 @@ LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
     chart.series.push_back(std::move(series));
   }
   int number = 0;
-  for (const coupling::EventRecord &event : run.events)
+  for (const coupling::Event &event : run.events)
     chart.marks.push_back({event.t, ++number, short_text(event.t, 6) + " s  " + event.name + ": " + event.kind});
   return chart;
 }

@@ -4,6 +4,7 @@
 #include "apps/output/number_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::apps
 {
@@ -66,10 +67,10 @@ void write_signals(JsonWriter &json, const std::vector<coupling::SignalSummary> 
   json.end_object();
 }
 
-void write_events(JsonWriter &json, const std::vector<coupling::EventRecord> &events)
+void write_events(JsonWriter &json, const std::vector<coupling::Event> &events)
 {
   json.begin_array("events");
-  for (const coupling::EventRecord &event : events)
+  for (const coupling::Event &event : events)
   {
     json.begin_object();
     json.number("t", event.t);
@@ -88,7 +89,29 @@ void write_work(JsonWriter &json, const coupling::WorkCounts &work)
   json.integer("newton", work.newton);
   json.integer("factorisations", work.factorisations);
   json.integer("solves", work.solves);
+  json.integer("evaluations", work.evaluations);
+  json.integer("chatter", work.chatter);
   json.end_object();
+}
+
+void write_accuracy(JsonWriter &json, const std::vector<coupling::ModeAccuracy> &modes)
+{
+  json.begin_array("accuracy");
+  for (const coupling::ModeAccuracy &mode : modes)
+  {
+    json.begin_object();
+    json.text("modes_of", mode.origin == coupling::ModeOrigin::base ? "base" : "closed");
+    json.integer("number", mode.number);
+    json.number("frequency_hz", mode.mode.omega / (2. * M_PI));
+    json.number("damping_ratio", mode.mode.zeta);
+    json.number("omega_h", mode.omega_h);
+    json.number("spectral_radius", mode.spectral_radius);
+    json.number("numerical_damping", mode.numerical_damping);
+    json.number("period_error", mode.period_error);
+    json.boolean("unstable", mode.unstable);
+    json.end_object();
+  }
+  json.end_array();
 }
 
 void write_energy(JsonWriter &json, const coupling::EnergySummary &energy)
@@ -151,6 +174,8 @@ std::string summary_json(const Result &result)
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
   write_signals(json, run.signals);
   write_events(json, run.events);
+  json.text("method", run.method);
+  write_accuracy(json, run.accuracy);
   write_work(json, run.work);
   json.begin_object("wall_s");
   for (const auto &[phase, seconds] : result.wall_s)

@@ -72,14 +72,24 @@ void check_scene(const Scene &scene)
     initial_state(scene, machine);
   for (const auto &[name, angle] : scene.start.steady.angles)
     (void)angle, machine.body(name);
+  if (!scene.run.given)
+    return;
+  try
+  {
+    coupling::check_run(machine, scene.run.options, scene.signals.size());
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
 }
 
 void require_run(const Scene &scene)
 {
-  if (scene.run.options.step <= 0.)
-    throw std::invalid_argument(scene.run.place +
-                                ": there is no [run]; it needs 'end' and 'step', such as end = \"0.5 s\", "
-                                "step = \"10 us\"");
+  if (!scene.run.given)
+    throw std::invalid_argument(
+        scene.run.place + ": there is no [run]; it needs 'end' and 'step' (or 'tolerance'), such as end = \"0.5 s\", "
+                          "step = \"10 us\"");
   if (scene.signals.empty())
     throw std::invalid_argument(scene.run.place +
                                 ": there are no signals to compute; name them in [output] signals = { x = "

@@ -1,5 +1,6 @@
 #include "apps/scene/read_bodies.h"
 #include "apps/scene/read_frame.h"
+#include "apps/scene/read_run.h"
 #include "apps/scene/scene.h"
 #include "coupling/nearest_name.h"
 
@@ -37,78 +38,6 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   }
   request.options.frequency = table->positive("frequency", kind::frequency, 0.);
   return request;
-}
-
-/// Keys and methods of the contract that this version lacks: better said so than called unknown.
-void refuse_what_is_to_come(const SceneTable &run)
-{
-  for (const std::string key : {"tolerance", "events", "beta", "gamma", "theta", "alpha", "rho_inf", "force_unstable"})
-    if (run.has(key))
-      throw run.error(key, "is not available in this version; give 'method = \"bdf\"' with a fixed 'step'");
-  const std::string method = run.text("method", "bdf");
-  for (const std::string later : {"newmark", "wilson", "hht", "generalised-alpha", "central-difference", "exact"})
-    if (method == later)
-      throw run.error("method", "'" + method + "' is not available in this version; valid: 'bdf'");
-}
-
-RunRequest read_run(const SceneTable &scene)
-{
-  RunRequest run;
-  run.place        = scene.place();
-  const auto table = scene.optional_table("run");
-  if (!table)
-    return run; // modes and reduce need none; require_run() tells those who do
-  run.place = table->place();
-  refuse_what_is_to_come(*table);
-  run.method = table->choice("method", {"bdf"}, "bdf");
-  auto &o    = run.options;
-  o.order    = table->integer("order", o.order);
-  if (o.order < 1 || o.order > 6)
-    throw table->error("order",
-                       "BDF has orders 1 to 6, got " + std::to_string(o.order) + "; 2 is stable for every step");
-  o.begin = table->number("begin", kind::time, 0.);
-  o.end   = table->number("end", kind::time);
-  o.step  = table->positive("step", kind::time);
-  if (o.end <= o.begin)
-    throw table->error("end", "must lie after 'begin' (" + std::to_string(o.begin) + " s), got " +
-                                  std::to_string(o.end) + " s");
-  if (o.step > o.end - o.begin)
-    throw table->error("step", "is longer than the run itself, " + std::to_string(o.end - o.begin) + " s");
-  o.max_halvings     = table->integer("max_halvings", o.max_halvings);
-  o.newton_tolerance = table->positive("newton_tolerance", kind::number, o.newton_tolerance);
-  o.energy           = table->boolean("energy", o.energy);
-  if (o.max_halvings < 0 || o.max_halvings > 40)
-    throw table->error("max_halvings", "needs a number from 0 to 40");
-  return run;
-}
-
-void read_output(const SceneTable &scene, Scene &result)
-{
-  const auto &run = result.run.options;
-  // A hundred pictures by default: enough for a film, little enough for a disk.
-  result.run.options.picture_step = (run.end - run.begin) / 100.;
-  const auto table                = scene.optional_table("output");
-  if (!table)
-    return;
-  result.run.options.output_step  = table->positive("step", kind::time, 0.);
-  result.run.options.picture_step = table->not_negative("picture_step", kind::time, run.picture_step);
-  if (table->is_array("signals"))
-    for (const auto &path : table->texts("signals"))
-    {
-      for (const SignalRequest &other : result.signals)
-        if (other.name == path)
-          throw table->error("signals", "'" + path + "' stands in the list twice");
-      result.signals.push_back({path, path, table->place("signals")});
-    }
-  else if (const auto signals = table->optional_table("signals"))
-    for (const auto &name : signals->keys())
-    {
-      if (name.empty() || name.find_first_of(",\"\n[]") != std::string::npos || name == "t")
-        throw signals->error(name,
-                             "is no name for a signal: it heads a column of history.csv, so it must not be 't' or "
-                             "contain commas, quotes or brackets");
-      result.signals.push_back({name, signals->text(name), signals->place(name)});
-    }
 }
 
 /// Value of a table { crank = "160 deg", "frame.crown.uz" = "-0.6 mm" } whose keys are coordinates.

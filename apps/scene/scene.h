@@ -137,7 +137,7 @@ struct ModesRequest
 
 struct RunRequest
 {
-  std::string          method = "bdf";
+  bool                 given = false; ///< there is a [run]
   coupling::RunOptions options;
   std::string          place;
 };

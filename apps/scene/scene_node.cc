@@ -1,5 +1,6 @@
 #include "apps/scene/scene_node.h"
 
+#include "apps/scene/run_layers.h"
 #include "apps/scene/scene_override.h"
 #include "apps/scene/toml_text.h"
 
@@ -62,6 +63,8 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
   SceneNode base = read_with_base(next, files);
   remove(own, "extends");
   remove(base, "name"); // a scene that extends another is not that other one
+  if (SceneNode *run = base.find("run"), *newer = own.find("run"); run && newer)
+    make_way(*run, *newer);
   merge(base, own);
   return base;
 }

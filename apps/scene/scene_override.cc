@@ -1,5 +1,6 @@
 #include "apps/scene/scene_override.h"
 
+#include "apps/scene/run_layers.h"
 #include "apps/scene/toml_text.h"
 
 #include <algorithm>
@@ -90,6 +91,14 @@ void apply_override(SceneNode &root, const std::string &text)
   if (path.front() == "extends")
     fail(place, "what a scene extends cannot be overridden");
 
+  const SceneNode value = override_value(trimmed(text.substr(equals + 1)), place);
+  if (SceneNode *run = root.find("run"); run && path.size() == 2 && path.front() == "run")
+  {
+    SceneNode newer;
+    newer.entries.emplace_back(path.back(), value);
+    make_way(*run, newer);
+  }
+
   SceneNode *node = &root;
   for (std::size_t i = 0; i < path.size(); ++i)
   {
@@ -103,7 +112,7 @@ void apply_override(SceneNode &root, const std::string &text)
     }
     node = node->find(path[i]);
   }
-  *node = override_value(trimmed(text.substr(equals + 1)), place);
+  *node = value;
 }
 
 } // namespace gestell::apps

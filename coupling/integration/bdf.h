@@ -48,7 +48,7 @@ public:
 
   const LocalState      &local() const override { return local_; }
   const Instant         &instant() const override;
-  double                 step_begin() const override { return cut_ ? past(0).t : past(n_past_ > 1 ? 1 : 0).t; }
+  double                 step_begin() const override { return past(n_past_ > 1 ? 1 : 0).t; }
   void                   interpolate(double t, LocalState &state) const override;
   void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
   void                   cut(double t) override;

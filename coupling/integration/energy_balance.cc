@@ -3,15 +3,29 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+/// Gauss and Legendre, four points on (0, 1).
+constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
+constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+} // namespace
+
 EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 {
-  product_.setZero(system.size());
-  load_.setZero(system.size());
+  for (Eigen::VectorXd *x : {&product_, &load_, &between_.q, &between_.v})
+    x->setZero(system.size());
+  between_.local.resize(system.directions().cols());
+}
+
+EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double weight_b, const Power &b)
+{
+  return {weight_a * a.input + weight_b * b.input, weight_a * a.elements + weight_b * b.elements,
+          weight_a * a.damping + weight_b * b.damping};
 }
 
 EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 {
-  Power power{};
+  Power power;
   system_.local_power(instant.local, instant.local.p, power.input, power.elements);
   system_.damping_times(instant.v, product_);
   power.damping = instant.v.dot(product_);
@@ -37,28 +51,50 @@ double EnergyBalance::stored(const Instant &instant)
 void EnergyBalance::begin(const Instant &instant)
 {
   system_.excitation().at(instant.t, load_);
-  t_     = instant.t;
-  input_ = elements_ = damping_ = 0.;
-  last_                         = power(instant);
-  elements_begin_               = system_.local_stored_energy(instant.local);
-  stored_begin_                 = stored(instant);
+  t_begin_ = t_ = instant.t;
+  work_begin_ = work_ = Power();
+  first_ = last_  = power(instant);
+  elements_begin_ = system_.local_stored_energy(instant.local);
+  stored_begin_   = stored(instant);
 }
 
 void EnergyBalance::step(const Instant &instant)
 {
-  const Power  now  = power(instant);
-  const double half = 0.5 * (instant.t - t_);
-  input_ += half * (last_.input + now.input);
-  elements_ += half * (last_.elements + now.elements);
-  damping_ += half * (last_.damping + now.damping);
-  last_ = now;
-  t_    = instant.t;
+  t_begin_    = t_;
+  first_      = last_;
+  work_begin_ = work_;
+  last_       = power(instant);
+  t_          = instant.t;
+  work_       = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
+}
+
+void EnergyBalance::step(const TimeIntegrator &integrator, PowerRule rule)
+{
+  step(integrator.instant());
+  if (rule == PowerRule::trapezoidal)
+    return;
+  work_ = work_begin_;
+  for (int i = 0; i < 4; ++i)
+  {
+    between_.t = t_begin_ + gauss_points[i] * (t_ - t_begin_);
+    integrator.interpolate(between_.t, between_.q, between_.v);
+    integrator.interpolate(between_.t, between_.local);
+    system_.local_force(between_.local, between_.local.p);
+    work_ = sum(1., work_, gauss_weights[i] * (t_ - t_begin_), power(between_));
+  }
 }
 
 EnergyState EnergyBalance::state(const Instant &instant)
 {
+  Power work = work_;
+  if (instant.t < t_)
+  {
+    const double h = t_ - t_begin_, s = (instant.t - t_begin_) / h, r = 1. - s;
+    work = sum(1., sum(r * r * (1. + 2. * s), work_begin_, s * s * (1. + 2. * r), work_), 1.,
+               sum(h * s * r * r, first_, -h * s * s * r, last_));
+  }
   const double in_elements = system_.local_stored_energy(instant.local) - elements_begin_;
-  return {input_, stored(instant) - stored_begin_, damping_ - elements_ - in_elements};
+  return {work.input, stored(instant) - stored_begin_, work.damping - work.elements - in_elements};
 }
 
 } // namespace gestell::coupling

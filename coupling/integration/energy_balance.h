@@ -13,36 +13,51 @@ struct EnergyState
   double residual() const { return input - stored - dissipated; }
 };
 
+/// How powers are integrated over a step.
+enum class PowerRule
+{
+  trapezoidal, ///< second order, as good as integrators of that order with steps short against the motion
+  gauss        ///< four points on the dense output, order 8: steps long against the motion
+};
+
 /**
  * Energy balance of a run.
  *
  *     input       integral of the drives' power (and of a load that varies in time)
  *     stored      change of q'^T M q'/2 + q^T C q/2 - f_t^T q (constant load) + energy in the elements
  *     dissipated  integral of q'^T B q' and of what the elements take up beyond their stored energy
- *
- * Integrals by the trapezoidal rule over the steps: second order in h, as the integrators it judges.
  */
 class EnergyBalance
 {
 public:
   explicit EnergyBalance(const SecondOrderSystem &system);
 
-  void        begin(const Instant &instant);
-  void        step(const Instant &instant);  ///< once per accepted step
-  EnergyState state(const Instant &instant); ///< at the instant last given to step()
+  void begin(const Instant &instant);
+  /// Once per accepted step.
+  void step(const Instant &instant); ///< trapezoidal
+  void step(const TimeIntegrator &integrator, PowerRule rule);
+  /// Forces have changed their branch at the instant of the last step.
+  void jump(const Instant &instant) { last_ = power(instant); }
+  /// At an instant inside the last step (integrals by the cubic through both ends and their powers) or at its end.
+  EnergyState state(const Instant &instant);
 
 private:
+  /// Powers [W], or their integrals [J]: of the drives, of all other elements, of the damping.
   struct Power
   {
-    double input, elements, damping;
+    double input = 0., elements = 0., damping = 0.;
   };
+  static Power sum(double weight_a, const Power &a, double weight_b, const Power &b);
+
   Power  power(const Instant &instant);
   double stored(const Instant &instant);
 
   const SecondOrderSystem &system_;
   Eigen::VectorXd          product_, load_;
-  Power                    last_{};
-  double                   t_ = 0., input_ = 0., elements_ = 0., damping_ = 0.;
+  Instant                  between_;
+  Power                    first_, last_;      // at both ends of the last step
+  Power                    work_begin_, work_; // integrals, likewise
+  double                   t_begin_ = 0., t_ = 0.;
   double                   stored_begin_ = 0., elements_begin_ = 0.;
 };
 

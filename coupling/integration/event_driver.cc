@@ -7,6 +7,15 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+/// To what an event at t in a step of length h is located: far below what any step's error does to its time.
+double resolution(double t, double h)
+{
+  return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
+}
+} // namespace
+
 EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
     : system_(system), integrator_(integrator), options_(options), detection_(system)
 {
@@ -55,16 +64,19 @@ void EventDriver::advance()
     in_window_    = 0;
   }
   length_ = full;
+  if (!cut_at_end())
+    return;
 
   Crossing crossing;
   if (!first_crossing(crossing))
   {
+    observe();
     system_.accept(integrator_.local());
     before_ = integrator_.local();
     return;
   }
   take(crossing);
-  if (++in_window_ > options_.max_per_step)
+  if (++in_window_ > options_.max_per_step && integrator_.time() < options_.end)
   {
     ++chattering_;
     in_window_ = 0;
@@ -82,8 +94,30 @@ void EventDriver::step_over()
 {
   before_ = integrator_.local();
   integrator_.advance();
+  if (!cut_at_end())
+    return;
+  observe();
   detection_.step(before_, integrator_.local(), events_);
   system_.accept(integrator_.local());
+}
+
+/// False: the integrator gave the step up instead; it goes on from its begin with a smaller one.
+bool EventDriver::cut_at_end()
+{
+  if (!(integrator_.time() > options_.end))
+    return true;
+  integrator_.cut(options_.end);
+  if (integrator_.time() == options_.end)
+    return true;
+  integrator_.restart();
+  before_ = integrator_.local();
+  return false;
+}
+
+void EventDriver::observe() const
+{
+  if (observer_)
+    observer_();
 }
 
 double EventDriver::value_at(int guard, double t)
@@ -96,7 +130,7 @@ double EventDriver::value_at(int guard, double t)
 /// Illinois' variant of regula falsi on the dense output; ends just past the zero.
 void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
 {
-  const double finest = 4. * std::numeric_limits<double>::epsilon() * std::max(std::abs(high), high - low);
+  const double finest = resolution(high, high - low);
   int          side   = 0;
   double       f_low = g_low, f_high = g_high;
   for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
@@ -133,7 +167,7 @@ bool EventDriver::first_crossing(Crossing &first)
     return false;
   if (n > probe_.size())
     make_room();
-  const double begin = integrator_.step_begin(), end = integrator_.time();
+  const double  begin = integrator_.step_begin(), end = integrator_.time();
   constexpr int last = n_inside + 1;
   double        t[last + 1];
   for (int k = 0; k <= last; ++k)
@@ -200,7 +234,7 @@ void EventDriver::take(const Crossing &crossing)
   double       t = crossing.t;
   integrator_.cut(t);
   // The state at the cut may be better than the dense output: move the cut until its own guard is zero.
-  const double finest = 4. * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), end - begin);
+  const double finest = resolution(end, end - begin);
   double       slope = crossing.slope, t_last = t, g_last = 0.;
   for (int k = 0; k < 6 && t > begin; ++k)
   {
@@ -214,6 +248,13 @@ void EventDriver::take(const Crossing &crossing)
     t_last = t, g_last = g, t = next;
     integrator_.cut(t);
   }
+  if (integrator_.time() < t)
+  {
+    integrator_.restart(); // the integrator gave the step up: it goes on from its begin with a smaller one
+    before_ = integrator_.local();
+    return;
+  }
+  observe();
   const ActiveGuard active = system_.guard(guard);
   events_.push_back({integrator_.time(), active.name, active.kind});
   between_ = integrator_.local();

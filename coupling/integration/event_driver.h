@@ -4,6 +4,8 @@
 #include "coupling/integration/time_integrator.h"
 
 #include <array>
+#include <functional>
+#include <limits>
 #include <vector>
 
 namespace gestell::coupling
@@ -13,6 +15,8 @@ struct EventOptions
 {
   bool locate       = true; ///< false: events are told, the integration goes over them
   int  max_per_step = 20;   ///< located within the length of one step; more is chatter
+
+  double end = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
 };
 
 /**
@@ -20,8 +24,8 @@ struct EventOptions
  *
  * Between events every law follows its branch, smoothly continued (SecondOrderSystem::follow_history), so that the
  * integrator keeps its order.  After each step the guards are looked at, at both ends, inside it, and where a parabola
- * through three of these values turns; the first zero in a guard's direction is located on the dense output, the step is
- * cut there, improved until the guard of the state itself is zero, the transition is taken and the integration
+ * through three of these values turns; the first zero in a guard's direction is located on the dense output, the step
+ * is cut there, improved until the guard of the state itself is zero, the transition is taken and the integration
  * restarted.  A guard that is past its zero at the begin of a step and stays so is an event at that begin.
  *
  * Chatter (Zeno): after max_per_step events within one step's length, one step is taken with the laws following the
@@ -38,6 +42,10 @@ public:
   /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
   /// @throws ConvergenceFailure
   void advance();
+
+  /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
+  /// there: before anything of it is accepted and before the transition at its end.
+  void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
 
   const std::vector<Event> &events() const { return events_; }
   long                      chattering_steps() const { return chattering_; }
@@ -56,21 +64,24 @@ private:
   double sign(int guard) const { return system_.crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
   void   take(const Crossing &crossing);
   void   step_over();
+  bool   cut_at_end();
+  void   observe() const;
   void   make_room();
 
   static constexpr int n_inside = 3; ///< samples inside a step
 
-  SecondOrderSystem                         &system_;
-  TimeIntegrator                            &integrator_;
-  EventOptions                               options_;
-  EventDetection                             detection_;
-  std::vector<Event>                         events_;
-  LocalState                                 before_, between_;
-  std::array<Eigen::VectorXd, n_inside + 2>  g_; ///< guards at the samples of the step
-  Eigen::VectorXd                            probe_;
-  double                                     window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
-  int                                        in_window_  = 0;
-  long                                       chattering_ = 0;
+  SecondOrderSystem                        &system_;
+  TimeIntegrator                           &integrator_;
+  EventOptions                              options_;
+  EventDetection                            detection_;
+  std::vector<Event>                        events_;
+  LocalState                                before_, between_;
+  std::array<Eigen::VectorXd, n_inside + 2> g_; ///< guards at the samples of the step
+  Eigen::VectorXd                           probe_;
+  double                                    window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
+  int                                       in_window_  = 0;
+  long                                      chattering_ = 0;
+  std::function<void()>                     observer_;
 };
 
 } // namespace gestell::coupling

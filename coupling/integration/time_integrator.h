@@ -59,8 +59,26 @@ public:
   /// q, v [n] at t in [step_begin(), time()].
   virtual void interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const = 0;
 
+  /// q, v of the named coordinates at t in [step_begin(), time()], whatever becomes of the others: signals in every
+  /// step.
+  virtual void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+  {
+    if (t != time())
+    {
+      interpolate(t, q, v);
+      return;
+    }
+    const Instant &now = instant();
+    for (const int i : coordinates)
+    {
+      q[i] = now.q[i];
+      v[i] = now.v[i];
+    }
+  }
+
   /// The last step ends at t in (step_begin(), time()] instead.  Methods that can, step there again, which makes the
-  /// state at t a little better than interpolate() told; it may be cut again, as long as step_begin() < t.
+  /// state at t a little better than interpolate() told; it may be cut again anywhere in the original step.  A cut at
+  /// step_begin() rejects the step; one whose equation is not solved does so of itself, time() is then step_begin().
   virtual void cut(double t) = 0;
 
   /// Forces change their branch at the present instant: the past is forgotten, order and state are kept.

@@ -43,13 +43,13 @@ double reference_peak(const std::string &file, const std::string &name)
   return CsvTable(source + "/tests/reference/press/" + file).number("name", name, "value");
 }
 
-// The reference's own second method agrees to 1e-4 N; BDF2 at h = 1e-5 s errs by 6 N (its convergence table): 0.1 % is
-// the bound asked for, 2e-5 what an unbroken implementation reaches.
+// The reference's own second method agrees to 1e-4 N; BDF2 at h = 1e-5 s with located events errs by 4.6 and 2.2 N: 0.1
+// % is the bound asked for, 6e-6 what an unbroken implementation reaches.
 TEST(PressMinimal, PeaksOfTheRodForceMeetTheReference)
 {
   const PressRun press = run("press_minimal.toml");
-  EXPECT_NEAR(press.signal("F_P").max, reference_peak("peaks.csv", "F_P_max"), 2e-5 * 1056632.);
-  EXPECT_NEAR(press.signal("F_P").min, reference_peak("peaks.csv", "F_P_min"), 2e-5 * 601647.);
+  EXPECT_NEAR(press.signal("F_P").max, reference_peak("peaks.csv", "F_P_max"), 6e-6 * 1056632.);
+  EXPECT_NEAR(press.signal("F_P").min, reference_peak("peaks.csv", "F_P_min"), 6e-6 * 601647.);
   EXPECT_NEAR(press.signal("M_T").max, reference_peak("peaks.csv", "M_T_max"), 1e-4 * 52430.);
   EXPECT_NEAR(press.signal("F_col").max, reference_peak("peaks.csv", "F_column_max"), 1e-4 * 941884.);
   EXPECT_NEAR(press.signal("F_F").max, reference_peak("peaks.csv", "F_foundation_max"), 1e-4 * 401635.);
@@ -65,17 +65,31 @@ TEST(PressMinimal, EventsUpToTheFirstRecontactComeInOrderAndInTime)
   {
     ASSERT_LT(i, static_cast<int>(press.result.events.size()));
     EXPECT_EQ(press.result.events[i].kind, reference.text(i, "event"));
-    EXPECT_NEAR(press.result.events[i].t, reference.number(i, "t"), 2e-5);
+    EXPECT_NEAR(press.result.events[i].t, reference.number(i, "t"), 2e-6);
   }
   EXPECT_EQ(press.result.events.size(), 44u);
+}
+
+TEST(PressMinimal, EventTimesConvergeWithTheSecondPowerOfTheStep)
+{
+  const PressRun coarse = run("press_minimal.toml"), fine = run("press_minimal.toml", {"run.step=\"2.5 us\""});
+  const CsvTable reference(source + "/tests/reference/press/events.csv");
+  double         error[2] = {0., 0.};
+  for (int i = 0; i < 16; ++i)
+  {
+    error[0] = std::fmax(error[0], std::abs(coarse.result.events[i].t - reference.number(i, "t")));
+    error[1] = std::fmax(error[1], std::abs(fine.result.events[i].t - reference.number(i, "t")));
+  }
+  EXPECT_LT(error[1], 2e-7);
+  EXPECT_NEAR(std::log2(error[0] / error[1]) / 2., 2., 0.3);
 }
 
 TEST(PressMinimal, EnergyIsBalancedToTheSecondOrderOfTheStep)
 {
   const PressRun fine = run("press_minimal.toml"), coarse = run("press_minimal.toml", {"run.step=\"40 us\""});
-  EXPECT_NEAR(fine.result.energy.input, reference_peak("peaks.csv", "work_of_motor"), 1e-3);
+  // 2.8 mJ of 4810 J at 10 us, 0.65 mJ at 5 us.
+  EXPECT_NEAR(fine.result.energy.input, reference_peak("peaks.csv", "work_of_motor"), 4e-3);
   EXPECT_LT(fine.result.energy.residual, 1e-5 * fine.result.energy.input);
-  // Kinks of the laws are not located, so the order is about two only on the average.
   EXPECT_GT(coarse.result.energy.residual / fine.result.energy.residual, 6.);
 }
 

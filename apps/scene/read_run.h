@@ -1,0 +1,15 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "apps/scene/scene_table.h"
+
+namespace gestell::apps
+{
+
+/// [run]: the method with its parameters, times, events.  Without it nothing is run: `modes` and `reduce` need none.
+RunRequest read_run(const SceneTable &scene);
+
+/// [output]: signals, and the times between rows and pictures.
+void read_output(const SceneTable &scene, Scene &result);
+
+} // namespace gestell::apps

@@ -1,0 +1,42 @@
+#include "apps/scene/run_layers.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+bool from_command_line(const SceneNode &node)
+{
+  return node.place.file.rfind("--set", 0) == 0;
+}
+
+void take_away(SceneNode &table, const std::vector<std::string> &keys)
+{
+  auto      &entries = table.entries;
+  const auto goes    = [&](const SceneNode::Entry &entry)
+  { return std::find(keys.begin(), keys.end(), entry.first) != keys.end() && !from_command_line(entry.second); };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), goes), entries.end());
+}
+
+std::string method_in(const SceneNode &table, const std::string &otherwise)
+{
+  const SceneNode *method = table.find("method");
+  return method ? method->text : otherwise;
+}
+
+} // namespace
+
+void make_way(SceneNode &older, const SceneNode &newer)
+{
+  if (older.type != SceneNode::Type::table || newer.type != SceneNode::Type::table)
+    return;
+  const std::string former = method_in(older, "bdf");
+  if (method_in(newer, former) != former)
+    take_away(older, {"order", "beta", "gamma", "theta", "alpha", "rho_inf", "force"});
+  if (newer.find("tolerance") && !older.find("tolerance"))
+    take_away(older, {"step", "order"});
+}
+
+} // namespace gestell::apps

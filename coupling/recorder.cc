@@ -1,0 +1,283 @@
+#include "coupling/recorder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text << std::setprecision(2) << 100. * share << " %";
+  return text.str();
+}
+
+struct Point
+{
+  double t, f;
+};
+
+/// Vertex of the parabola through three points of ascending t, if it is a maximum inside (a, c).
+bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
+{
+  const double rise = (b.f - a.f) / (b.t - a.t), curvature = ((c.f - b.f) / (c.t - b.t) - rise) / (c.t - a.t);
+  if (!(curvature < 0.))
+    return false;
+  top.t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+  top.f = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
+  return top.t > a.t && top.t < c.t;
+}
+
+std::vector<int> coordinates_of(const std::vector<Signal> &signals)
+{
+  std::set<int> coordinates;
+  for (const Signal &signal : signals)
+    for (const Measure *measure : {&signal.on_q, &signal.on_v})
+      for (const auto &[coordinate, weight] : *measure)
+        if (weight != 0.)
+          coordinates.insert(coordinate);
+  return {coordinates.begin(), coordinates.end()};
+}
+
+} // namespace
+
+Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
+                   const std::vector<Signal> &signals, int samples, RunResult &result)
+    : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
+      energy_(machine), coordinates_(coordinates_of(signals)), row_step_(output_step(options)),
+      picture_step_(options.picture_step)
+{
+  between_.q.setZero(machine.size());
+  between_.v.setZero(machine.size());
+  between_.local.resize(machine.directions().cols());
+  probe_   = {0., std::vector<double>(signals.size())};
+  earlier_ = probe_;
+  samples_.assign(samples + 1, probe_);
+
+  result.columns = {"t"};
+  result.units   = {"s"};
+  for (const Signal &signal : signals)
+  {
+    result.signals.push_back({signal.name, signal.unit});
+    result.columns.push_back(signal.name);
+    result.units.push_back(signal.unit);
+  }
+  if (options.energy)
+    for (const char *name : {"energy input", "energy stored", "energy dissipated"})
+    {
+      result.columns.push_back(name);
+      result.units.push_back("J");
+    }
+  const double length = options.end - options.begin;
+  result.rows.reserve(static_cast<std::size_t>(length / row_step_ + 3.) * result.columns.size());
+  if (picture_step_ > 0.)
+    result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
+}
+
+void Recorder::evaluate(double t, Sample &sample)
+{
+  const bool at_end = t == integrator_.time();
+  if (!at_end)
+    integrator_.interpolate(t, between_.local);
+  if (!coordinates_.empty())
+    integrator_.motion_at(t, coordinates_, between_.q, between_.v);
+  const LocalState &local = at_end ? integrator_.local() : between_.local;
+  sample.t                = t;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, local);
+}
+
+void Recorder::begin()
+{
+  evaluate(integrator_.time(), samples_.back());
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+  {
+    SignalSummary &summary = result_.signals[i];
+    summary.min = summary.max = samples_.back().values[i];
+    summary.t_min = summary.t_max = integrator_.time();
+  }
+  if (options_.energy)
+    energy_.begin(integrator_.instant());
+  rows();
+  pictures();
+}
+
+void Recorder::step()
+{
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  if (!(end > begin))
+    return;
+  const auto n       = static_cast<int>(samples_.size()) - 1;
+  const bool located = options_.events;
+  if (n == 1)
+    std::swap(earlier_, samples_[0]);
+  std::swap(samples_[0], samples_[n]);
+  for (int k = 1; k <= n; ++k)
+  {
+    evaluate(k == n ? end : begin + (end - begin) * k / n, samples_[k]);
+    extremes(samples_[k]);
+  }
+  // Across kinks that were not located a parabola would tell of peaks that are none.
+  if (n == 1 && earlier_known_ && located)
+    turn(earlier_, samples_[0], samples_[1]);
+  for (int k = 1; k < n; ++k)
+    turn(samples_[k - 1], samples_[k], samples_[k + 1]);
+  earlier_known_ = true;
+  if (options_.energy)
+    balance();
+  rows();
+  pictures();
+}
+
+void Recorder::jump()
+{
+  evaluate(integrator_.time(), samples_.back());
+  extremes(samples_.back());
+  earlier_known_ = false;
+  if (options_.energy)
+    energy_.jump(integrator_.instant());
+}
+
+void Recorder::extremes(const Sample &sample)
+{
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    extreme(i, sample.t, sample.values[i]);
+}
+
+void Recorder::extreme(std::size_t signal, double t, double value)
+{
+  SignalSummary &summary = result_.signals[signal];
+  if (value < summary.min)
+  {
+    summary.min   = value;
+    summary.t_min = t;
+  }
+  if (value > summary.max)
+  {
+    summary.max   = value;
+    summary.t_max = t;
+  }
+}
+
+/// Looks for extremes between three successive samples.
+void Recorder::turn(const Sample &a, const Sample &b, const Sample &c)
+{
+  const bool dense = samples_.size() > 2;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    for (const double sign : {-1., 1.})
+    {
+      const SignalSummary &summary = result_.signals[i];
+      Point                top;
+      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
+      if (!turns || !(top.f > (sign > 0. ? summary.max : -summary.min)))
+        continue;
+      if (dense)
+        search(i, sign, a, b, c);
+      else if (sign * b.values[i] >= sign * a.values[i] && sign * b.values[i] >= sign * c.values[i])
+        extreme(i, top.t, sign * top.f);
+    }
+}
+
+/// The maximum of sign * signal on the dense output, by parabolas that close in on it.
+void Recorder::search(std::size_t signal, double sign, const Sample &a, const Sample &b, const Sample &c)
+{
+  std::array<Point, 3> p = {
+      {{a.t, sign * a.values[signal]}, {b.t, sign * b.values[signal]}, {c.t, sign * c.values[signal]}}};
+  const double close = 1e-6 * (c.t - a.t);
+  Point        top;
+  for (int k = 0; k < 5 && maximum(p[0], p[1], p[2], top); ++k)
+  {
+    const bool found = std::any_of(p.begin(), p.end(), [&](const Point &x) { return std::abs(x.t - top.t) < close; });
+    if (found)
+      return;
+    evaluate(top.t, probe_);
+    top.f = sign * probe_.values[signal];
+    extremes(probe_);
+    // The end that is farther away gives place.
+    p[top.t - p[0].t > p[2].t - top.t ? 0 : 2] = top;
+    std::sort(p.begin(), p.end(), [](const Point &x, const Point &y) { return x.t < y.t; });
+  }
+}
+
+void Recorder::rows()
+{
+  const double end = integrator_.time();
+  for (double t; (t = options_.begin + double(next_row_) * row_step_) <= end + on_grid * row_step_; ++next_row_)
+  {
+    const bool at_end = t >= end - on_grid * row_step_;
+    if (!at_end)
+    {
+      evaluate(std::max(t, integrator_.step_begin()), probe_);
+      extremes(probe_);
+    }
+    row(t, at_end ? samples_.back() : probe_);
+  }
+}
+
+void Recorder::row(double t, const Sample &sample)
+{
+  result_.rows.push_back(t);
+  result_.rows.insert(result_.rows.end(), sample.values.begin(), sample.values.end());
+  if (!options_.energy)
+    return;
+  EnergyState energy{result_.energy.input, result_.energy.stored, result_.energy.dissipated};
+  if (sample.t < integrator_.time())
+  {
+    between_.t = sample.t;
+    integrator_.interpolate(sample.t, between_.q, between_.v);
+    energy = energy_.state(between_);
+  }
+  result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
+}
+
+void Recorder::pictures()
+{
+  if (!(picture_step_ > 0.))
+    return;
+  const double end = integrator_.time();
+  for (double t; (t = options_.begin + double(next_picture_) * picture_step_) <= end + on_grid * picture_step_;
+       ++next_picture_)
+  {
+    result_.picture_times.push_back(t);
+    if (t >= end - on_grid * picture_step_)
+    {
+      result_.picture_states.push_back(integrator_.instant().q);
+      continue;
+    }
+    integrator_.interpolate(std::max(t, integrator_.step_begin()), between_.q, between_.v);
+    result_.picture_states.push_back(between_.q);
+  }
+}
+
+void Recorder::balance()
+{
+  energy_.step(integrator_, samples_.size() > 2 ? PowerRule::gauss : PowerRule::trapezoidal);
+  const EnergyState energy = energy_.state(integrator_.instant());
+  result_.energy           = {energy.input, energy.stored, energy.dissipated,
+                              std::max(result_.energy.residual, std::abs(energy.residual()))};
+  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated});
+}
+
+void Recorder::finish()
+{
+  const Sample &last = samples_.back();
+  if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
+    row(integrator_.time(), last);
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    result_.signals[i].final = last.values[i];
+  if (result_.energy.residual > 0.01 * turned_over_)
+    result_.warnings.push_back("the energy balance is open by " + percent(result_.energy.residual / turned_over_) +
+                               " of the energy turned over: the step is too large for this motion");
+}
+
+} // namespace gestell::coupling

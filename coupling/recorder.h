@@ -1,0 +1,66 @@
+#pragma once
+
+#include "coupling/integration/energy_balance.h"
+#include "coupling/simulation.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
+ *
+ * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes are looked for at the end of
+ * every step, before and after every event, at every row, and between:
+ *
+ *     samples = 1   steps short against the motion: the parabola through three successive ends of steps
+ *     samples > 1   the step is divided so often; where a parabola through three samples turns beyond what was seen,
+ * the dense output itself is evaluated and the parabola drawn closer
+ */
+class Recorder
+{
+public:
+  /// @param samples  per step, >= 1
+  Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
+           const std::vector<Signal> &signals, int samples, RunResult &result);
+
+  void begin();  ///< at the start, after the integrator began
+  void step();   ///< a step was made; its dense output and the history that holds on it are there
+  void jump();   ///< an event has changed the history at the present instant
+  void finish(); ///< the last instant always has a row
+
+private:
+  struct Sample
+  {
+    double              t;
+    std::vector<double> values;
+  };
+
+  void evaluate(double t, Sample &sample);
+  void extremes(const Sample &sample);
+  void extreme(std::size_t signal, double t, double value);
+  void turn(const Sample &a, const Sample &b, const Sample &c);
+  void search(std::size_t signal, double sign, const Sample &a, const Sample &b, const Sample &c);
+  void rows();
+  void row(double t, const Sample &sample);
+  void pictures();
+  void balance();
+
+  const Machine             &machine_;
+  const TimeIntegrator      &integrator_;
+  const RunOptions          &options_;
+  const std::vector<Signal> &signals_;
+  RunResult                 &result_;
+  EnergyBalance              energy_;
+  std::vector<int>           coordinates_; ///< that signals read
+  Instant                    between_;
+  std::vector<Sample>        samples_;               ///< of the last step, both ends included
+  Sample                     earlier_, probe_;       ///< end of the step before the last one; scratch
+  bool                       earlier_known_ = false; ///< and nothing jumped since
+  double                     row_step_ = 0., picture_step_ = 0.;
+  long                       next_row_ = 0, next_picture_ = 0; ///< on their grids
+  double                     turned_over_ = 0.;                ///< largest energy in the balance so far [J]
+};
+
+} // namespace gestell::coupling

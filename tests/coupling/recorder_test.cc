@@ -1,0 +1,143 @@
+// What is told of a run: extremes between the steps, rows and pictures on grids of their own.
+
+#include "coupling/recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace gestell::coupling;
+
+constexpr double omega = 7., mass = 2.;
+
+/// One slider of 2 kg that nothing holds.
+Machine slider()
+{
+  Machine machine;
+  machine.add_slider("x", {1., 0., 0.}, mass, "ground");
+  machine.finish();
+  return machine;
+}
+
+/// Steps of h on the exact motion q = sin(omega t): whatever is told wrongly, the recorder does it.
+class ExactSine : public TimeIntegrator
+{
+public:
+  explicit ExactSine(double step) : step_(step)
+  {
+    now_.q.setZero(1);
+    now_.v.setZero(1);
+  }
+
+  void begin(double t, const Eigen::VectorXd &, const Eigen::VectorXd &) override { at(begin_ = t); }
+  void advance() override
+  {
+    begin_ = now_.t;
+    at(begin_ + step_);
+  }
+  const LocalState &local() const override { return now_.local; }
+  const Instant    &instant() const override { return now_; }
+  double            step_begin() const override { return begin_; }
+  void              interpolate(double t, LocalState &state) const override { state.t = t; }
+  void              interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override
+  {
+    q[0] = std::sin(omega * t);
+    v[0] = omega * std::cos(omega * t);
+  }
+  void                   cut(double t) override { at(t); }
+  void                   restart() override { begin_ = now_.t; }
+  const IntegrationWork &work() const override { return work_; }
+
+private:
+  void at(double t)
+  {
+    interpolate(t, now_.q, now_.v);
+    now_.t = now_.local.t = t;
+  }
+
+  double          step_, begin_ = 0.;
+  Instant         now_;
+  IntegrationWork work_;
+};
+
+RunResult recorded(double step, int samples, double end, double output_step = 0.)
+{
+  const Machine             machine = slider();
+  const std::vector<Signal> signals = {machine.signal("x", "x.displacement"), machine.signal("v", "x.velocity")};
+  ExactSine                 sine(step);
+  RunOptions                options;
+  options.method.step  = step;
+  options.end          = end;
+  options.output_step  = output_step;
+  options.picture_step = output_step;
+  RunResult result;
+  Recorder  recorder(machine, sine, options, signals, samples, result);
+  sine.begin(0., {}, {});
+  recorder.begin();
+  while (sine.time() < end - 1e-12)
+  {
+    sine.advance();
+    if (sine.time() > end)
+      sine.cut(end);
+    recorder.step();
+  }
+  recorder.finish();
+  return result;
+}
+
+TEST(Recorder, FindsThePeakOfASineBetweenShortSteps)
+{
+  // Without the parabola a peak in the middle of two ends is short by (omega h)^2/8; with it (omega h)^4/ 128 is left
+  // at most, the error of a parabola through -h, 0, h off its middle by h/2.
+  for (const double wh : {0.3, 0.15})
+  {
+    const RunResult      result = recorded(wh / omega, 1, 2.);
+    const SignalSummary &x      = result.signals[0];
+    EXPECT_NEAR(x.max, 1., std::pow(wh, 4) / 50.);
+    EXPECT_NEAR(x.min, -1., std::pow(wh, 4) / 50.);
+    EXPECT_NEAR(std::sin(omega * x.t_max), 1., std::pow(wh, 4) / 50.);
+  }
+}
+
+TEST(Recorder, FindsThePeaksInsideLongStepsToTheAccuracyOfTheDenseOutput)
+{
+  for (const double wh : {1.1, 1.9, 3.2}) // half a period in a step and more
+  {
+    const RunResult result = recorded(wh / omega, 8, 3.);
+    EXPECT_NEAR(result.signals[0].max, 1., 1e-10) << wh;
+    EXPECT_NEAR(result.signals[0].min, -1., 1e-10) << wh;
+    EXPECT_NEAR(result.signals[1].max, omega, 1e-10 * omega) << wh;
+    EXPECT_NEAR(result.signals[1].min, -omega, 1e-10 * omega) << wh;
+    EXPECT_NEAR(std::sin(omega * result.signals[0].t_max), 1., 1e-10) << wh;
+  }
+}
+
+TEST(Recorder, TakesRowsAndPicturesFromTheDenseOutputWhereNoStepEnds)
+{
+  const RunResult result = recorded(0.03, 1, 0.505, 0.01);
+  ASSERT_EQ(result.rows.size() % 6, 0u);  // t, x, v and three energies
+  ASSERT_EQ(result.rows.size() / 6, 52u); // 0, 0.01 .. 0.5 and the end
+  for (std::size_t row = 0; row < 52; ++row)
+  {
+    const double t = result.rows[6 * row];
+    EXPECT_NEAR(t, row < 51 ? 0.01 * double(row) : 0.505, 1e-15);
+    EXPECT_NEAR(result.rows[6 * row + 1], std::sin(omega * t), 1e-14);
+    EXPECT_NEAR(result.rows[6 * row + 4], 0.5 * mass * omega * omega * (std::pow(std::cos(omega * t), 2) - 1.), 1e-12);
+  }
+  ASSERT_EQ(result.picture_times.size(), 51u);
+  EXPECT_NEAR(result.picture_states[7][0], std::sin(omega * 0.07), 1e-14);
+  EXPECT_NEAR(result.signals[0].final, std::sin(omega * 0.505), 1e-14);
+}
+
+TEST(Recorder, RowsDoNotDependOnTheStep)
+{
+  const RunResult fine = recorded(0.003, 1, 0.4, 0.02), coarse = recorded(0.07, 8, 0.4, 0.02);
+  ASSERT_EQ(fine.rows.size(), coarse.rows.size());
+  for (std::size_t i = 0; i < fine.rows.size(); ++i)
+    EXPECT_NEAR(fine.rows[i], coarse.rows[i], 1e-11);
+}
+
+} // namespace
