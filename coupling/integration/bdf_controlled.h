@@ -103,7 +103,8 @@ private:
   void               euler_chain(double length, int n, Eigen::VectorXd &middle, Eigen::VectorXd &end);
   void               refuse(const Trial &trial, double exponent);
   void               choose();
-  double             error_of_order(int order);
+  double             error_of_order(int order) const;
+  int                growth(int order, double gain);
   void               change(int rung, int order);
   [[noreturn]] void  fail(double h, const Trial &trial) const;
   void               interpolate_part(double t, Eigen::Index value, Eigen::Index slope, Eigen::VectorXd &x,

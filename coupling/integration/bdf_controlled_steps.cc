@@ -18,7 +18,6 @@ constexpr double safety         = 0.3; ///< of the tolerance, that an error expe
 constexpr double resolved       = 0.5; ///< omega h of a start's shortest Euler step
 constexpr int    steps_barred   = 40;
 constexpr double worth_an_order = 1.3; ///< factor of the step expected, for which the order is raised
-const double     unbounded      = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -130,10 +129,22 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
   }
 }
 
-double BdfControlled::error_of_order(int order)
+/// Of the last step, had it been of this order.
+double BdfControlled::error_of_order(int order) const
 {
-  history_ = differences_[order + 1];
-  return scale_.error(motion(history_)) / (bdf_gamma(order) * (order + 1) * options_.tolerance);
+  const auto e = differences_[order + 1];
+  return scale_.error({e.head(n_), e.segment(n_, n_), e.segment(2 * n_, n_u_), e.segment(2 * n_ + n_u_, n_u_)}) /
+         (bdf_gamma(order) * (order + 1) * options_.tolerance);
+}
+
+/// By how many rungs a step of this order may grow, for an error that lets hope for `gain`; -1: it may not be used at
+/// all.
+int BdfControlled::growth(int order, double gain)
+{
+  int rungs = std::min({highest_growth, rung_, std::max(0, std::ilogb(gain))});
+  while (rungs >= 0 && !options_.fixed_order && !limit_.allows(order, rung_ - rungs))
+    --rungs;
+  return order == order_ ? std::max(rungs, 0) : rungs;
 }
 
 /// Order and length of the next step, once enough steps of this length tell.
@@ -141,34 +152,30 @@ void BdfControlled::choose()
 {
   wanted_rung_  = rung_;
   wanted_order_ = order_;
-  if (order_ < options_.min_order && since_change_ > order_)
+  if (since_change_ == 0 || since_change_ % (order_ + 1) != 0)
+    return;
+  if (order_ < options_.min_order)
   {
     wanted_order_ = order_ + 1;
     return;
   }
-  if (since_change_ <= order_)
-    return;
   double best = 0., gain_here = 0.;
-  for (const int order : {order_, order_ - 1, order_ + 1})
+  // Order 2 too: it is the way out where a higher one may not be used with longer steps.
+  for (const int order : {order_, order_ - 1, order_ + 1, order_ > 3 ? 2 : 0})
   {
-    if (order < options_.min_order || order > options_.max_order || order + 1 > differences_.known())
-      continue;
-    if (order > 2 && order > order_ && barred_ > 0)
+    if (order < options_.min_order || order > options_.max_order || order + 1 > differences_.known() || order == 0 ||
+        (order > std::max(2, order_) && barred_ > 0))
       continue;
     const double error = error_of_order(order);
-    const double gain  = error > 0. ? std::pow(safety / error, 1. / order) : unbounded;
-    int          rungs =
-        std::clamp(static_cast<int>(std::floor(std::log2(std::min(gain, 1e3)))), 0, std::min(highest_growth, rung_));
-    const bool free = options_.fixed_order;
-    while (rungs > 0 && !free && !limit_.allows(order, rung_ - rungs))
-      --rungs;
-    if (rungs == 0 && !free && order != order_ && !limit_.allows(order, rung_))
+    const double gain  = std::min(std::pow(safety / std::max(error, 1e-30), 1. / order), 1e3);
+    const int    rungs = growth(order, gain);
+    if (rungs < 0)
       continue;
     // Among steps that end on the same rung the present order, unless another one lets hope for more.
     double worth = std::ldexp(1., rungs);
     if (order == order_)
       gain_here = gain;
-    else if (rung_ - rungs > 0 && gain > worth_an_order * gain_here && gain > 1.)
+    else if (rung_ - rungs > 0 && gain > worth_an_order * gain_here && gain > 1. && std::abs(order - order_) == 1)
       worth *= 1.1;
     else
       worth *= 0.9;
