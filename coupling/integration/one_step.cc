@@ -2,7 +2,10 @@
 
 #include "coupling/integration/hermite.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace gestell::coupling
@@ -13,7 +16,7 @@ namespace
 
 double require_step(const std::string &name, double step)
 {
-  if (!(step > 0.))
+  if (!(step > 0.) || !std::isfinite(step))
     throw std::invalid_argument(name + ": step " + std::to_string(step) + " s; it must be positive");
   return step;
 }
@@ -164,6 +167,25 @@ void OneStep::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) cons
   const auto &[dH, dD] = std::tie(weights.rate_value, weights.rate_slope);
   q                    = H[0] * a.q + H[1] * b.q + D[0] * a.v + D[1] * b.v;
   v                    = dH[0] * a.q + dH[1] * b.q + dD[0] * a.v + dD[1] * b.v;
+}
+
+void OneStep::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+{
+  if (!stepped_ || t == time())
+  {
+    TimeIntegrator::motion_at(t, coordinates, q, v);
+    return;
+  }
+  const Instant &a = begin_.motion, &b = end_.motion;
+  const double   times[] = {a.t, b.t};
+  const auto     weights = hermite_weights(times, 2, t);
+  const auto &[H, D]     = std::tie(weights.value, weights.slope);
+  const auto &[dH, dD]   = std::tie(weights.rate_value, weights.rate_slope);
+  for (const int i : coordinates)
+  {
+    q[i] = H[0] * a.q[i] + H[1] * b.q[i] + D[0] * a.v[i] + D[1] * b.v[i];
+    v[i] = dH[0] * a.q[i] + dH[1] * b.q[i] + dD[0] * a.v[i] + dD[1] * b.v[i];
+  }
 }
 
 void OneStep::cut(double t)

@@ -32,8 +32,9 @@ public:
   double                 step_begin() const override { return (stepped_ ? begin_ : end_).motion.t; }
   void                   interpolate(double t, LocalState &state) const override;
   void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
-  void                   cut(double t) override;
-  void                   restart() override;
+  void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void cut(double t) override;
+  void restart() override;
   const IntegrationWork &work() const override { return work_; }
 
 protected:
