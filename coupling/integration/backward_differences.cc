@@ -19,18 +19,75 @@ void BackwardDifferences::start(const Eigen::VectorXd &oldest, const Eigen::Vect
   known_    = 2;
 }
 
-void BackwardDifferences::predict(int order, Eigen::VectorXd &z) const
+namespace
 {
-  z = D_.col(0) + D_.col(1);
-  for (int j = 2; j <= order; ++j)
-    z += D_.col(j);
+/// 1 - gamma_j / gamma_k
+template <int order>
+constexpr std::array<double, order + 1> history_weights()
+{
+  std::array<double, order + 1> weights{};
+  for (int j = 0; j <= order; ++j)
+    weights[j] = 1. - bdf_gamma(j) / bdf_gamma(order);
+  return weights;
 }
 
-void BackwardDifferences::history(int order, Eigen::VectorXd &z) const
+/// Loops over all components with the order known to the compiler.
+template <int order>
+void combine(const Eigen::MatrixXd &D, double *__restrict predicted, double *__restrict history)
 {
-  z = D_.col(0);
-  for (int j = 1; j < order; ++j)
-    z += (1. - bdf_gamma(j) / bdf_gamma(order)) * D_.col(j);
+  constexpr auto     weights = history_weights<order>();
+  const Eigen::Index n       = D.rows();
+  const double *__restrict d = D.data();
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    double p = d[i], h = d[i];
+    for (int j = 1; j <= order; ++j)
+    {
+      p += d[j * n + i];
+      h += weights[j] * d[j * n + i];
+    }
+    predicted[i] = p;
+    history[i]   = h;
+  }
+}
+
+/// `lanes` components at once: that columns do not overlap is known to us alone.
+template <int order, int lanes>
+void append_lanes(double *d, Eigen::Index n, const double *difference)
+{
+  using Lanes  = Eigen::Array<double, lanes, 1>;
+  using Column = Eigen::Map<Lanes>;
+  Lanes  sum   = Eigen::Map<const Lanes>(difference);
+  Column beyond(d + (order + 1) * n);
+  Column(d + (order + 2) * n) = sum - beyond;
+  beyond                      = sum;
+  for (int j = order; j >= 0; --j)
+  {
+    Column column(d + j * n);
+    sum += column;
+    column = sum;
+  }
+}
+
+template <int order>
+void append(Eigen::MatrixXd &D, const double *difference)
+{
+  constexpr int      lanes = 8;
+  const Eigen::Index n     = D.rows();
+  Eigen::Index       i     = 0;
+  for (; i + lanes <= n; i += lanes)
+    append_lanes<order, lanes>(D.data() + i, n, difference + i);
+  for (; i < n; ++i)
+    append_lanes<order, 1>(D.data() + i, n, difference + i);
+}
+
+} // namespace
+
+void BackwardDifferences::predict(int order, Eigen::VectorXd &predicted, Eigen::VectorXd &history) const
+{
+  constexpr decltype(&combine<1>) combinations[] = {combine<1>, combine<2>, combine<3>,
+                                                    combine<4>, combine<5>, combine<6>};
+  combinations[order - 1](D_, predicted.data(), history.data());
 }
 
 void BackwardDifferences::at(double s, int degree, Eigen::Index first, Eigen::Ref<Eigen::VectorXd> x) const
@@ -46,13 +103,9 @@ void BackwardDifferences::at(double s, int degree, Eigen::Index first, Eigen::Re
 
 void BackwardDifferences::push(int order, const Eigen::VectorXd &difference)
 {
-  const bool beyond = known_ > order;
-  if (beyond)
-    D_.col(order + 2) = difference - D_.col(order + 1);
-  D_.col(order + 1) = difference;
-  for (int j = order; j >= 0; --j)
-    D_.col(j) += D_.col(j + 1);
-  known_ = order + (beyond ? 2 : 1);
+  constexpr decltype(&append<1>) appends[] = {append<1>, append<2>, append<3>, append<4>, append<5>, append<6>};
+  appends[order - 1](D_, difference.data());
+  known_ = order + (known_ > order ? 2 : 1); // what is beyond was made from a difference that was not known
 }
 
 /**

@@ -33,8 +33,8 @@ public:
   /// Highest difference known.
   int known() const { return known_; }
 
-  void predict(int order, Eigen::VectorXd &z) const;
-  void history(int order, Eigen::VectorXd &z) const;
+  /// z^ and h^z.
+  void predict(int order, Eigen::VectorXd &predicted, Eigen::VectorXd &history) const;
   /// z(t_n + s h) by the polynomial of a degree, components first .. first + x.size() - 1.
   void at(double s, int degree, Eigen::Index first, Eigen::Ref<Eigen::VectorXd> x) const;
 

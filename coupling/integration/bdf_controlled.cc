@@ -251,6 +251,22 @@ void BdfControlled::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v
   interpolate_part(t, 0, n_, q, v);
 }
 
+void BdfControlled::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q,
+                              Eigen::VectorXd &v) const
+{
+  if (t != time())
+  {
+    interpolate(t, q, v);
+    return;
+  }
+  const Eigen::VectorXd &z = cut_ ? z_cut_ : z_;
+  for (const int i : coordinates)
+  {
+    q[i] = z[i];
+    v[i] = z[n_ + i];
+  }
+}
+
 void BdfControlled::cut(double t)
 {
   if (!(t > t_begin_)) // nothing is left of the step

@@ -65,13 +65,14 @@ public:
   /// @throws ConvergenceFailure if the step falls below the smallest one
   void advance() override;
 
-  const LocalState      &local() const override { return local_; }
-  const Instant         &instant() const override;
-  double                 step_begin() const override { return t_begin_; }
-  void                   interpolate(double t, LocalState &state) const override;
-  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
-  void                   cut(double t) override;
-  void                   restart() override;
+  const LocalState &local() const override { return local_; }
+  const Instant    &instant() const override;
+  double            step_begin() const override { return t_begin_; }
+  void              interpolate(double t, LocalState &state) const override;
+  void              interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void cut(double t) override;
+  void restart() override;
   const IntegrationWork &work() const override { return work_; }
 
   /// Order and length [s] of the step to come.

@@ -50,8 +50,7 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
 {
   Trial        trial;
   const double t = anchor_ + static_cast<double>(steps_ + 1) * h;
-  differences_.predict(order_, predicted_);
-  differences_.history(order_, history_);
+  differences_.predict(order_, predicted_, history_);
   local_.u = predicted_.segment(2 * n_, n_u_);
   local_.p = predicted_.segment(2 * n_ + 3 * n_u_, n_u_);
   try
@@ -63,10 +62,8 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
     reason_ = failure.what();
     return trial;
   }
-  difference_ = z_ - z_begin_;
-  if (!difference_.allFinite())
+  if (!scale_.consider(t, h, motion(z_begin_), motion(z_)))
     return trial;
-  scale_.consider(t, h, motion(z_), motion(difference_));
   difference_  = z_ - predicted_;
   trial.solved = true;
   trial.error  = scale_.error(motion(difference_)) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
@@ -238,10 +235,8 @@ BdfControlled::Trial BdfControlled::try_start(double h)
   end_[1]     = 2. * end_[2] - end_[1];
   difference_ = (end_[1] - end_[0]) / 3.;
   end_[2]     = end_[1] + difference_;
-  z_          = end_[2] - z_begin_;
-  if (!z_.allFinite())
+  if (!scale_.consider(t_end_ + length, length, motion(z_begin_), motion(end_[2])))
     return trial;
-  scale_.consider(t_end_ + length, length, motion(end_[2]), motion(z_));
   trial.solved = true;
   trial.error  = scale_.error(motion(difference_)) / options_.tolerance;
   return trial;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace gestell::coupling
@@ -163,8 +164,8 @@ void ErrorScale::find_ends()
   ends_.setFromTriplets(entries.begin(), entries.end());
 }
 
-/// sum m_i (x_i - from_i)^2 of each group; returns the largest.
-double ErrorScale::energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const
+/// sum m_i (x_i - from_i)^2 of each group; returns their sum.
+double ErrorScale::energy(const Vector &x, const Vector *from, std::vector<double> &sums) const
 {
   std::fill(sums.begin(), sums.end(), 0.);
   for (const Run &run : runs_)
@@ -174,7 +175,7 @@ double ErrorScale::energy(const Vector &x, const Eigen::VectorXd *from, std::vec
     sums[run.group] +=
         from ? (m * (y - from->segment(run.first, run.size).array()).square()).sum() : (m * y.square()).sum();
   }
-  return *std::max_element(sums.begin(), sums.end());
+  return std::accumulate(sums.begin(), sums.end(), 0.);
 }
 
 void ErrorScale::begin(const Motion &at)
@@ -201,11 +202,13 @@ void ErrorScale::refuse()
   expected_until_ = t_;
 }
 
-void ErrorScale::consider(double t, double h, const Motion &to, const Motion &change)
+bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &to)
 {
   t_ = t;
-  energy(to.q, &q_begin_, sums_);
-  energy(to.v, &v_begin_, sums_v_);
+  const Vector q_begin(q_begin_), v_begin(v_begin_);
+  const double total = energy(to.q, &q_begin, sums_) + energy(to.v, &v_begin, sums_v_);
+  if (!std::isfinite(total + to.u.sum() + to.u_rate.sum()))
+    return false;
   for (int g = 0; g < n_groups_; ++g)
   {
     reached_.q[g] = std::max(accepted_.q[g], std::sqrt(sums_[g]));
@@ -223,10 +226,11 @@ void ErrorScale::consider(double t, double h, const Motion &to, const Motion &ch
   if (t <= expected_until_)
     for (const auto x : all)
       scale_.*x = (scale_.*x).cwiseMax(expected_.*x);
-  set_scales(h, to, change);
+  set_scales(h, from, to);
+  return true;
 }
 
-void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
+void ErrorScale::set_scales(double h, const Motion &from, const Motion &to)
 {
   const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
   const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
@@ -249,7 +253,7 @@ void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
     fastest = std::max(fastest, scale_.v[g]);
   }
   energy(to.q, nullptr, sums_);
-  energy(change.v, nullptr, sums_v_);
+  energy(to.v, &from.v, sums_v_);
   for (int g = 0; g < n_groups_; ++g)
     invert(std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
            std::max(scale_.v[g], group_floor * fastest), std::sqrt(sums_v_[g]), std::sqrt(sums_[g]), inverse_q_[g],
@@ -265,8 +269,8 @@ void ErrorScale::set_scales(double h, const Motion &to, const Motion &change)
       size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
     }
     invert(std::max(bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way),
-           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(change.u_rate[j]), size, inverse_u_[j],
-           inverse_rate_[j]);
+           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(to.u_rate[j] - from.u_rate[j]), size,
+           inverse_u_[j], inverse_rate_[j]);
   }
 }
 

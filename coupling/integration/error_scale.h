@@ -35,7 +35,7 @@ class ErrorScale
 public:
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
 
-  /// q, v [n], u, u' [n_u] of an instant, or of a difference of two.
+  /// q, v [n], u, u' [n_u] of an instant, or of an error.
   struct Motion
   {
     Vector q, v, u, u_rate;
@@ -48,8 +48,9 @@ public:
   /// The motion begins here.
   void begin(const Motion &at);
 
-  /// A step of length h [s] would lead to `to` at t, changing the motion by `change`: the scales for its errors.
-  void consider(double t, double h, const Motion &to, const Motion &change);
+  /// A step of length h [s] would lead from `from` to `to` at t: the scales for its errors.  False if `to` is not
+  /// finite.
+  bool consider(double t, double h, const Motion &from, const Motion &to);
   /// The step last considered is taken: its excursions count from now on.
   void accept();
   /// It is refused.  But it tells how far the motion will have gone by its end, and until then scales are not below
@@ -86,8 +87,8 @@ private:
   void        find_masses();
   void        find_groups();
   void        find_ends();
-  double      energy(const Vector &x, const Eigen::VectorXd *from, std::vector<double> &sums) const;
-  void        set_scales(double h, const Motion &to, const Motion &change);
+  double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
+  void        set_scales(double h, const Motion &from, const Motion &to);
 
   const SecondOrderSystem    &system_;
   double                      tolerance_, omega_1_, omega_n_;
