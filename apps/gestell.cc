@@ -33,6 +33,35 @@ CLI::App *add_command(CLI::App &program, const std::string &name, const std::str
   return command;
 }
 
+CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptions &chart)
+{
+  CLI::App *command =
+      add_command(program, "chart", "work-precision chart: error against work of methods and settings",
+                  "gestell chart apps/scenes/press_minimal.toml --quick -o results/chart", "SCENE", options);
+  command->add_option("--methods", chart.methods, "methods by name, such as bdf-2,exact*,cvode-5 (default: all)")
+      ->delimiter(',');
+  command->add_option("--steps", chart.steps, "fixed steps, such as \"40 us\",\"10 us\"")->delimiter(',');
+  command->add_option("--tolerances", chart.tolerances, "tolerances of controlled steps, such as 1e-3,1e-5")
+      ->delimiter(',');
+  command->add_option("--error", chart.errors, "errors a choice is offered for (default 1e-2,1e-3,1e-5,1e-7)")
+      ->delimiter(',');
+  command->add_option("--signals", chart.signals, "signals that errors are measured in (default: all of the scene)")
+      ->delimiter(',');
+  command->add_option("--modes", chart.modes, "numbers of modes of the reduced frame, such as 10,20,50")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  command->add_option("--reference", chart.reference, "table of the true motion (CSV) instead of an own fine run")
+      ->check(CLI::ExistingFile);
+  command->add_option("--events", chart.events, "on: located, off: passed over, both (default)")
+      ->check(CLI::IsMember({"on", "off", "both"}));
+  command->add_flag("--peers,!--no-peers", chart.peers, "general-purpose integrators as well (default)");
+  command->add_flag("--quick", chart.quick, "fewer steps and tolerances");
+  command->add_option("--samples", chart.samples, "instants that errors are measured at (default 2000)");
+  command->add_option("--limit", chart.limit, "CPU time of one run [s]; longer ones are given up (default 20)")
+      ->check(CLI::PositiveNumber);
+  return command;
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -41,8 +70,9 @@ int main(int argc, char **argv)
   program.set_version_flag("--version", std::string("gestell ") + version);
   program.require_subcommand(1);
 
-  CommonOptions      options;
-  MeshCommandOptions mesh;
+  CommonOptions       options;
+  MeshCommandOptions  mesh;
+  ChartCommandOptions chart_options;
   CLI::App          *run = add_command(program, "run", "simulate a scene in time",
                                        "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
   CLI::App          *modes =
@@ -52,6 +82,7 @@ int main(int argc, char **argv)
                                  "gestell reduce apps/scenes/press.toml --set reduction.modes=40", "SCENE", options);
   CLI::App *check  = add_command(program, "check", "validate a scene without computing",
                                  "gestell check apps/scenes/press.toml", "SCENE", options);
+  CLI::App *chart  = add_chart(program, options, chart_options);
   CLI::App *mesher = add_command(program, "mesh", "mesh a CAD file; report its quality, surfaces and solids",
                                  "gestell mesh meshes/press_frame.step --size '80 mm'", "CAD", options);
   mesher->add_option("--size", mesh.size, "element size, such as \"80 mm\"");
@@ -77,6 +108,8 @@ int main(int argc, char **argv)
       return modes_command(options);
     if (reduce->parsed())
       return reduce_command(options);
+    if (chart->parsed())
+      return chart_command(options, chart_options);
     if (check->parsed())
       return check_command(options);
     return mesh_command(options, mesh);

@@ -32,11 +32,29 @@ struct MeshCommandOptions
   double      max_cells = 2e6;
 };
 
+/// What `gestell chart` compares; empty lists: chosen for the scene.
+struct ChartCommandOptions
+{
+  std::vector<std::string> methods;          ///< keys such as "exact-6", "cvode-5", "bdf*"
+  std::vector<std::string> steps;            ///< of fixed steps, "10 us" or plain numbers in s
+  std::vector<std::string> tolerances;       ///< of controlled steps and of peers
+  std::vector<std::string> errors;           ///< that a choice is offered for
+  std::vector<std::string> signals;          ///< that errors are measured in; "q*" for all that begin so
+  std::vector<int>         modes;            ///< numbers of modes of the reduced frame
+  std::string              reference;        ///< CSV file; empty: an own fine run
+  std::string              events  = "both"; ///< "both", "on" or "off"
+  bool                     peers   = true;   ///< general-purpose libraries as well
+  bool                     quick   = false;  ///< fewer steps and tolerances
+  int                      samples = 2000;   ///< instants errors are measured at
+  double                   limit   = 20.;    ///< [s] of CPU time for one run
+};
+
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.
 int run_command(const CommonOptions &options);
 int modes_command(const CommonOptions &options);
 int reduce_command(const CommonOptions &options);
 int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh);
 int check_command(const CommonOptions &options);
+int chart_command(const CommonOptions &options, const ChartCommandOptions &chart);
 
 } // namespace gestell::apps

@@ -224,7 +224,6 @@ void FirstOrderForm::know_dense()
 
 void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
 {
-  know_dense();
   const auto &W = system_.directions();
   J.topLeftCorner(n_, n_).setZero();
   J.topRightCorner(n_, n_).setIdentity();
@@ -248,11 +247,10 @@ void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
   J.bottomRows(n_) -= Y * S.partialPivLu().solve(free);
 }
 
-void FirstOrderForm::residual_jacobian(double gamma, Eigen::Ref<Matrix> J)
+bool FirstOrderForm::residual_jacobian(double gamma, Eigen::Ref<Matrix> J)
 {
-  know_dense();
   if (!system_.held().empty())
-    throw coupling::ConvergenceFailure("IDA with a dense Jacobian does not treat measures that are held");
+    return false;
   const auto &W               = system_.directions();
   J.topLeftCorner(n_, n_)     = Matrix::Identity(n_, n_) / gamma;
   J.topRightCorner(n_, n_)    = -Matrix::Identity(n_, n_);
@@ -260,6 +258,7 @@ void FirstOrderForm::residual_jacobian(double gamma, Eigen::Ref<Matrix> J)
   J.bottomRightCorner(n_, n_) = M_ / gamma + B_;
   J.bottomLeftCorner(n_, n_) -= Matrix(W * dp_du_) * W.transpose();
   J.bottomRightCorner(n_, n_) -= Matrix(W * dp_dv_) * W.transpose();
+  return true;
 }
 
 } // namespace gestell::peers

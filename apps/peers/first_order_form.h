@@ -51,11 +51,16 @@ public:
   /// b := (dr/dy + 1/gamma dr/dy')^-1 b.
   void solve_residual_form(double *b);
 
+  /// Prepares for the dense Jacobians below.
+  /// @throws std::invalid_argument for a system too large for dense matrices
+  void know_dense();
+
   /// dF/dy [2 n x 2 n].
   void rate_jacobian(Eigen::Ref<Eigen::MatrixXd> J);
 
   /// dr/dy + dr/dy' / gamma [2 n x 2 n].
-  void residual_jacobian(double gamma, Eigen::Ref<Eigen::MatrixXd> J);
+  /// @return false: not known while measures are held
+  bool residual_jacobian(double gamma, Eigen::Ref<Eigen::MatrixXd> J);
 
   /// Forces, factorisations and solves so far.
   const coupling::IntegrationWork &work() const { return work_; }
@@ -83,7 +88,6 @@ private:
 
   bool   dense_known_ = false; // base matrices for the Jacobians
   Matrix M_, B_, C_, M_inv_B_, M_inv_C_;
-  void   know_dense();
 };
 
 } // namespace gestell::peers

@@ -30,8 +30,7 @@ int jacobian(double t, double c_j, N_Vector y, N_Vector, N_Vector, SUNMatrix J, 
 {
   FirstOrderForm &form = static_cast<Callbacks *>(user)->form;
   form.linearise(t, values(y));
-  form.residual_jacobian(1. / c_j, Eigen::Map<Eigen::MatrixXd>(SM_DATA_D(J), form.size(), form.size()));
-  return 0;
+  return form.residual_jacobian(1. / c_j, Eigen::Map<Eigen::MatrixXd>(SM_DATA_D(J), form.size(), form.size())) ? 0 : -1;
 }
 
 int guards(double t, N_Vector y, N_Vector, double *g, void *user)

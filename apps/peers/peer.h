@@ -3,6 +3,7 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/integration/time_integrator.h"
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ enum class PeerSolver
 /// Where the comparison begins, and the sizes coordinates have in it.
 struct PeerProblem
 {
-  double              t = 0.;
-  Eigen::VectorXd     q, v;             ///< [n] at t
-  Eigen::VectorXd     q_scale, v_scale; ///< [n] > 0: absolute tolerance = relative tolerance * scale
-  std::vector<double> samples;          ///< ascending, >= t: instants of which q, v are wanted
+  double                   t = 0.;
+  Eigen::VectorXd          q, v;             ///< [n] at t
+  Eigen::VectorXd          q_scale, v_scale; ///< [n] > 0: absolute tolerance = relative tolerance * scale
+  std::vector<double>      samples;          ///< ascending, >= t: instants of which q, v are wanted
+  const std::atomic<bool> *stop = nullptr;   ///< set: the run is given up
 };
 
 struct PeerOptions
@@ -49,15 +51,17 @@ struct MotionSample
 {
   double          t;
   Eigen::VectorXd q, v, history;
+  Eigen::VectorXd p; ///< forces of the elements
 };
 
 struct PeerResult
 {
   std::vector<MotionSample> samples; ///< as far as it came
   coupling::IntegrationWork work;    ///< evaluations: of the right-hand side or the residual
-  long                      events = 0;
-  double                    cpu_s  = 0.; ///< of the stepping thread, from the library's set-up to the last sample
-  std::string               failure;     ///< not empty: why it stopped early
+  long                      events  = 0;
+  double                    cpu_s   = 0.; ///< of the stepping thread, from its first step to the last sample
+  double                    setup_s = 0.; ///< of the same before
+  std::string               failure;      ///< not empty: why it stopped early
 };
 
 /// "CVODE BDF 5, condensed", "IDA 5, dense", "ARKODE explicit 8"

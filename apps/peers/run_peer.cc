@@ -59,6 +59,8 @@ public:
     for (coupling::LocalState *local : {&before_, &now_, &between_})
       local->resize(system.directions().cols());
     y_ << problem.q, problem.v;
+    if (options.solver == PeerSolver::dense && options.kind != PeerKind::explicit_rk)
+      form_.know_dense();
   }
 
   void go(PeerResult &result)
@@ -67,7 +69,18 @@ public:
     stepper_ = make_stepper(callbacks_, problem_, options_);
     watch();
     before_guards();
-    const double began = thread_seconds();
+    const double ready = thread_seconds();
+    result.setup_s     = ready - began_;
+    step_to_end(ready, result);
+    result.cpu_s = thread_seconds() - ready;
+    result.work  = form_.work();
+    stepper_->count(result.work);
+    result.events = n_events_ + long(passed_.size());
+  }
+
+private:
+  void step_to_end(double ready, PeerResult &result)
+  {
     sample(problem_.t, y_.data(), result);
     for (long k = 1; result.samples.size() < problem_.samples.size(); ++k)
     {
@@ -87,18 +100,17 @@ public:
         sample(t, y_.data(), result);
       }
       accept(outcome == Stepper::Outcome::root);
-      if (k % 64 == 0 && thread_seconds() - began > options_.cpu_limit)
-      {
+      if (k % 64 != 0)
+        continue;
+      if (thread_seconds() - ready > options_.cpu_limit)
         result.failure = "more than " + std::to_string(int(options_.cpu_limit)) + " s of CPU time";
+      else if (problem_.stop && problem_.stop->load(std::memory_order_relaxed))
+        result.failure = "interrupted";
+      if (!result.failure.empty())
         break;
-      }
     }
-    result.work = form_.work();
-    stepper_->count(result.work);
-    result.events = n_events_ + long(passed_.size());
   }
 
-private:
   void begin()
   {
     motion(problem_.t, y_.data(), before_);
@@ -129,8 +141,9 @@ private:
   {
     if (result.samples.size() >= problem_.samples.size() || problem_.samples[result.samples.size()] != t)
       return;
+    form_.local_state(t, y, between_);
     result.samples.push_back({t, Eigen::Map<const Eigen::VectorXd>(y, n_),
-                              Eigen::Map<const Eigen::VectorXd>(y + n_, n_), system_.save_history()});
+                              Eigen::Map<const Eigen::VectorXd>(y + n_, n_), system_.save_history(), between_.p});
   }
 
   void watch()
@@ -204,6 +217,7 @@ private:
     return false;
   }
 
+  const double                 began_ = thread_seconds();
   coupling::SecondOrderSystem &system_;
   const PeerProblem           &problem_;
   const PeerOptions           &options_;
@@ -226,8 +240,7 @@ private:
 PeerResult run_peer(coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
 {
   check(system, problem, options);
-  PeerResult   result;
-  const double began = thread_seconds();
+  PeerResult result;
   try
   {
     PeerRun(system, problem, options).go(result);
@@ -236,7 +249,6 @@ PeerResult run_peer(coupling::SecondOrderSystem &system, const PeerProblem &prob
   {
     result.failure = failure.what();
   }
-  result.cpu_s = thread_seconds() - began;
   return result;
 }
 

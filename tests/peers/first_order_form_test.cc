@@ -42,6 +42,7 @@ TEST(FirstOrderForm, JacobianIsTheDerivativeOfTheRate)
 {
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
+  form.know_dense();
   const VectorXd    y = some_state();
   MatrixXd          J(6, 6);
   form.linearise(0.3, y.data());
@@ -63,6 +64,7 @@ TEST(FirstOrderForm, ResidualIsZeroForTheRate)
 {
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
+  form.know_dense();
   const VectorXd    y = some_state();
   VectorXd          rate(6), r(6);
   form.rate(0.3, y.data(), rate.data());
@@ -77,6 +79,7 @@ TEST(FirstOrderForm, CondensedSolverSolvesWithTheDenseMatrix)
 {
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
+  form.know_dense();
   const VectorXd    y = some_state();
   MatrixXd          J(6, 6);
   form.linearise(0.3, y.data());
@@ -108,6 +111,7 @@ TEST(FirstOrderForm, HeldMeasuresAreNotAccelerated)
 {
   const HeldChain system;
   FirstOrderForm  form(system);
+  form.know_dense();
   const VectorXd  y = some_state();
   VectorXd        rate(6);
   form.rate(0.3, y.data(), rate.data());
@@ -130,6 +134,7 @@ TEST(FirstOrderForm, CondensedSolverHoldsMeasuresToo)
 {
   const HeldChain system;
   FirstOrderForm  form(system);
+  form.know_dense();
   const VectorXd  y = some_state();
   MatrixXd        J(6, 6);
   form.linearise(0.3, y.data());

@@ -1,0 +1,290 @@
+#include "apps/commands/work_measurement.h"
+
+#include "coupling/integration/event_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// Short runs are repeated until that much time is spent, and at most so often.
+constexpr double repeat_s     = 0.5;
+constexpr int    most_repeats = 7;
+
+std::vector<int> coordinates_of(const std::vector<coupling::Signal> &signals)
+{
+  std::set<int> coordinates;
+  for (const coupling::Signal &signal : signals)
+    for (const coupling::Measure *measure : {&signal.on_q, &signal.on_v})
+      for (const auto &entry : *measure)
+        coordinates.insert(entry.first);
+  return {coordinates.begin(), coordinates.end()};
+}
+
+/// Takes the samples of a run from the dense output of each step.
+class Sampler
+{
+public:
+  Sampler(const WorkProblem &problem, const coupling::TimeIntegrator &integrator)
+      : problem_(problem), integrator_(integrator), coordinates_(coordinates_of(problem.signals)),
+        q_(Eigen::VectorXd::Zero(problem.machine.size())), v_(q_),
+        values_(problem.signals.size(), problem.samples.size())
+  {
+    local_.resize(problem.machine.directions().cols());
+  }
+
+  void step()
+  {
+    for (; next_ < problem_.samples.size() && problem_.samples[next_] <= integrator_.time(); ++next_)
+    {
+      const double t      = problem_.samples[next_];
+      const bool   at_end = t == integrator_.time();
+      if (!at_end)
+        integrator_.interpolate(t, local_);
+      if (!coordinates_.empty())
+        integrator_.motion_at(t, coordinates_, q_, v_);
+      for (std::size_t i = 0; i < problem_.signals.size(); ++i)
+        values_(i, next_) =
+            problem_.machine.evaluate(problem_.signals[i], q_, v_, at_end ? integrator_.local() : local_);
+    }
+  }
+
+  bool          complete() const { return next_ == problem_.samples.size(); }
+  SignalSamples values() const { return values_; }
+
+private:
+  const WorkProblem              &problem_;
+  const coupling::TimeIntegrator &integrator_;
+  std::vector<int>                coordinates_;
+  Eigen::VectorXd                 q_, v_;
+  coupling::LocalState            local_;
+  SignalSamples                   values_;
+  std::size_t                     next_ = 0;
+};
+
+/// Steps to the end; why it did not get there, or nothing.
+std::string step_to_end(const WorkProblem &problem, coupling::EventDriver &driver,
+                        const coupling::TimeIntegrator &integrator)
+{
+  const double end = problem.samples.back(), finish = end - 1e-12 * (end - problem.begin);
+  const double began = peers::thread_seconds();
+  try
+  {
+    for (long k = 1; integrator.time() < finish; ++k)
+    {
+      driver.advance();
+      if (k % 256 != 0)
+        continue;
+      if (peers::thread_seconds() - began > problem.cpu_limit)
+        return "more than " + std::to_string(int(problem.cpu_limit)) + " s of CPU time";
+      if (problem.stop && problem.stop->load(std::memory_order_relaxed))
+        return "interrupted";
+    }
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    return failure.what();
+  }
+  return "";
+}
+
+enum class Sampling
+{
+  off,
+  on
+};
+
+WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &method, bool events, Sampling sampling)
+{
+  WorkRun                run;
+  const double           began      = peers::thread_seconds();
+  const auto             integrator = coupling::make_integrator(problem.machine, method);
+  coupling::EventOptions options;
+  options.locate = events;
+  options.end    = problem.samples.back();
+  coupling::EventDriver driver(problem.machine, *integrator, options);
+  driver.begin(problem.begin, problem.initial.q, problem.initial.v);
+  Sampler sampler(problem, *integrator);
+  if (sampling == Sampling::on)
+    driver.on_step([&sampler] { sampler.step(); });
+  const double ready = peers::thread_seconds();
+  run.failure        = step_to_end(problem, driver, *integrator);
+  run.cpu_s          = peers::thread_seconds() - ready;
+  run.setup_s        = ready - began;
+  run.work           = integrator->work();
+  run.events         = long(driver.events().size());
+  if (sampling == Sampling::off || !run.failure.empty())
+    return run;
+  // Rounding may leave the last sample beyond the end of the last step.
+  if (sampler.complete())
+    run.values = sampler.values();
+  else
+    run.failure = "the run ended before its last sample";
+  return run;
+}
+
+/// Repeats a short run without samples and keeps the shortest times.
+template <typename Once>
+void repeat(WorkRun &run, const Once &once)
+{
+  double spent = run.cpu_s + run.setup_s;
+  for (int k = 1; k < most_repeats && run.failure.empty() && spent < repeat_s; ++k)
+  {
+    const WorkRun again = once();
+    run.cpu_s           = std::min(run.cpu_s, again.cpu_s);
+    run.setup_s         = std::min(run.setup_s, again.setup_s);
+    spent += again.cpu_s + again.setup_s;
+  }
+}
+
+/// The samples of a peer turned into signals, after the run.
+SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &result, bool events)
+{
+  coupling::Machine    &machine = problem.machine;
+  const auto           &W       = machine.directions();
+  const Eigen::VectorXd kept    = machine.save_history();
+  coupling::LocalState  local;
+  SignalSamples         values(problem.signals.size(), result.samples.size());
+  local.resize(W.cols());
+  machine.follow_history(events);
+  for (std::size_t k = 0; k < result.samples.size(); ++k)
+  {
+    const peers::MotionSample &sample = result.samples[k];
+    machine.restore_history(sample.history);
+    local.t = sample.t;
+    local.u = W.transpose() * sample.q;
+    local.v = W.transpose() * sample.v;
+    local.p = sample.p;
+    for (std::size_t i = 0; i < problem.signals.size(); ++i)
+      values(i, k) = machine.evaluate(problem.signals[i], sample.q, sample.v, local);
+  }
+  machine.restore_history(kept);
+  return values;
+}
+
+/// One scale for all coordinates of one kind.
+void share_scale(Eigen::VectorXd &x, const std::vector<int> &kind)
+{
+  double largest = 0.;
+  for (const int i : kind)
+    largest = std::max(largest, x[i]);
+  for (const int i : kind)
+    x[i] = largest > 0. ? largest : 1.;
+}
+
+} // namespace
+
+double longest_step(const WorkProblem &problem)
+{
+  double longest = (problem.samples.back() - problem.begin) / 50.;
+  for (const auto &harmonic : problem.machine.excitation().harmonics())
+    longest = std::min(longest, 0.25 * M_PI / harmonic.omega);
+  return longest;
+}
+
+double scaled_error(const SignalSamples &values, const SignalSamples &reference)
+{
+  if (values.rows() != reference.rows() || values.cols() != reference.cols() || !values.allFinite())
+    return std::numeric_limits<double>::infinity();
+  double       sum  = 0.;
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < reference.rows(); ++i)
+  {
+    const double scale = reference.row(i).cwiseAbs().maxCoeff();
+    if (!(scale > 0.))
+      continue;
+    sum += (values.row(i) - reference.row(i)).squaredNorm() / (scale * scale);
+    ++kept;
+  }
+  return kept > 0 ? std::sqrt(sum / double(kept * reference.cols())) : 0.;
+}
+
+WorkRun measure(const WorkProblem &problem, const coupling::MethodOptions &method, bool events)
+{
+  WorkRun run = run_once(problem, method, events, Sampling::on);
+  repeat(run, [&] { return run_once(problem, method, events, Sampling::off); });
+  return run;
+}
+
+WorkRun measure(const WorkProblem &problem, const peers::PeerOptions &options, const MotionScales &scales)
+{
+  const auto once = [&](const std::vector<double> &samples)
+  {
+    peers::PeerProblem peer;
+    peer.t       = problem.begin;
+    peer.q       = problem.initial.q;
+    peer.v       = problem.initial.v;
+    peer.q_scale = scales.q;
+    peer.v_scale = scales.v;
+    peer.samples = samples;
+    peer.stop    = problem.stop;
+    return peers::run_peer(problem.machine, peer, options);
+  };
+  const auto told = [&](const peers::PeerResult &result)
+  {
+    WorkRun run;
+    run.work    = result.work;
+    run.events  = result.events;
+    run.cpu_s   = result.cpu_s;
+    run.setup_s = result.setup_s;
+    run.failure = result.failure;
+    return run;
+  };
+  const peers::PeerResult first = once(problem.samples);
+  WorkRun                 run   = told(first);
+  if (run.failure.empty())
+    run.values = signals_of(problem, first, options.events);
+  repeat(run, [&] { return told(once({problem.samples.back()})); });
+  return run;
+}
+
+MotionScales motion_scales(const WorkProblem &problem, const coupling::MethodOptions &method, bool events)
+{
+  const auto             integrator = coupling::make_integrator(problem.machine, method);
+  coupling::EventOptions options;
+  options.locate = events;
+  options.end    = problem.samples.back();
+  coupling::EventDriver driver(problem.machine, *integrator, options);
+  driver.begin(problem.begin, problem.initial.q, problem.initial.v);
+  MotionScales    scales{problem.initial.q.cwiseAbs(), problem.initial.v.cwiseAbs()};
+  Eigen::VectorXd q(problem.machine.size()), v(q);
+  std::size_t     next = 0;
+  driver.on_step(
+      [&]
+      {
+        for (; next < problem.samples.size() && problem.samples[next] <= integrator->time(); ++next)
+        {
+          integrator->interpolate(problem.samples[next], q, v);
+          scales.q = scales.q.cwiseMax(q.cwiseAbs());
+          scales.v = scales.v.cwiseMax(v.cwiseAbs());
+        }
+      });
+  step_to_end(problem, driver, *integrator);
+
+  // Modes among themselves; the interface by its units; bodies each for itself, as a flywheel turns far.
+  const coupling::Machine &machine     = problem.machine;
+  const int                n_interface = machine.n_interface();
+  std::vector<int>         metres, radians, modes;
+  for (int i = 0; i < machine.n_frame(); ++i)
+  {
+    const std::string name = machine.coordinate_name(i);
+    if (i >= n_interface)
+      modes.push_back(i);
+    else
+      (name.size() > 3 && name.compare(name.size() - 3, 2, ".r") == 0 ? radians : metres).push_back(i);
+  }
+  for (int i = machine.n_frame(); i < machine.size(); ++i)
+    for (Eigen::VectorXd *x : {&scales.q, &scales.v})
+      share_scale(*x, {i});
+  for (const auto *kind : {&metres, &radians, &modes})
+    for (Eigen::VectorXd *x : {&scales.q, &scales.v})
+      share_scale(*x, *kind);
+  return scales;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace gestell::apps
+{
+
+/// What draws chart.html from its table of runs, `work`.
+extern const char *const work_precision_script;
+extern const char *const work_precision_style;
+
+} // namespace gestell::apps
