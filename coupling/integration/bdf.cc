@@ -364,7 +364,9 @@ void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
 
 void Bdf::start_value(double t)
 {
-  const int          order = options_.order;
+  // One order more for BDF 2: behind an event the acceleration may begin at zero (breaking away from rest), and then the
+  // displacement of the first step is all local error.
+  const int          order = options_.order == 2 ? 3 : options_.order;
   const double       h     = options_.step;
   std::vector<Point> table(order, past(0)); // Neville's table, newest column in place
   for (int j = 0; j < order; ++j)

@@ -74,6 +74,8 @@ public:
     x_end_ += table.constant;
     x_end_.noalias() += table.in * P_;
     motion(table, s_, end);
+    if (!context_.system->held().empty())
+      context_.project_held(x_end_, end);
     finish(table, end);
     return true;
   }
@@ -84,6 +86,7 @@ public:
     begin_at_.u = U_.col(s_ + 1);
     begin_at_.v = V_.col(s_ + 1);
     begin_at_.p = P_end_;
+    begin_at_.t += h_;
     P_last_     = P_;
     h_last_     = h_;
   }
@@ -243,6 +246,7 @@ private:
     h_           = table.h;
     U_.col(0)    = begin_at_.u;
     V_.col(0)    = begin_at_.v;
+    end.t     = begin_at_.t + h_;
     P_end_.setZero();
     for (int j = 0; j < s_; ++j)
       P_end_ += at_end_[j] * P_.segment(j * n_u_, n_u_);
@@ -250,6 +254,8 @@ private:
     end.p = P_end_;
     context_.system->local_force(end, end.p);
     ++context_.work.evaluations;
+    if (!context_.system->held().empty())
+      context_.accelerate(x_end_, end); // so that the guards of what sticks see its force with the accuracy of the state
     U_.col(s_ + 1) = end.u;
     V_.col(s_ + 1) = end.v;
     defect_        = end.p - P_end_;

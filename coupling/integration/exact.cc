@@ -1,7 +1,5 @@
 #include "coupling/integration/exact.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -26,20 +24,14 @@ double natural_step(const ModalBlocks &modes)
 } // namespace
 
 Exact::Exact(const SecondOrderSystem &system, const Options &options)
-    : system_(system), options_(options), modes_(modal_blocks(system))
+    : system_(system), options_(options), modes_(modal_blocks(system)), context_(system, modes_, options.newton)
 {
-  context_.system   = &system;
-  context_.measures = ModalMeasures(modes_, system);
-  context_.newton   = options.newton;
-  const auto n_u    = system.directions().cols();
-  context_.u_begin.setZero(n_u);
-  context_.scale.setZero(n_u);
+  const auto n_u = system.directions().cols();
   force_ = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)
                                                    : make_fused_step(context_, options.force);
   Q_     = reordered(modes_.Q, context_.measures.n_p);
   V_     = reordered(modes_.V, context_.measures.n_p);
-  accelerate_.noalias() = context_.measures.read_v.transpose() * context_.measures.put;
-  step_                 = options.step > 0. ? options.step : natural_step(modes_);
+  step_  = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(n_u);
   local_begin_.resize(n_u);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
@@ -82,50 +74,7 @@ void Exact::start_piece()
   stepped_ = cut_ = false;
   now_known_      = false;
   system_.local_force(local_, local_.p);
-  // u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p;  a held measure has u'' = 0 and p to be found.
-  const ModalMeasures &m = context_.measures;
-  for (int b = 0; b < m.n_p; ++b)
-  {
-    const ModalBlock &block = m.blocks[b];
-    const double      x_1 = x_[b], x_2 = x_[m.n_p + b];
-    double           &y_1 = x_work_[b], &y_2 = x_work_[m.n_p + b];
-    switch (block.kind)
-    {
-    case ModalBlock::oscillating:
-      y_1 = block.s * x_1 - block.w * x_2;
-      y_2 = block.w * x_1 + block.s * x_2;
-      break;
-    case ModalBlock::decaying:
-      y_1 = block.s * x_1;
-      y_2 = block.w * x_2;
-      break;
-    case ModalBlock::free:
-      y_1 = x_2;
-      y_2 = 0.;
-      break;
-    }
-  }
-  x_work_ += m.constant;
-  local_.a.noalias() = m.read_v.transpose() * x_work_;
-  const auto &held   = system_.held();
-  if (!held.empty())
-  {
-    const int       n = int(held.size());
-    Eigen::MatrixXd D(n, n);
-    Eigen::VectorXd rest(n);
-    for (const HeldMeasure &h : held)
-      local_.p[h.measure] = 0.;
-    for (int i = 0; i < n; ++i)
-    {
-      rest[i] = -local_.a[held[i].measure] - accelerate_.row(held[i].measure).dot(local_.p);
-      for (int j = 0; j < n; ++j)
-        D(i, j) = accelerate_(held[i].measure, held[j].measure);
-    }
-    const Eigen::VectorXd p = D.fullPivLu().solve(rest);
-    for (int i = 0; i < n; ++i)
-      local_.p[held[i].measure] = p[i];
-  }
-  local_.a.noalias() += accelerate_ * local_.p;
+  context_.accelerate(x_, local_);
   force_->begin(x_, local_);
   local_begin_ = local_;
 }
@@ -233,12 +182,15 @@ void Exact::cut(double t)
   }
   Target target;
   target.h = t - t_begin_;
-  if (!attempt(target))
+  if (attempt(target))
   {
-    local_ = local_begin_;
-    fail("Newton's method did not converge in the step to an event");
+    local_.t = t;
+    return;
   }
-  local_.t = t;
+  ++context_.work.rejected;
+  local_ = local_begin_;
+  if (++rung_ > options_.max_halvings)
+    fail("Newton's method did not converge in the step to an event");
 }
 
 void Exact::restart()
@@ -264,15 +216,12 @@ const Instant &Exact::instant() const
 {
   if (!now_known_)
   {
-    if (!stepped_ || (cut_ && !(local_.t > t_begin_)))
-      force_->begin_state(x_work_);
-    else
-      force_->end_state(x_work_);
-    now_.t           = local_.t;
-    now_.q.noalias() = Q_ * x_work_;
-    now_.v.noalias() = V_ * x_work_;
-    now_.local       = local_;
-    now_known_       = true;
+    const Eigen::VectorXd &x = state_at(local_.t);
+    now_.t                   = local_.t;
+    now_.q.noalias()         = Q_ * x;
+    now_.v.noalias()         = V_ * x;
+    now_.local               = local_;
+    now_known_               = true;
   }
   return now_;
 }
@@ -290,14 +239,16 @@ void Exact::interpolate(double t, LocalState &state) const
   state.t = t;
 }
 
-void Exact::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+const Eigen::VectorXd &Exact::state_at(double t) const
 {
   const double h = local_.t - t_begin_;
   if (t >= local_.t || !(h > 0.))
   {
-    q = instant().q;
-    v = instant().v;
-    return;
+    if (!stepped_ || (cut_ && !(h > 0.)))
+      force_->begin_state(x_work_);
+    else
+      force_->end_state(x_work_);
+    return x_work_;
   }
   force_->begin_state(x_inside_);
   if (t > t_begin_)
@@ -305,8 +256,24 @@ void Exact::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
     force_->forces(forces_);
     carry_inside(context_.measures, force_->basis(), t - t_begin_, h, forces_, x_inside_);
   }
-  q.noalias() = Q_ * x_inside_;
-  v.noalias() = V_ * x_inside_;
+  return x_inside_;
+}
+
+void Exact::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+{
+  const Eigen::VectorXd &x = state_at(t);
+  q.noalias()              = Q_ * x;
+  v.noalias()              = V_ * x;
+}
+
+void Exact::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+{
+  const Eigen::VectorXd &x = state_at(t);
+  for (const int i : coordinates)
+  {
+    q[i] = Q_.row(i).dot(x);
+    v[i] = V_.row(i).dot(x);
+  }
 }
 
 void Exact::fail(const std::string &reason) const

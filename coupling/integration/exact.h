@@ -51,11 +51,15 @@ public:
   double                 step_begin() const override { return t_begin_; }
   void                   interpolate(double t, LocalState &state) const override;
   void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void                   motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q,
+                                   Eigen::VectorXd &v) const override;
   void                   cut(double t) override;
   void                   restart() override;
   const IntegrationWork &work() const override { return context_.work; }
 
 private:
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone
+
   static constexpr int finest = 30; ///< ticks are h / 2^finest
 
   /// Where the step under way leads.
@@ -73,6 +77,7 @@ private:
   bool             attempt(const Target &target);
   void             start_piece();
   void             turn_harmonics();
+  const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
   [[noreturn]] void fail(const std::string &reason) const;
 
   const SecondOrderSystem   &system_;
@@ -80,8 +85,7 @@ private:
   ModalBlocks                modes_;
   ExactContext               context_;
   std::unique_ptr<ForceStep> force_;
-  Eigen::MatrixXd            Q_, V_; ///< [n x 2 n_p]
-  Eigen::MatrixXd            accelerate_; ///< u'' of p: read_v^T put = W^T M^-1 W [n_u x n_u]
+  RowMatrix                  Q_, V_; ///< [n x 2 n_p]
   std::map<int, StepTable>   tables_; ///< by rung
   StepTable                  partial_;
   double                     step_ = 0., t_origin_ = 0., t_begin_ = 0.;

@@ -18,8 +18,24 @@ struct ExactContext
   Eigen::VectorXd          u_begin, scale; ///< [n_u] largest excursion of every measure so far
   IntegrationWork          work;
 
+  Eigen::MatrixXd mobility; ///< u'' of a force p: read_v^T put = W^T M^-1 W [n_u x n_u]
+
+  ExactContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
+
   /// Counts an excursion; floors: the way of one step, and what rounding in u leaves.
-  void grow_scale(const Eigen::VectorXd &u, const Eigen::VectorXd &v, double h);
+  void grow_scale(const Eigen::Ref<const Eigen::VectorXd> &u, const Eigen::Ref<const Eigen::VectorXd> &v, double h);
+
+  /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps their
+  /// u'' zero.
+  void accelerate(const Eigen::VectorXd &x, LocalState &local);
+  /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes only.
+  void project_held(Eigen::VectorXd &x, LocalState &local);
+
+private:
+  void factorise_delassus(double t);
+
+  Eigen::VectorXd rate_, rest_;
+  SmallLu         delassus_;
 };
 
 /**

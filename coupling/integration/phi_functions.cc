@@ -1,7 +1,7 @@
 #include "coupling/integration/modal_blocks.h"
 
+#include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace gestell::coupling
 {
@@ -11,35 +11,90 @@ namespace
 
 constexpr int max_k = 10;
 
+/// A complex number with the plain product: std::complex checks every one for infinities.
+struct Complex
+{
+  double re, im;
+};
+inline Complex operator*(const Complex &a, const Complex &b)
+{
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+inline Complex operator+(const Complex &a, double b)
+{
+  return {a.re + b, a.im};
+}
+inline Complex operator+(const Complex &a, const Complex &b)
+{
+  return {a.re + b.re, a.im + b.im};
+}
+inline Complex scaled(const Complex &a, double factor)
+{
+  return {a.re * factor, a.im * factor};
+}
+inline double scaled(double a, double factor)
+{
+  return a * factor;
+}
+inline double size(const Complex &a)
+{
+  return std::max(std::abs(a.re), std::abs(a.im));
+}
+inline double size(double a)
+{
+  return std::abs(a);
+}
+inline Complex exponential(const Complex &z)
+{
+  const double growth = std::exp(z.re);
+  return {growth * std::cos(z.im), growth * std::sin(z.im)};
+}
+inline double exponential(double z)
+{
+  return std::exp(z);
+}
+inline Complex reciprocal(const Complex &z)
+{
+  const double factor = 1. / (z.re * z.re + z.im * z.im);
+  return {z.re * factor, -z.im * factor};
+}
+inline double reciprocal(double z)
+{
+  return 1. / z;
+}
+
+constexpr double inverse_factorial[] = {1.,         1.,         1. / 2.,     1. / 6.,      1. / 24.,     1. / 120.,
+                                        1. / 720.,  1. / 5040., 1. / 40320., 1. / 362880., 1. / 3628800.};
+
 /// phi_0 .. phi_k of a number: backwards from a series where |z| is small, forwards elsewhere.
 template <typename Number>
 void phi_of(const Number &z, int k, Number *phi)
 {
-  double factorial[max_k + 1] = {1.};
-  for (int i = 1; i <= k; ++i)
-    factorial[i] = factorial[i - 1] * i;
-  const double size = std::abs(z);
-  if (size < 1. + 0.5 * k)
+  phi[0] = exponential(z);
+  if (k == 0)
+    return;
+  const double magnitude = size(z);
+  if (magnitude < 1. + 0.25 * k)
   {
     // phi_k = sum_m z^m/(k + m)!, and phi_i-1 = z phi_i + 1/(i - 1)!
-    Number term = Number(1. / factorial[k]), sum = term;
-    for (int m = 1; m < 60; ++m)
+    Number term = z, sum = z;
+    term        = scaled(z, inverse_factorial[k] / (k + 1));
+    sum         = term + inverse_factorial[k];
+    for (int m = 2; m < 60; ++m)
     {
-      term *= z / double(k + m);
-      sum += term;
-      if (std::abs(term) < 1e-18 * std::abs(sum))
+      term = scaled(term * z, 1. / (k + m));
+      sum  = sum + term;
+      if (size(term) < 1e-17 * size(sum))
         break;
     }
     phi[k] = sum;
     for (int i = k; i > 1; --i)
-      phi[i - 1] = z * phi[i] + 1. / factorial[i - 1];
-    if (k > 0)
-      phi[0] = std::exp(z);
+      phi[i - 1] = z * phi[i] + inverse_factorial[i - 1];
     return;
   }
-  phi[0] = std::exp(z);
+  const Number inverse = reciprocal(z);
   for (int i = 0; i < k; ++i)
-    phi[i + 1] = (phi[i] - 1. / factorial[i]) / z;
+    phi[i + 1] = (phi[i] + -inverse_factorial[i]) * inverse;
 }
 
 } // namespace
@@ -50,10 +105,10 @@ void phi_functions(const ModalBlock &block, double h, int k, Block2 *phi)
   {
   case ModalBlock::oscillating:
   {
-    std::complex<double> values[max_k + 1];
-    phi_of(std::complex<double>(block.s * h, block.w * h), k, values);
+    Complex values[max_k + 1];
+    phi_of(Complex{block.s * h, block.w * h}, k, values);
     for (int i = 0; i <= k; ++i)
-      phi[i] = {values[i].real(), -values[i].imag(), values[i].imag(), values[i].real()};
+      phi[i] = {values[i].re, -values[i].im, values[i].im, values[i].re};
     break;
   }
   case ModalBlock::decaying:

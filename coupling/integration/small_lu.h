@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// LU factors of a few unknowns with partial pivoting; nothing allocates after resize().  Zeros below the pivot, as rows
+/// LU factors of a few unknowns with partial pivoting; nothing allocates as long as resize() does not grow.  Zeros below the pivot, as rows
 /// of idle elements have, are skipped.
 class SmallLu
 {

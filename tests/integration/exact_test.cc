@@ -157,9 +157,9 @@ TEST(Exact, UndampedResonanceIsRefused)
 
 void cubic(double u, double v, double &p, double &dp_du, double &dp_dv)
 {
-  p     = -30. * u * u * u - 0.2 * v * v * v;
-  dp_du = -90. * u * u;
-  dp_dv = -0.6 * v * v;
+  p     = -8. * u * u * u - 0.1 * v;
+  dp_du = -24. * u * u;
+  dp_dv = -0.1;
 }
 
 SmallSystem duffing_chain()
@@ -207,12 +207,12 @@ TEST_P(ExactOrder, ErrorFallsWithThePowerOfTheStep)
   const auto   [force, order, h] = GetParam();
   const Vector fine = states(ForceRule::collocation, 8, 0.005);
   const double coarse = (states(force, order, h) - fine).norm(), half = (states(force, order, 0.5 * h) - fine).norm();
-  EXPECT_NEAR(std::log2(coarse / half), order, 0.1) << coarse << " " << half;
+  EXPECT_NEAR(std::log2(coarse / half), order, order < 8 ? 0.1 : 0.2) << coarse << " " << half;
 }
 INSTANTIATE_TEST_SUITE_P(Rules, ExactOrder,
                          ::testing::Values(Rule{ForceRule::average, 2, 0.01}, Rule{ForceRule::linear, 2, 0.01},
                                            Rule{ForceRule::collocation, 2, 0.01}, Rule{ForceRule::collocation, 4, 0.01},
-                                           Rule{ForceRule::collocation, 6, 0.01}, Rule{ForceRule::collocation, 8, 0.025}));
+                                           Rule{ForceRule::collocation, 6, 0.025}, Rule{ForceRule::collocation, 8, 0.05}));
 
 TEST(Exact, DenseOutputOfTheWholeMotionIsThatOfAStepEndingThere)
 {
