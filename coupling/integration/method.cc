@@ -1,6 +1,7 @@
 #include "coupling/integration/method.h"
 
 #include "coupling/integration/bdf.h"
+#include "coupling/integration/bdf_controlled.h"
 #include "coupling/integration/exact.h"
 #include "coupling/integration/newmark.h"
 #include "coupling/integration/wilson.h"
@@ -111,6 +112,15 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
   {
   case Method::bdf:
   {
+    if (o.tolerance > 0.)
+    {
+      BdfControlled::Options options;
+      options.tolerance    = o.tolerance;
+      options.largest_step = o.step;
+      options.max_order    = o.order;
+      options.newton       = o.newton;
+      return std::make_unique<BdfControlled>(system, options);
+    }
     Bdf::Options options;
     options.order        = o.order;
     options.step         = o.step;
