@@ -75,13 +75,14 @@ TEST_P(OneStepMethod, IsOfSecondOrderWithNonlinearElements)
   {
     const SmallSystem system = elliptic(name);
     const double      way    = rows[1].number("t");
-    // Largest errors of x and v at the times of the table.
+    // Largest errors of x and v at the first times of the table: before the slow passages through the top (pendulum2)
+    // have multiplied the errors so far that the order shows at smallest steps only.
     const auto errors = [&](int per_row)
     {
       const auto integrator = one_step_method(method(), system, way / per_row);
       integrator->begin(0., one(rows[0].number("x")), one(rows[0].number("v")));
       std::pair<double, double> largest{0., 0.};
-      for (std::size_t i = 1; i < rows.size(); ++i)
+      for (std::size_t i = 1; i <= 5; ++i)
       {
         for (int k = 0; k < per_row; ++k)
           integrator->advance();
@@ -90,9 +91,7 @@ TEST_P(OneStepMethod, IsOfSecondOrderWithNonlinearElements)
       }
       return largest;
     };
-    // The slow passage through the top (pendulum2) amplifies errors: there the order shows at small steps only.
-    const int  steps  = name == "pendulum2" ? 8000 : 500;
-    const auto coarse = errors(steps), fine = errors(2 * steps);
+    const auto coarse = errors(800), fine = errors(1600);
     EXPECT_NEAR(std::log2(coarse.first / fine.first), 2., 0.1) << name;
     EXPECT_NEAR(std::log2(coarse.second / fine.second), 2., 0.1) << name;
   }
