@@ -13,6 +13,7 @@ namespace gestell::coupling
 namespace
 {
 
+constexpr double near_by = 0.25; ///< a parabola errs by about that share of its length about a peak at its end
 constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 std::string percent(double share)
@@ -27,15 +28,17 @@ struct Point
   double t, f;
 };
 
-/// Vertex of the parabola through three points of ascending t, if it is a maximum inside (a, c).
-bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
+/// Vertex of the parabola through three points of ascending t, if it is a maximum in (a, c) or by the share `beyond` of
+/// that length outside.
+bool maximum(const Point &a, const Point &b, const Point &c, double beyond, Point &top)
 {
   const double rise = (b.f - a.f) / (b.t - a.t), curvature = ((c.f - b.f) / (c.t - b.t) - rise) / (c.t - a.t);
   if (!(curvature < 0.))
     return false;
-  top.t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
-  top.f = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
-  return top.t > a.t && top.t < c.t;
+  top.t               = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+  top.f               = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
+  const double margin = beyond * (c.t - a.t);
+  return top.t > a.t - margin && top.t < c.t + margin;
 }
 
 std::vector<int> coordinates_of(const std::vector<Signal> &signals)
@@ -178,7 +181,8 @@ void Recorder::turn(const Sample &a, const Sample &b, const Sample &c)
     {
       const SignalSummary &summary = result_.signals[i];
       Point                top;
-      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
+      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]},
+                                 dense ? near_by : 0., top);
       if (!turns || !(top.f > (sign > 0. ? summary.max : -summary.min)))
         continue;
       if (dense)
@@ -195,8 +199,13 @@ void Recorder::search(std::size_t signal, double sign, const Sample &a, const Sa
       {{a.t, sign * a.values[signal]}, {b.t, sign * b.values[signal]}, {c.t, sign * c.values[signal]}}};
   const double close = 1e-6 * (c.t - a.t);
   Point        top;
-  for (int k = 0; k < 5 && maximum(p[0], p[1], p[2], top); ++k)
+  for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], near_by, top); ++k)
   {
+    // A peak that seems to lie outside is looked for at the end, from inside.
+    if (top.t >= p[2].t)
+      top.t = 0.25 * p[1].t + 0.75 * p[2].t;
+    else if (top.t <= p[0].t)
+      top.t = 0.25 * p[1].t + 0.75 * p[0].t;
     const bool found = std::any_of(p.begin(), p.end(), [&](const Point &x) { return std::abs(x.t - top.t) < close; });
     if (found)
       return;

@@ -89,8 +89,8 @@ int samples_per_step(const Machine &machine, const MethodOptions &method)
   double highest = 0.;
   for (const SpectrumLine &mode : machine.spectrum())
     highest = std::max(highest, mode.omega);
-  // Half a radian between samples: from there parabolas find the peak.
-  const double wanted = std::ceil(highest * method.step / 0.5);
+  // Up to 0.8 rad between samples parabolas find the peak.
+  const double wanted = std::ceil(highest * method.step / 0.8);
   return static_cast<int>(std::clamp(wanted, 1., double(most_samples)));
 }
 

@@ -54,8 +54,10 @@ void print_answer(const coupling::RunResult &run)
               << signal.t_max << "  " << signal.unit << '\n';
   std::cout << run.method << ": " << run.events.size() << " events, " << run.work.steps << " steps, "
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
-            << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n"
-            << "energy residual " << run.energy.residual << " J of " << run.energy.input << " J supplied\n";
+            << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";
+  const auto &[input, stored, dissipated, residual] = run.energy;
+  if (input != 0. || stored != 0. || dissipated != 0.) // else the balance was not kept
+    std::cout << "energy residual " << residual << " J of " << input << " J supplied\n";
 }
 } // namespace
 

@@ -1,43 +1,13 @@
 // The benchmark of the integrators against its reference solution (tests/reference/numerics/benchmark).
 
-#include "tests/apps/csv_table.h"
-#include "tests/apps/scene_run.h"
+#include "tests/apps/benchmark_error.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace gestell::tests
 {
 namespace
 {
-
-const CsvTable &reference()
-{
-  static const CsvTable table(std::string(GESTELL_SOURCE_DIR) +
-                              "/tests/reference/numerics/benchmark/m20_reference.csv");
-  return table;
-}
-
-/// Root mean square over the rows 1 ms, 2 ms ... and q1 .. q12, each scaled by its largest magnitude in the reference.
-double error(const SceneRun &run)
-{
-  double sum = 0.;
-  for (int j = 1; j <= 12; ++j)
-  {
-    const std::string name  = "q" + std::to_string(j);
-    double            scale = 0.;
-    for (int i = 0; i < reference().rows(); ++i)
-      scale = std::fmax(scale, std::abs(reference().number(i, name)));
-    for (std::size_t row = 1; row < run.n_rows(); ++row)
-    {
-      const int i = static_cast<int>(row) - 1;
-      EXPECT_NEAR(run.at(row, 0), reference().number(i, "t [s]"), 1e-12);
-      sum += std::pow((run.at(row, j) - reference().number(i, name)) / scale, 2);
-    }
-  }
-  return std::sqrt(sum / (12. * double(run.n_rows() - 1)));
-}
 
 TEST(Benchmark, KeepsTheModesApartFromTheInterface)
 {
@@ -55,18 +25,19 @@ TEST(Benchmark, KeepsTheModesApartFromTheInterface)
     EXPECT_NEAR(omega[m - 1], 2. * M_PI * 5000., 1e-7);
   }
 }
+
 TEST(Benchmark, Bdf2MeetsTheReferenceAsFarAsItsStepAllows)
 {
   // Observed 5.1e-4: BDF2 lengthens a period by the share (omega h)^2/3, 4e-3 where a contact of 11 krad/s is closed.
   const SceneRun run("benchmark/m20.toml", {"run.end=0.05"});
   EXPECT_EQ(run.n_rows(), 51u);
-  EXPECT_LT(error(run), 8e-4);
+  EXPECT_LT(benchmark_error(run), 8e-4);
 }
 
 TEST(Benchmark, ErrorOfBdf2FallsWithTheStep)
 {
-  const double coarse = error(SceneRun("benchmark/m20.toml", {"run.end=0.05", "run.step=\"10 us\""})),
-               fine   = error(SceneRun("benchmark/m20.toml", {"run.end=0.05", "run.step=\"2.5 us\""}));
+  const double coarse = benchmark_error(SceneRun("benchmark/m20.toml", {"run.end=0.05", "run.step=\"10 us\""})),
+               fine   = benchmark_error(SceneRun("benchmark/m20.toml", {"run.end=0.05", "run.step=\"2.5 us\""}));
   // A quarter of the step would give 1/16 on a smooth motion; contacts leave less.
   EXPECT_LT(fine, coarse / 8.);
 }

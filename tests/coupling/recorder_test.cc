@@ -106,7 +106,7 @@ TEST(Recorder, FindsThePeaksInsideLongStepsToTheAccuracyOfTheDenseOutput)
 {
   for (const double wh : {1.1, 1.9, 3.2}) // half a period in a step and more
   {
-    const RunResult result = recorded(wh / omega, 8, 3.);
+    const RunResult result = recorded(wh / omega, 4, 3.); // up to 0.8 rad between samples
     EXPECT_NEAR(result.signals[0].max, 1., 1e-10) << wh;
     EXPECT_NEAR(result.signals[0].min, -1., 1e-10) << wh;
     EXPECT_NEAR(result.signals[1].max, omega, 1e-10 * omega) << wh;
