@@ -13,7 +13,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double near_by = 0.25; ///< a parabola errs by about that share of its length about a peak at its end
+constexpr double nearby  = 0.25; ///< a parabola errs by about that share of its length about a peak at its end
 constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 std::string percent(double share)
@@ -28,17 +28,24 @@ struct Point
   double t, f;
 };
 
-/// Vertex of the parabola through three points of ascending t, if it is a maximum in (a, c) or by the share `beyond` of
-/// that length outside.
-bool maximum(const Point &a, const Point &b, const Point &c, double beyond, Point &top)
+/// Vertex of the parabola through three points of ascending t, if it is a maximum in (a, c) or nearby outside.
+bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
 {
   const double rise = (b.f - a.f) / (b.t - a.t), curvature = ((c.f - b.f) / (c.t - b.t) - rise) / (c.t - a.t);
   if (!(curvature < 0.))
     return false;
   top.t               = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
   top.f               = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
-  const double margin = beyond * (c.t - a.t);
+  const double margin = nearby * (c.t - a.t);
   return top.t > a.t - margin && top.t < c.t + margin;
+}
+
+/// The balance must not err more than the integrator.
+PowerRule power_rule(const MethodOptions &method)
+{
+  const bool high_order =
+      method.tolerance > 0. || (method.method == Method::exact && method.force == ForceRule::collocation);
+  return high_order ? PowerRule::gauss : PowerRule::trapezoidal;
 }
 
 std::vector<int> coordinates_of(const std::vector<Signal> &signals)
@@ -120,8 +127,7 @@ void Recorder::step()
   const double begin = integrator_.step_begin(), end = integrator_.time();
   if (!(end > begin))
     return;
-  const auto n       = static_cast<int>(samples_.size()) - 1;
-  const bool located = options_.events;
+  const auto n = static_cast<int>(samples_.size()) - 1;
   if (n == 1)
     std::swap(earlier_, samples_[0]);
   std::swap(samples_[0], samples_[n]);
@@ -130,9 +136,14 @@ void Recorder::step()
     evaluate(k == n ? end : begin + (end - begin) * k / n, samples_[k]);
     extremes(samples_[k]);
   }
-  // Across kinks that were not located a parabola would tell of peaks that are none.
-  if (n == 1 && earlier_known_ && located)
+  if (n == 1 && earlier_known_)
     turn(earlier_, samples_[0], samples_[1]);
+  else if (n == 1)
+  {
+    evaluate(0.5 * (begin + end), earlier_);
+    extremes(earlier_);
+    turn(samples_[0], earlier_, samples_[1]);
+  }
   for (int k = 1; k < n; ++k)
     turn(samples_[k - 1], samples_[k], samples_[k + 1]);
   earlier_known_ = true;
@@ -172,23 +183,17 @@ void Recorder::extreme(std::size_t signal, double t, double value)
   }
 }
 
-/// Looks for extremes between three successive samples.
+/// Looks for extremes beyond those seen about three successive samples, inside the last step.
 void Recorder::turn(const Sample &a, const Sample &b, const Sample &c)
 {
-  const bool dense = samples_.size() > 2;
   for (std::size_t i = 0; i < signals_.size(); ++i)
     for (const double sign : {-1., 1.})
     {
       const SignalSummary &summary = result_.signals[i];
       Point                top;
-      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]},
-                                 dense ? near_by : 0., top);
-      if (!turns || !(top.f > (sign > 0. ? summary.max : -summary.min)))
-        continue;
-      if (dense)
+      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
+      if (turns && top.f > (sign > 0. ? summary.max : -summary.min))
         search(i, sign, a, b, c);
-      else if (sign * b.values[i] >= sign * a.values[i] && sign * b.values[i] >= sign * c.values[i])
-        extreme(i, top.t, sign * top.f);
     }
 }
 
@@ -199,8 +204,10 @@ void Recorder::search(std::size_t signal, double sign, const Sample &a, const Sa
       {{a.t, sign * a.values[signal]}, {b.t, sign * b.values[signal]}, {c.t, sign * c.values[signal]}}};
   const double close = 1e-6 * (c.t - a.t);
   Point        top;
-  for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], near_by, top); ++k)
+  for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
   {
+    if (top.t < samples_.front().t)
+      return; // in the step before, where it was looked for
     // A peak that seems to lie outside is looked for at the end, from inside.
     if (top.t >= p[2].t)
       top.t = 0.25 * p[1].t + 0.75 * p[2].t;
@@ -270,7 +277,7 @@ void Recorder::pictures()
 
 void Recorder::balance()
 {
-  energy_.step(integrator_, samples_.size() > 2 ? PowerRule::gauss : PowerRule::trapezoidal);
+  energy_.step(integrator_, power_rule(options_.method));
   const EnergyState energy = energy_.state(integrator_.instant());
   result_.energy           = {energy.input, energy.stored, energy.dissipated,
                               std::max(result_.energy.residual, std::abs(energy.residual()))};

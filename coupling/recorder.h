@@ -12,11 +12,9 @@ namespace gestell::coupling
  * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
  *
  * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes are looked for at the end of
- * every step, before and after every event, at every row, and between:
- *
- *     samples = 1   steps short against the motion: the parabola through three successive ends of steps
- *     samples > 1   the step is divided so often; where a parabola through three samples turns beyond what was seen,
- * the dense output itself is evaluated and the parabola drawn closer
+ * every step, before and after every event, at every row, and between: where a parabola through three samples turns
+ * beyond what was seen, the dense output itself is evaluated and the parabola drawn closer.  Samples are the ends of
+ * the steps, or, where steps are long against the motion, several in each.
  */
 class Recorder
 {

@@ -90,15 +90,14 @@ RunResult recorded(double step, int samples, double end, double output_step = 0.
 
 TEST(Recorder, FindsThePeakOfASineBetweenShortSteps)
 {
-  // Without the parabola a peak in the middle of two ends is short by (omega h)^2/8; with it (omega h)^4/ 128 is left
-  // at most, the error of a parabola through -h, 0, h off its middle by h/2.
-  for (const double wh : {0.3, 0.15})
+  // Without it a peak in the middle of two ends would be short by (omega h)^2/8.
+  for (const double wh : {0.6, 0.3, 0.15, 0.0301})
   {
-    const RunResult      result = recorded(wh / omega, 1, 2.);
-    const SignalSummary &x      = result.signals[0];
-    EXPECT_NEAR(x.max, 1., std::pow(wh, 4) / 50.);
-    EXPECT_NEAR(x.min, -1., std::pow(wh, 4) / 50.);
-    EXPECT_NEAR(std::sin(omega * x.t_max), 1., std::pow(wh, 4) / 50.);
+    const RunResult result = recorded(wh / omega, 1, 2.);
+    EXPECT_NEAR(result.signals[0].max, 1., 1e-10) << wh;
+    EXPECT_NEAR(result.signals[0].min, -1., 1e-10) << wh;
+    EXPECT_NEAR(std::sin(omega * result.signals[0].t_max), 1., 1e-10) << wh;
+    EXPECT_NEAR(result.signals[1].min, -omega, 1e-10 * omega) << wh;
   }
 }
 
