@@ -44,6 +44,10 @@ void BlankingForce::start(const LocalMotion &motion, double *history) const
 
 void BlankingForce::accept(const LocalMotion &motion, double *history) const
 {
+  // At a located contact the punch is a rounding error inside: no penetration to remember before the transition.
+  const Branch branch = branch_of(history);
+  if (motion.by_history && (branch == elastic || branch == apart || branch == through))
+    return;
   history[0] = std::max(history[0], motion.u[0] - parameters_.contact_at);
 }
 
