@@ -30,7 +30,7 @@ void require(bool valid, const char *option, Value value, const char *needed)
 BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem &system,
                                const std::vector<SpectrumLine> &spectrum)
 {
-  require(o.tolerance >= 1e-13 && o.tolerance <= 1., "tolerance", o.tolerance, "between 1e-13 and 1");
+  require(o.tolerance >= 1e-13 && o.tolerance <= 0.1, "tolerance", o.tolerance, "between 1e-13 and 0.1");
   require(o.max_order >= 1 && o.max_order <= 6, "max_order", o.max_order, "1 to 6");
   require(o.min_order >= 1 && o.min_order <= o.max_order, "min_order", o.min_order, "1 to max_order");
   require(system.n_constraints() == 0, "the number of constraints", system.n_constraints(),

@@ -50,7 +50,7 @@ class BdfControlled : public TimeIntegrator
 public:
   struct Options
   {
-    double        tolerance     = 1e-4;         ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 1
+    double        tolerance     = 1e-4;         ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 0.1
     double        largest_step  = 0.;           ///< h_max [s]; 0: 1 / omega of the slowest elastic mode
     double        smallest_step = 0.;           ///< [s]; 0: 2^-40 of the largest
     int           min_order = 1, max_order = 5; ///< 1..6
@@ -98,6 +98,7 @@ private:
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
   void               multistep();
   void               resolve_stiffness();
+  void               newton_failed(const ConvergenceFailure &failure);
   void               start();
   Trial              try_multistep(double h);
   Trial              try_start(double h);

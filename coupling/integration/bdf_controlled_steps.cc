@@ -46,6 +46,13 @@ void BdfControlled::advance()
   present(z_, t_end_);
 }
 
+/// Iterates that ran away have enlarged the excursions by which Newton's tolerance is measured: they are counted anew.
+void BdfControlled::newton_failed(const ConvergenceFailure &failure)
+{
+  reason_ = failure.what();
+  implicit_.begin(z_begin_.segment(2 * n_, n_u_));
+}
+
 BdfControlled::Trial BdfControlled::try_multistep(double h)
 {
   Trial        trial;
@@ -59,7 +66,7 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
   }
   catch (const ConvergenceFailure &failure)
   {
-    reason_ = failure.what();
+    newton_failed(failure);
     return trial;
   }
   if (!scale_.consider(t, h, motion(z_begin_), motion(z_)))
@@ -226,7 +233,7 @@ BdfControlled::Trial BdfControlled::try_start(double h)
   }
   catch (const ConvergenceFailure &failure)
   {
-    reason_ = failure.what();
+    newton_failed(failure);
     return trial;
   }
   // Euler's error is a power series in the step: weights 2 and 4 remove its first and second power.

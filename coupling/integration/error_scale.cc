@@ -184,9 +184,9 @@ void ErrorScale::begin(const Motion &at)
   v_begin_    = at.v;
   u_begin_    = at.u;
   rate_begin_ = at.u_rate;
-  for (Eigen::VectorXd Excursions::*x :
-       {&Excursions::q, &Excursions::v, &Excursions::u, &Excursions::u_rate, &Excursions::end_q, &Excursions::end_v})
+  for (const auto x : all)
     (accepted_.*x).setZero();
+  expected_until_ = -std::numeric_limits<double>::infinity();
 }
 
 void ErrorScale::accept()

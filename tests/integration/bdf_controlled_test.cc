@@ -1,11 +1,21 @@
 #include "coupling/integration/bdf_controlled.h"
+
 #include "coupling/integration/bdf_stability.h"
-#include "tests/integration/small_system.h"
+#include "coupling/integration/event_driver.h"
+#include "tests/integration/modal_system.h"
+#include "tests/integration/reference_table.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace gestell::tests
 {
@@ -15,28 +25,6 @@ namespace
 using namespace coupling;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
-
-/// With the modes of its base system.
-class ModalSystem : public SmallSystem
-{
-public:
-  using SmallSystem::SmallSystem;
-
-  std::vector<SpectrumLine> spectrum() const override
-  {
-    const auto                n = M.rows();
-    std::vector<SpectrumLine> lines;
-    Matrix                    A = Matrix::Zero(2 * n, 2 * n);
-    A.topRightCorner(n, n).setIdentity();
-    A.bottomLeftCorner(n, n)      = -M.inverse() * C;
-    A.bottomRightCorner(n, n)     = -M.inverse() * B;
-    const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
-    for (const std::complex<double> &s : values)
-      if (s.imag() >= 0.)
-        lines.push_back({std::abs(s), std::abs(s) > 0. ? -s.real() / std::abs(s) : 0.});
-    return lines;
-  }
-};
 
 Eigen::Vector2d exact_q(double t)
 {
@@ -133,6 +121,184 @@ TEST(BdfControlled, ErrorStaysProportionalToTheTolerance)
   }
   EXPECT_LT(largest, 10. * smallest);
   EXPECT_LT(largest, 1.);
+}
+
+// The exact solutions are Jacobi's elliptic functions.  Nothing damps these vibrations, so what errors of the period
+// leave adds up over two to three periods: some ten times the tolerance.
+TEST(BdfControlled, MeetsTheEllipticSolutionsOfDuffing)
+{
+  const std::map<std::string, std::pair<double, double>> cases{
+      {"duffing1", {1., 1.}}, {"duffing2", {1., -0.2}}, {"duffing3", {-1., 1.}}};
+  for (const auto &[name, parameters] : cases)
+    for (const double tolerance : {1e-4, 1e-6, 1e-8})
+    {
+      const ModalSystem      system = duffing(parameters.first, parameters.second);
+      BdfControlled::Options options;
+      options.tolerance    = tolerance;
+      options.largest_step = 0.5;
+      BdfControlled bdf(system, options);
+      LocalState    local;
+      local.resize(1);
+      double largest = 0.;
+      bool   begun   = false;
+      for (const ReferenceRow &row : read_reference("order/b_duffing_pendulum.csv"))
+      {
+        if (row["case"] != name)
+          continue;
+        const double t = row.number("t"), x = row.number("x"), v = row.number("v");
+        if (!std::exchange(begun, true))
+        {
+          bdf.begin(t, Vector::Constant(1, x), Vector::Constant(1, v));
+          continue;
+        }
+        while (bdf.time() < t)
+          bdf.advance();
+        bdf.interpolate(t, local);
+        largest = std::max({largest, std::abs(local.u[0] - x), std::abs(local.v[0] - v)});
+      }
+      ASSERT_TRUE(begun);
+      EXPECT_GT(largest, 0.);
+      EXPECT_LT(largest, 50. * tolerance) << name;
+    }
+}
+
+TEST(BdfControlled, StepsThatComeBackFindTheirFactorisations)
+{
+  const ModalSystem      system = duffing(1., 1.);
+  BdfControlled::Options options;
+  options.tolerance    = 1e-4;
+  options.largest_step = 0.5;
+  options.max_order    = 2;
+  BdfControlled bdf(system, options);
+  bdf.begin(0., Vector::Constant(1, 2.), Vector::Zero(1));
+  const double     period = 3.1797233167817153;
+  std::set<double> steps;
+  const auto       run = [&](double end)
+  {
+    while (bdf.time() < end)
+    {
+      bdf.advance();
+      steps.insert(bdf.step());
+    }
+    return bdf.work().factorisations;
+  };
+  const long early = run(3. * period), late = run(12. * period);
+  EXPECT_GT(steps.size(), 2u); // the step does change
+  EXPECT_EQ(late, early);
+  // one per rung by BDF2, and Euler's three of every start that was tried, on neighbouring rungs
+  EXPECT_LE(early, long(steps.size()) + 3 * (1 + bdf.work().rejected));
+}
+
+// Wall spring met by a driven oscillator: contacts and releases in closed form between events.
+TEST(BdfControlled, TimesOfImpactsFallWithTheTolerance)
+{
+  std::vector<double> exact;
+  for (const ReferenceRow &row : read_reference("order/c_impact_events.csv"))
+    if (row["case"] == "impact2")
+      exact.push_back(row.number("t"));
+  ASSERT_EQ(exact.size(), 12u);
+  const double gap = 0.05, stiffness = 4e6;
+  for (const double tolerance : {1e-4, 1e-7, 1e-9})
+  {
+    ModalSystem system = oscillator(10., 20., 4000., nullptr);
+    system.watched     = true;
+    system.level       = gap;
+    system.law         = [&](double u, double, double &p, double &dp_du, double &dp_dv)
+    {
+      const bool closed = system.transitions % 2 == 1;
+      p                 = closed ? -stiffness * (u - gap) : 0.;
+      dp_du             = closed ? -stiffness : 0.;
+      dp_dv             = 0.;
+    };
+    system.loads().add_harmonic(0, 18., 400., 0.);
+    BdfControlled::Options options;
+    options.tolerance    = tolerance;
+    options.largest_step = 0.05;
+    BdfControlled bdf(system, options);
+    EventDriver   driver(system, bdf, {});
+    driver.begin(0., Vector::Zero(1), Vector::Zero(1));
+    while (bdf.time() < 2.)
+      driver.advance();
+    ASSERT_EQ(driver.events().size(), exact.size()) << tolerance;
+    // Each impact multiplies errors of the motion before it; twelve of them by less than ten.
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      EXPECT_NEAR(driver.events()[i].t, exact[i], (i < 4 ? 0.1 : 1.) * tolerance) << "event " << i;
+  }
+}
+
+/// Sixteen modes of 1 % damping from 40 to 2047 rad/s, so close that no step lies in a gap; each driven by F cos(60 t),
+/// F its stiffness.
+ModalSystem frame_of_many_modes()
+{
+  constexpr int n = 16;
+  Vector        omega(n);
+  for (int i = 0; i < n; ++i)
+    omega[i] = 40. * std::pow(1.3, i);
+  ModalSystem system(Matrix::Identity(n, n), (0.02 * omega).asDiagonal(), omega.cwiseAbs2().asDiagonal());
+  for (int i = 0; i < n; ++i)
+    system.loads().add_harmonic(i, 60., system.C(i, i), 0.);
+  return system;
+}
+
+TEST(BdfControlled, OrdersThatWouldMakeAModeGrowAreNotUsed)
+{
+  const ModalSystem      system   = frame_of_many_modes();
+  const auto             spectrum = system.spectrum();
+  BdfControlled::Options options;
+  options.tolerance    = 1e-3;
+  options.largest_step = 0.01;
+  BdfControlled bdf(system, options);
+  bdf.begin(0., Vector::Zero(16), Vector::Zero(16));
+  std::map<std::pair<int, double>, long> steps; // by order and length
+  while (bdf.time() < 3.)
+  {
+    bdf.advance();
+    ++steps[{bdf.order(), bdf.step()}];
+    // Switched on at once, a mode overshoots to less than twice what it does in the end; 52 rad/s is next to resonance.
+    EXPECT_LT(std::abs(bdf.instant().q[15]), 2.);
+  }
+  double growth = 0.; // ln of that of order 3 with the steps that order 2 took
+  for (const auto &[kind, n] : steps)
+  {
+    const auto [order, h] = kind;
+    const auto grows      = unstable_mode(std::max(order, 3), spectrum, h);
+    if (order > 2)
+    {
+      EXPECT_FALSE(grows) << order << " with " << h;
+    }
+    else if (grows)
+      growth += static_cast<double>(n) * std::log(grows->growth);
+  }
+  EXPECT_GT(growth, 20.);
+  for (int i = 8; i < 16; ++i)
+  {
+    const double               omega    = std::sqrt(system.C(i, i));
+    const std::complex<double> response = omega * omega / std::complex<double>(omega * omega - 3600., 1.2 * omega);
+    const std::complex<double> exact    = response * std::exp(std::complex<double>(0., 60. * bdf.time()));
+    EXPECT_NEAR(bdf.instant().q[i], exact.real(), 1e-3) << i;
+  }
+}
+
+TEST(BdfOrderLimit, AgreesWithTheRootsOfTheFormula)
+{
+  for (int order = 1; order <= 6; ++order)
+    for (const double zeta : {0., 1e-3, 0.01, 0.05, 0.3, 0.9, 1.5})
+      for (double omega_h = 1e-3; omega_h < 100.; omega_h *= 1.3)
+      {
+        const SpectrumLine mode{omega_h, zeta};
+        const double       radius = bdf_spectral_radius(order, mode, 1.);
+        if (std::abs(radius - 1. - 1e-9) < 1e-8)
+          continue;
+        EXPECT_EQ(bdf_decays(order, mode, 1.), radius < 1.) << order << " " << zeta << " " << omega_h;
+      }
+}
+
+TEST(BdfOrderLimit, SpectraWithGapsAllowNothingAboveTwo)
+{
+  const std::vector<SpectrumLine> spectrum{{10., 0.9}};
+  EXPECT_TRUE(BdfOrderLimit(spectrum, 1, 1e-3).allows(3, 0));
+  EXPECT_FALSE(BdfOrderLimit(spectrum, 2, 1e-3).allows(3, 0));
+  EXPECT_TRUE(BdfOrderLimit(spectrum, 2, 1e-3).allows(2, 0));
 }
 
 } // namespace
