@@ -62,6 +62,20 @@ CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptio
   return command;
 }
 
+/// The scene may be left out.
+CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityCommandOptions &stability)
+{
+  CLI::App *command =
+      add_command(program, "stability", "stability and accuracy maps of the integrators, over a scene's own modes",
+                  "gestell stability apps/scenes/press_minimal.toml --zeta 0,0.02", "SCENE", options);
+  command->get_option("SCENE")->required(false);
+  command->add_option("--zeta", stability.zetas, "damping ratios of the maps (default 0,0.01,0.05)")->delimiter(',');
+  command->add_option("--step", stability.step, "step [s] at which the scene's modes are shown (default run.step)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--atlas", stability.atlas, "write the failure atlas into this file (Markdown) instead");
+  return command;
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -89,6 +103,9 @@ int main(int argc, char **argv)
   mesher->add_option("--unit", mesh.unit, "length unit of a file without one, such as \"1 mm\"");
   mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(CLI::PositiveNumber);
 
+  StabilityCommandOptions stability_options;
+  CLI::App               *stability = add_stability(program, options, stability_options);
+
   try
   {
     program.parse(argc, argv);
@@ -112,6 +129,8 @@ int main(int argc, char **argv)
       return chart_command(options, chart_options);
     if (check->parsed())
       return check_command(options);
+    if (stability->parsed())
+      return stability_command(options, stability_options);
     return mesh_command(options, mesh);
   }
   catch (const std::invalid_argument &error)

@@ -49,12 +49,21 @@ struct ChartCommandOptions
   double                   limit   = 20.;    ///< [s] of CPU time for one run
 };
 
+struct StabilityCommandOptions
+{
+  std::vector<double> zetas = {0., 0.01, 0.05}; ///< damping ratios of the maps
+  double              step  = 0.;               ///< [s] at which the scene's modes are shown; 0: run.step
+  std::string         atlas;                    ///< file of the failure atlas; empty: none
+};
+
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.
 int run_command(const CommonOptions &options);
 int modes_command(const CommonOptions &options);
 int reduce_command(const CommonOptions &options);
 int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh);
 int check_command(const CommonOptions &options);
+/// options.input may be empty: maps alone.
+int stability_command(const CommonOptions &options, const StabilityCommandOptions &stability);
 int chart_command(const CommonOptions &options, const ChartCommandOptions &chart);
 
 } // namespace gestell::apps

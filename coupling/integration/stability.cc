@@ -149,12 +149,13 @@ Roots wilson_roots(double theta_value, const TestOscillator &o)
   return roots_of_z(sum);
 }
 
-/// From trace and determinant of a 2 x 2 map; stable while |trace| <= 1 + det and det <= 1.
+/// From trace and determinant of a 2 x 2 map; stable while |trace| <= 1 + det and det <= 1.  The second holds: det is 1
+/// without damping, which as a margin would hide how close the first comes to its limit between two islands of growth.
 Roots contact_roots(const LongMatrix2 &A)
 {
   const long double trace = A(0, 0) + A(1, 1), det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   const long double discriminant = 0.25L * trace * trace - det;
-  Roots             roots{{}, std::max(std::abs(trace) - 1.L - det, det - 1.L) - 1e-16L};
+  Roots             roots{{}, (det > 1.L + 1e-15L ? det : std::abs(trace) - det) - 1.L - 1e-16L};
   if (discriminant < 0.L)
   {
     const LongComplex r(0.5L * trace, std::sqrt(-discriminant));
@@ -296,8 +297,10 @@ std::vector<Sample> samples(const Margin &f)
   {
     all.push_back(grid[i]);
     const long double y = grid[i].margin;
-    if (i == 0 || i == n || std::abs(y) > 0.1L || std::abs(y) < 1e-14L)
+    if (i == 0 || i == n || std::abs(y) > 0.1L)
       continue;
+    if (std::max({std::abs(grid[i - 1].margin), std::abs(y), std::abs(grid[i + 1].margin)}) < 1e-14L)
+      continue; // neutral, with the noise of rounding
     const bool grows = y > 0.L;
     const auto sign  = grows ? -1.L : 1.L;
     const auto below = [&](const Sample &other)

@@ -311,6 +311,27 @@ TEST(Stability, ContactsUnderExactPropagation)
   }
 }
 
+TEST(Stability, NoIslandOfGrowthIsMissed)
+{
+  MethodOptions o;
+  o.method = Method::exact;
+  o.force  = ForceRule::collocation;
+  for (const double zeta : {0., 1e-4, 0.02})
+    for (const int order : {2, 4, 6, 8})
+    {
+      o.order              = order;
+      const auto intervals = unstable_intervals(o, zeta, Spring::contact);
+      for (double omega_h = 0.5; omega_h < 20.; omega_h += 0.0037)
+      {
+        bool within = false;
+        for (const auto &interval : intervals)
+          within = within || (omega_h > interval.from && omega_h < interval.to);
+        EXPECT_EQ(step_properties(o, {zeta, omega_h, Spring::contact}).log_growth > 1e-12, within)
+            << order << ' ' << zeta << ' ' << omega_h;
+      }
+    }
+}
+
 TEST(Stability, ContactCollocationHasTheOrderOfItsPoints)
 {
   MethodOptions o;

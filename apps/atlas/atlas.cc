@@ -1,0 +1,83 @@
+#include "apps/atlas/atlas.h"
+
+#include "apps/output/number_text.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+
+std::vector<AtlasEntry> failure_atlas()
+{
+  return {bdf3_on_a_frame(),
+          bdf_of_high_order(),
+          wilson_below_its_limit(),
+          wilson_overshoot(),
+          newmark_outside_its_limits(),
+          exact_force_at_contact(),
+          hard_contact(),
+          order_at_play(),
+          fixed_point_of_forces(),
+          chatter()};
+}
+
+namespace
+{
+
+std::string row(const std::vector<std::string> &cells)
+{
+  std::string text = "|";
+  for (const std::string &cell : cells)
+    text += " " + cell + " |";
+  return text + "\n";
+}
+
+std::string table(const std::vector<std::vector<std::string>> &rows)
+{
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    text += row(rows[i]);
+    if (i == 0)
+      text += row(std::vector<std::string>(rows[0].size(), "---"));
+  }
+  return text;
+}
+
+} // namespace
+
+std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::string &figures)
+{
+  std::string text =
+      "# Failure atlas\n\n"
+      "For every method the place where it fails: predicted from the roots of its step "
+      "([stability.md](stability.md)), and measured by stepping the program's own integrators. Made by\n\n"
+      "    gestell stability --atlas docs/failure_atlas.md\n\n"
+      "`tests/apps/failure_atlas_test.cc` makes the numbers anew. A run meets none of this unasked: the "
+      "stability guard refuses what would grow, events are located, Newton solves the forces.\n\n";
+  for (const AtlasEntry &entry : entries)
+    text += "- [" + entry.title + "](#" + entry.id + ")\n";
+  for (const AtlasEntry &entry : entries)
+  {
+    text += "\n<a id=\"" + entry.id + "\"></a>\n\n## " + entry.title + "\n\n" + entry.text + "\n\n";
+    for (const NamedSvg &figure : entry.figures)
+      text += "![" + entry.title + "](" + figures + "/" + figure.name + ".svg)\n\n";
+    if (!entry.table.empty())
+    {
+      text += table(entry.table);
+      continue;
+    }
+    std::vector<std::vector<std::string>> rows{{"where", "predicted", "measured", "difference"}};
+    for (const AtlasComparison &c : entry.comparisons)
+    {
+      // Differences at the level of rounding change with the machine; only their size is told.
+      const double apart = std::abs(c.measured - c.predicted);
+      rows.push_back({c.what, short_text(c.predicted, 8), short_text(c.measured, 8),
+                      apart < 1e-9 ? "< 1e-9" : short_text(apart, 1)});
+    }
+    text += table(rows);
+  }
+  return text;
+}
+
+} // namespace gestell::apps

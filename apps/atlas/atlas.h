@@ -1,0 +1,48 @@
+#pragma once
+
+#include "apps/output/stability_maps.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// One number, foretold and then measured on the integrators themselves.
+struct AtlasComparison
+{
+  std::string what;
+  double      predicted, measured;
+  double      tolerance; ///< absolute; why it is that large stands where it is made
+};
+
+/// A place where a method fails.
+struct AtlasEntry
+{
+  std::string                           id; ///< of its heading and its figures
+  std::string                           title;
+  std::string                           text; ///< Markdown
+  std::vector<AtlasComparison>          comparisons;
+  std::vector<std::vector<std::string>> table; ///< first row: headings; empty: none
+  std::vector<NamedSvg>                 figures;
+};
+
+// Each makes its system, runs the integrators on it and tells what came out.
+AtlasEntry bdf3_on_a_frame();
+AtlasEntry bdf_of_high_order();
+AtlasEntry wilson_below_its_limit();
+AtlasEntry wilson_overshoot();
+AtlasEntry newmark_outside_its_limits();
+AtlasEntry exact_force_at_contact();
+AtlasEntry hard_contact();
+AtlasEntry order_at_play();
+AtlasEntry fixed_point_of_forces();
+AtlasEntry chatter();
+
+/// All of them, in the order of the document.
+std::vector<AtlasEntry> failure_atlas();
+
+/// The document; figures are looked for in `figures`, a folder beside it.
+std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::string &figures);
+
+} // namespace gestell::apps

@@ -1,0 +1,367 @@
+// What contacts do to methods that are sound for linear systems.
+
+#include "apps/atlas/atlas.h"
+#include "apps/atlas/trials.h"
+#include "apps/output/log_chart.h"
+#include "apps/output/number_text.h"
+#include "coupling/integration/event_driver.h"
+#include "mechanism/elements/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::ForceRule;
+using coupling::Method;
+using coupling::MethodOptions;
+
+struct NamedMethod
+{
+  std::string   name;
+  MethodOptions options;
+};
+
+NamedMethod bdf(int order)
+{
+  MethodOptions o;
+  o.order = order;
+  return {"BDF " + std::to_string(order), o};
+}
+
+NamedMethod generalised_alpha(double rho_inf)
+{
+  MethodOptions o;
+  o.method  = Method::generalised_alpha;
+  o.rho_inf = rho_inf;
+  return {"generalised alpha " + short_text(rho_inf), o};
+}
+
+NamedMethod exact(ForceRule force, int order, const std::string &name)
+{
+  MethodOptions o;
+  o.method = Method::exact;
+  o.force  = force;
+  o.order  = order;
+  return {"exact, " + name, o};
+}
+
+NamedMethod average_acceleration()
+{
+  MethodOptions o;
+  o.method = Method::newmark;
+  return {"average acceleration", o};
+}
+
+NamedMethod hht(double alpha)
+{
+  MethodOptions o;
+  o.method = Method::hht;
+  o.alpha  = alpha;
+  return {"HHT " + short_text(alpha), o};
+}
+
+/// 1 kg that flies between two elastic stops without loss.
+coupling::Machine flying_mass(double gap, double omega_contact)
+{
+  coupling::Machine       machine;
+  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+
+  mechanism::Clearance::Parameters stops;
+  stops.gap       = gap;
+  stops.stiffness = omega_contact * omega_contact;
+  machine.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
+  machine.finish();
+  return machine;
+}
+
+constexpr double gap_in_steps = 3.7; // way from the middle to a stop at the first speed
+constexpr int    flight_steps = 4000;
+
+/// Kinetic energy in flight relative to the start, step by step; it is kept from the last flight during a contact.
+std::vector<double> flight_energy(const NamedMethod &method, double omega_contact_h, bool locate)
+{
+  auto          machine = flying_mass(gap_in_steps, omega_contact_h); // h = 1, first speed 1
+  MethodOptions options = method.options;
+  options.step          = 1.;
+
+  const auto             integrator = coupling::make_integrator(machine, options);
+  coupling::EventOptions events;
+  events.locate = locate;
+  events.end    = flight_steps;
+  coupling::EventDriver driver(machine, *integrator, events);
+  driver.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  std::vector<double> energy{1.};
+  while (integrator->time() < flight_steps - 1e-9 && energy.back() < 1e6)
+  {
+    driver.advance();
+    const coupling::Instant &now = integrator->instant();
+    energy.push_back(std::abs(now.q[0]) < gap_in_steps ? now.v[0] * now.v[0] : energy.back());
+  }
+  return energy;
+}
+
+} // namespace
+
+AtlasEntry hard_contact()
+{
+  AtlasEntry entry{
+      "hard-contact",
+      "Hard contact: energy from nowhere, and energy lost",
+      "A mass flies between two elastic stops, some seven steps from one to the other; nothing dissipates. "
+      "Every method here is stable for the mass in flight and for the mass in contact. Yet the switch of "
+      "stiffness within a step does work: methods that damp stiff modes only a little (generalised alpha "
+      "0.9, HHT -0.05, the average acceleration) let the mass gain speed at some ω_c h, no matter that "
+      "their spectral radius is at most 1; more numerical damping takes the energy away instead. Largest "
+      "kinetic energy in flight over 4000 steps, relative to the start, and the one at the end (the motion is chaotic: "
+      "only the sizes tell something):",
+      {},
+      {},
+      {}};
+  const std::vector<double>      omega_h = {0.3, 1., 3., 10., 30.};
+  const std::vector<NamedMethod> methods = {
+      average_acceleration(), hht(-0.05), generalised_alpha(0.9),
+      generalised_alpha(0.5), bdf(2),     exact(ForceRule::average, 2, "average force")};
+  entry.table = {{"method", "events"}};
+  for (const double x : omega_h)
+    entry.table[0].push_back("ω_c h = " + short_text(x));
+  LogChart chart{"Kinetic energy in flight, ω_c h = 3",
+                 "step",
+                 "relative to the start",
+                 1.,
+                 double(flight_steps),
+                 1e-2,
+                 1e3,
+                 true,
+                 std::numeric_limits<double>::quiet_NaN(),
+                 {{"", {}}},
+                 {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 300.;
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    for (const bool locate : {false, true})
+    {
+      std::vector<std::string> row{methods[m].name, locate ? "located" : "gone over"};
+      double                   largest = 0.;
+      for (const double x : omega_h)
+      {
+        const std::vector<double> energy = flight_energy(methods[m], x, locate);
+        const double              most   = *std::max_element(energy.begin(), energy.end());
+        largest                          = std::max(largest, most);
+        row.push_back(short_text(most, 2) + " / " + short_text(energy.back(), 2));
+        // With events every step lies on one side, where the mean force along the way does exactly the work that the
+        // contact stores, p (u1 - u0) = -(V1 - V0).  What is lost at the end of a contact is the error of its place:
+        // below 1e-4 a contact at omega_c h = 0.3, in some hundred of them.
+        if (locate && x == 0.3 && methods[m].options.method == Method::exact)
+          entry.comparisons.push_back(
+              {"exact, average force, events located, energy at omega_c h = 0.3", 1., energy.back(), 0.01});
+        if (x == 3. && !locate)
+        {
+          LogCurve curve{methods[m].name, {}, {}, static_cast<int>(m), false};
+          for (std::size_t k = 0; k < energy.size(); k += 1 + k / 60)
+          {
+            curve.x.push_back(double(k));
+            curve.y.push_back(energy[k]);
+          }
+          chart.panels[0].curves.push_back(curve);
+        }
+      }
+      if (m < 3 && !locate) // 1: it grew
+        entry.comparisons.push_back({methods[m].name + " gains energy (1: yes)", 1., largest > 1.05 ? 1. : 0., 0.});
+      entry.table.push_back(row);
+    }
+  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  return entry;
+}
+
+namespace
+{
+
+/// A forced oscillator in a play, which it leaves and meets some ten times.
+coupling::Machine forced_in_play()
+{
+  coupling::Machine       machine;
+  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+  machine.add_linear("spring", u, 400., 2., 0., 0., "N"); // 20 rad/s, 5 %
+  machine.add_load("load", u, 0., {{15., 0.8, 0.3}}, "N");
+
+  mechanism::Clearance::Parameters stops;
+  stops.gap       = 1e-3;
+  stops.stiffness = 1e4;
+  machine.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
+  machine.finish();
+  return machine;
+}
+
+/// x, x'/20 at t = end.
+Eigen::Vector2d state_at(const MethodOptions &method, double step, bool locate, double end)
+{
+  auto          machine    = forced_in_play();
+  MethodOptions options    = method;
+  options.step             = step;
+  options.newton.tolerance = 1e-13;
+
+  const auto             integrator = coupling::make_integrator(machine, options);
+  coupling::EventOptions events;
+  events.locate = locate;
+  events.end    = end;
+  coupling::EventDriver driver(machine, *integrator, events);
+  driver.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+  while (integrator->time() < end - 1e-12)
+    driver.advance();
+  return {integrator->instant().q[0], integrator->instant().v[0] / 20.};
+}
+
+/// Slope of ln(error) over ln(step).
+double slope(const std::vector<double> &step, const std::vector<double> &error)
+{
+  double n = 0., x = 0., y = 0., xx = 0., xy = 0.;
+  for (std::size_t i = 0; i < step.size(); ++i)
+  {
+    const double a = std::log(step[i]), b = std::log(error[i]);
+    n += 1., x += a, y += b, xx += a * a, xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+} // namespace
+
+AtlasEntry order_at_play()
+{
+  AtlasEntry entry{
+      "order-at-play",
+      "Order lost at play without events",
+      "A forced oscillator in a play. Where a step goes over the instant of contact, the kink of the force "
+      "leaves a local error of second order, however high the order of the method; with events located "
+      "and the integration restarted there, the order is back. Orders are slopes over the steps of the "
+      "figure (without events irregular), predicted min(p, 2) and p; the error is the root mean square "
+      "over nine instants.",
+      {},
+      {{"method", "order without events", "order with events", "error at the smallest step"}},
+      {}};
+  const std::vector<double>      ends  = {0.4, 0.55, 0.7, 0.8, 0.95, 1.05, 1.2, 1.35, 1.5};
+  const std::vector<NamedMethod> cases = {bdf(2), bdf(4), exact(ForceRule::collocation, 4, "collocation 4"),
+                                          exact(ForceRule::collocation, 6, "collocation 6")};
+  const std::vector<double>      steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4}; // twice as long for order 6
+  std::vector<Eigen::Vector2d>   truth;
+  for (const double end : ends)
+    truth.push_back(state_at(exact(ForceRule::collocation, 8, "").options, 2e-4, true, end));
+  LogChart chart{
+      entry.title, "step in s", "error in m", 1e-4, 1e-2, 1e-14, 1e-2, true, std::numeric_limits<double>::quiet_NaN(),
+      {{"", {}}},  {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 320.;
+  for (std::size_t m = 0; m < cases.size(); ++m)
+  {
+    std::vector<std::string> row{cases[m].name};
+    double                   last = 0.;
+    for (const bool locate : {false, true})
+    {
+      const int           p      = cases[m].options.order;
+      const double        longer = p == 6 ? 2. : 1.;
+      std::vector<double> h, error;
+      for (const double base_step : steps)
+      {
+        const double step = longer * base_step;
+        double       sum  = 0.;
+        for (std::size_t k = 0; k < ends.size(); ++k)
+          sum += (state_at(cases[m].options, step, locate, ends[k]) - truth[k]).squaredNorm();
+        h.push_back(step);
+        error.push_back(std::sqrt(sum / double(ends.size())));
+      }
+      chart.panels[0].curves.push_back(
+          {cases[m].name + (locate ? ", events" : ""), h, error, static_cast<int>(m), !locate});
+      // Below 5e-15 m rounding speaks: 1e3 steps of a motion of 1e-3 m.
+      std::vector<double> h_seen, seen;
+      for (std::size_t i = 0; i < error.size(); ++i)
+        if (error[i] > 5e-15)
+          h_seen.push_back(h[i]), seen.push_back(error[i]);
+      const double order = slope(h_seen, seen);
+      // Without events the constant jumps with the place of the contact in its step: half an order over a factor of 16.
+      // With them what remains is the approach to the asymptotic range, longer for order 6.
+      entry.comparisons.push_back({cases[m].name + (locate ? ", order with events" : ", order without events"),
+                                   double(locate ? p : std::min(p, 2)), order, locate ? (p == 6 ? 0.7 : 0.35) : 0.6});
+      row.push_back(short_text(order, 3));
+      last = error.back();
+    }
+    row.push_back(short_text(last, 2) + " m");
+    entry.table.push_back(row);
+  }
+  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  return entry;
+}
+
+namespace
+{
+
+/// n masses of 1 kg, each between elastic stops of its own.
+coupling::Machine rattling_masses(int n, double gap, double omega_contact)
+{
+  coupling::Machine                machine;
+  mechanism::Clearance::Parameters stops;
+  stops.gap       = gap;
+  stops.stiffness = omega_contact * omega_contact;
+  for (int i = 0; i < n; ++i)
+  {
+    const std::string       number = std::to_string(i);
+    const coupling::Measure u      = {{machine.add_slider("x" + number, {1., 0., 0.}, 1., "ground"), 1.}};
+    machine.attach("stops " + number, std::make_shared<mechanism::Clearance>(stops), {u});
+  }
+  machine.finish();
+  return machine;
+}
+
+} // namespace
+
+AtlasEntry chatter()
+{
+  AtlasEntry entry{
+      "chatter",
+      "Chatter: more events than steps are worth",
+      "Masses rattle side by side, each between its own stops, and every impact is an event. At most 20 are "
+      "located within the length of a step; then one step goes over what is left. Such steps are counted and "
+      "told in `summary.json`, and they bound the work, whatever the machine does. Average acceleration, "
+      "60 steps:",
+      {},
+      {{"masses", "events a step", "steps gone over", "most parts within one step's length"}},
+      {}};
+  constexpr double gap = 1., omega_contact = 1.; // in steps, at the speed 1
+  constexpr int    n_steps = 60;
+  for (const int n : {10, 30, 60})
+  {
+    auto          machine = rattling_masses(n, gap, omega_contact);
+    MethodOptions options = average_acceleration().options;
+    options.step          = 1.;
+
+    const auto             integrator = coupling::make_integrator(machine, options);
+    coupling::EventOptions events;
+    events.end = n_steps;
+    coupling::EventDriver driver(machine, *integrator, events);
+    driver.begin(0., Eigen::VectorXd::LinSpaced(n, -0.97, 0.97), Eigen::VectorXd::Ones(n));
+    std::vector<double> times{0.};
+    while (integrator->time() < n_steps - 1e-9)
+    {
+      driver.advance();
+      times.push_back(integrator->time());
+    }
+    std::size_t most = 0;
+    for (std::size_t i = 0, j = 0; j < times.size(); ++j)
+    {
+      while (times[j] - times[i] >= 1. - 1e-9)
+        ++i;
+      most = std::max(most, j - i);
+    }
+    // Within one step's length: the end of one count of 20 events, the step that goes over, 20 of the next.
+    entry.comparisons.push_back({std::to_string(n) + " masses, parts of a step, 0 to 42", 21., double(most), 21.});
+    entry.table.push_back({std::to_string(n), short_text(double(driver.events().size()) / n_steps),
+                           std::to_string(driver.chattering_steps()), std::to_string(most)});
+  }
+  return entry;
+}
+
+} // namespace gestell::apps

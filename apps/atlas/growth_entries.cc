@@ -1,0 +1,292 @@
+// Methods that make an undamped or lightly damped linear mode grow.
+
+#include "apps/atlas/atlas.h"
+#include "apps/atlas/trials.h"
+#include "apps/output/log_chart.h"
+#include "apps/output/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::ForceRule;
+using coupling::Method;
+using coupling::MethodOptions;
+using coupling::Spring;
+using coupling::TestOscillator;
+
+// What the integrators compute differs from the formulas by rounding only, 1e-16 of the state in every step, seen over
+// some hundred steps; other roots have died out by then (0.99^1000 of them is left at most).
+constexpr double rounding = 1e-7;
+
+MethodOptions bdf(int order)
+{
+  MethodOptions o;
+  o.order = order;
+  return o;
+}
+
+MethodOptions newmark(double beta, double gamma)
+{
+  MethodOptions o;
+  o.method = Method::newmark;
+  o.beta   = beta;
+  o.gamma  = gamma;
+  return o;
+}
+
+MethodOptions wilson(double theta)
+{
+  MethodOptions o;
+  o.method = Method::wilson;
+  o.theta  = theta;
+  return o;
+}
+
+MethodOptions of(Method method)
+{
+  MethodOptions o;
+  o.method = method;
+  return o;
+}
+
+MethodOptions exact(ForceRule force, int order)
+{
+  MethodOptions o = of(Method::exact);
+  o.force         = force;
+  o.order         = order;
+  return o;
+}
+
+/// The method at omega h on a unit oscillator: what the roots say, and what its steps do.
+AtlasComparison compare(const std::string &name, MethodOptions options, const TestOscillator &o)
+{
+  options.step           = 1.;
+  const double predicted = coupling::spectral_radius(options, o);
+  const int    n         = steps_to_see(predicted);
+  auto machine = o.spring == Spring::contact ? contact_oscillator(o.omega_h) : trial_frame({{o.omega_h, o.zeta}});
+  return {name + " at omega h = " + short_text(o.omega_h), predicted,
+          measured_growth(step_through(machine, options, n).col(0)), rounding};
+}
+
+struct Trial
+{
+  std::string         name;
+  MethodOptions       options;
+  double              zeta;
+  std::vector<double> omega_h; ///< where it is measured
+  Spring              spring = Spring::base;
+};
+
+/// Growth over omega h: lines predicted, rings measured.
+AtlasEntry growth_entry(AtlasEntry entry, const std::vector<Trial> &trials, double from, double to, double top)
+{
+  LogChart chart{entry.title, "ω h", "growth per step", from, to, 0.9, top, false, 1., {{"", {}}}, {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 300.;
+  LogPanel &panel    = chart.panels.front();
+  for (std::size_t i = 0; i < trials.size(); ++i)
+  {
+    const Trial &trial  = trials[i];
+    const int    colour = static_cast<int>(i);
+    LogCurve predicted{trial.name, {}, {}, colour, false}, measured{i == 0 ? "measured" : "", {}, {}, colour, false};
+    measured.points = true;
+    for (int k = 0; k <= 400; ++k)
+    {
+      predicted.x.push_back(from * std::pow(to / from, k / 400.));
+      predicted.y.push_back(coupling::spectral_radius(trial.options, {trial.zeta, predicted.x.back(), trial.spring}));
+    }
+    for (const double omega_h : trial.omega_h)
+    {
+      entry.comparisons.push_back(compare(trial.name, trial.options, {trial.zeta, omega_h, trial.spring}));
+      measured.x.push_back(omega_h);
+      measured.y.push_back(entry.comparisons.back().measured);
+    }
+    panel.curves.push_back(predicted);
+    panel.curves.push_back(measured);
+  }
+  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  return entry;
+}
+
+} // namespace
+
+AtlasEntry bdf3_on_a_frame()
+{
+  constexpr double          two_pi = 6.283185307179586, zeta = 0.01;
+  const std::vector<double> hertz = {20., 60., 150., 400.};
+  std::vector<TrialMass>    masses;
+  for (const double f : hertz)
+    masses.push_back({two_pi * f, zeta});
+
+  AtlasEntry entry{"bdf3-frame",
+                   "BDF 3 on a frame with 1 % damping",
+                   "Four modes, 20, 60, 150 and 400 Hz, with a damping ratio of 1 %. BDF 3 makes a mode with 1 % grow "
+                   "for 0.3567 < ω h < 1.863; among modes over more than a decade one is met at every step that is of "
+                   "use. The growth of the worst mode, as its roots say and as the run has it:",
+                   {},
+                   {{"step", "mode that grows fastest", "predicted", "measured"}},
+                   {}};
+  LogChart   chart{entry.title, "step in s", "growth per step", 1e-4, 1e-2, 0.99, 1.045, false, 1., {{"", {}}}, {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 300.;
+  LogCurve line{"predicted, of the worst mode", {}, {}, 0, false}, rings{"measured", {}, {}, 1, false};
+  rings.points     = true;
+  const auto worst = [&](double h)
+  {
+    std::size_t best = 0;
+    double      most = 0.;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      if (const double rho = coupling::spectral_radius(bdf(3), {zeta, masses[i].omega * h}); rho > most)
+        most = rho, best = i;
+    return std::pair(best, most);
+  };
+  for (int k = 0; k <= 400; ++k)
+  {
+    line.x.push_back(1e-4 * std::pow(100., k / 400.));
+    line.y.push_back(worst(line.x.back()).second);
+  }
+  for (const double h : {2e-4, 4e-4, 7e-4, 1.2e-3, 2e-3, 3e-3, 5e-3, 8e-3})
+  {
+    const auto [mode, predicted] = worst(h);
+    MethodOptions options        = bdf(3);
+    options.step                 = h;
+    auto         machine         = trial_frame(masses);
+    const double measured = measured_growth(step_through(machine, options, steps_to_see(predicted)).col(long(mode)));
+    entry.comparisons.push_back({"BDF 3, step " + short_text(1e3 * h) + " ms", predicted, measured, rounding});
+    entry.table.push_back({short_text(1e3 * h) + " ms", short_text(hertz[mode]) + " Hz", short_text(predicted, 8),
+                           short_text(measured, 8)});
+    rings.x.push_back(h);
+    rings.y.push_back(measured);
+  }
+  chart.panels.front().curves = {line, rings};
+  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  return entry;
+}
+
+AtlasEntry bdf_of_high_order()
+{
+  return growth_entry({"bdf-high-order",
+                       "BDF 4, 5 and 6 on an undamped mode",
+                       "BDF 4 grows from ω h = 0 on, slowly at first, (ω h)⁶/3 a step; BDF 5 and 6 from 0.711 and "
+                       "0.843. Only a damping ratio of 0.286, 0.618 or 0.952 would make them stable for every step. "
+                       "With a controlled step Gestell leaves an order as soon as a mode would grow with it.",
+                       {},
+                       {},
+                       {}},
+                      {{"BDF 4", bdf(4), 0., {0.5, 0.8, 1.2, 1.8604, 3., 4.5}},
+                       {"BDF 5", bdf(5), 0., {0.8, 1.2, 2.384, 4., 8.}},
+                       {"BDF 6", bdf(6), 0., {0.9, 1.5, 2.791, 5., 12.}}},
+                      0.1, 30., 1.65);
+}
+
+AtlasEntry wilson_below_its_limit()
+{
+  return growth_entry({"wilson-limit",
+                       "Wilson below θ = (1 + √3)/2",
+                       "From θ = 1.3660254 on Wilson's method is stable for every step. The rounded value 1.366025 "
+                       "grows for ω h > 2929, θ = 1.3 for ω h > 7.385, θ = 1 is the linear acceleration with 2√3.",
+                       {},
+                       {},
+                       {}},
+                      {{"θ = 1", wilson(1.), 0., {3.6, 4.5}},
+                       {"θ = 1.2", wilson(1.2), 0., {6., 10., 40.}},
+                       {"θ = 1.3", wilson(1.3), 0., {8., 12., 30., 200.}},
+                       {"θ = 1.4", wilson(1.4), 0., {}}},
+                      1., 1000., 1.8);
+}
+
+AtlasEntry newmark_outside_its_limits()
+{
+  return growth_entry({"newmark-limits",
+                       "Newmark with γ < 1/2, linear acceleration, central differences",
+                       "γ < 1/2 feeds every undamped mode, |r|² = 1 + (1/2 - γ)(ω h)²/(1 + β (ω h)²). The linear "
+                       "acceleration (β = 1/6) "
+                       "ends at ω h = 2√3 and central differences at 2, whatever the damping.",
+                       {},
+                       {},
+                       {}},
+                      {{"γ = 0.45, β = 0.25", newmark(0.25, 0.45), 0., {0.3, 1., 3., 20.}},
+                       {"linear acceleration", newmark(1. / 6., 0.5), 0., {3.5, 3.8, 4.5}},
+                       {"central differences", of(Method::central_difference), 0., {2.01, 2.1, 2.2}},
+                       {"central differences, ζ = 0.05", of(Method::central_difference), 0.05, {2.01, 2.1, 2.2}}},
+                      0.1, 100., 1.8);
+}
+
+AtlasEntry exact_force_at_contact()
+{
+  return growth_entry(
+      {"exact-contact",
+       "Exact propagation with a linear force at a stiff contact",
+       "The base system is exact at every step; what can grow is a closed contact, whose force is interpolated. On a "
+       "free mass with the contact's stiffness the linear force ends at ω_c h = 2√3. Collocation ends at 2√2 (order "
+       "2); "
+       "with order 4 it grows in 3 < ω_c h < 2√3 and from 6 on, with order 6 in 3.1262 < ω_c h < √10, with order 8 in "
+       "3.1409 < ω_c h < 3.1425, and then in wider islands: below ω_c h = 3 orders from 4 on are sound. The mean force "
+       "along the way conserves the energy of the contact: it stands at every step.",
+       {},
+       {},
+       {}},
+      {{"average force", exact(ForceRule::average, 2), 0., {1.5, 3., 6., 15.}, Spring::contact},
+       {"linear force", exact(ForceRule::linear, 2), 0., {3.5, 3.8, 4.4}, Spring::contact},
+       {"collocation 2", exact(ForceRule::collocation, 2), 0., {2.85, 3.05}, Spring::contact},
+       {"collocation 4", exact(ForceRule::collocation, 4), 0., {3.1, 3.23, 3.4, 6.02}, Spring::contact},
+       {"collocation 6", exact(ForceRule::collocation, 6), 0., {3.145, 5.9, 7.7, 9.95}, Spring::contact},
+       {"collocation 8", exact(ForceRule::collocation, 8), 0., {3.1417, 6.2, 6.31, 8.81, 13.}, Spring::contact}},
+      1., 20., 1.8);
+}
+
+AtlasEntry wilson_overshoot()
+{
+  AtlasEntry entry{"wilson-overshoot",
+                   "Wilson's overshoot",
+                   "With θ = 1.4 nothing grows, but a stiff mode that starts from a displacement first jumps to "
+                   "(ω h)²/7 times of it, within one step. A contact that closes, or any start that is out of "
+                   "balance in a stiff mode, does that. The largest |x| of the first 20 steps:",
+                   {},
+                   {{"ω h", "predicted", "measured"}},
+                   {}};
+  LogChart   chart{
+      entry.title, "ω h", "largest |x| / x₀", 0.1, 1000., 0.8, 1e6, true, std::numeric_limits<double>::quiet_NaN(),
+      {{"", {}}},  {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 300.;
+  LogCurve line{"Wilson 1.4, predicted", {}, {}, 0, false}, rings{"measured", {}, {}, 0, false};
+  LogCurve other{"BDF 2", {}, {}, 1, false};
+  rings.points = true;
+  for (int k = 0; k <= 300; ++k)
+  {
+    const TestOscillator o{0., 0.1 * std::pow(1e4, k / 300.)};
+    line.x.push_back(o.omega_h);
+    line.y.push_back(coupling::overshoot(wilson(1.4), o, coupling::OscillatorStart::displaced).displacement);
+    other.x.push_back(o.omega_h);
+    other.y.push_back(coupling::overshoot(bdf(2), o, coupling::OscillatorStart::displaced).displacement);
+  }
+  for (const double omega_h : {1., 3., 10., 30., 100., 1000.})
+  {
+    MethodOptions options = wilson(1.4);
+    options.step          = 1.;
+    auto         machine  = trial_frame({{omega_h, 0.}});
+    const double predicted =
+        coupling::overshoot(options, {0., omega_h}, coupling::OscillatorStart::displaced).displacement;
+    const double measured = step_through(machine, options, 20).cwiseAbs().maxCoeff();
+    // Rounding alone, amplified by the ratio of h^2 a to x, (omega h)^2, in the first step.
+    entry.comparisons.push_back(
+        {"Wilson 1.4 at omega h = " + short_text(omega_h), predicted, measured, 1e-9 * std::max(1., predicted)});
+    entry.table.push_back({short_text(omega_h), short_text(predicted, 7), short_text(measured, 7)});
+    rings.x.push_back(omega_h);
+    rings.y.push_back(measured);
+  }
+  chart.panels.front().curves = {line, rings, other};
+  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  return entry;
+}
+
+} // namespace gestell::apps
