@@ -87,9 +87,9 @@ int main(int argc, char **argv)
   CommonOptions       options;
   MeshCommandOptions  mesh;
   ChartCommandOptions chart_options;
-  CLI::App          *run = add_command(program, "run", "simulate a scene in time",
-                                       "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
-  CLI::App          *modes =
+  CLI::App           *run = add_command(program, "run", "simulate a scene in time",
+                                        "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
+  CLI::App           *modes =
       add_command(program, "modes", "natural frequencies and shapes of the frame and of the coupled machine",
                   "gestell modes apps/scenes/press_minimal.toml", "SCENE", options);
   CLI::App *reduce = add_command(program, "reduce", "build (or reuse) the reduced frame and report its error estimate",

@@ -14,7 +14,10 @@
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 
@@ -44,13 +47,21 @@ double option_value(const std::string &option, const std::string &text, Kind dim
   throw std::invalid_argument(option + ": needs a number above zero, got " + text);
 }
 
+/// Without the rounding of unit conversion: 1e-05, not 9.999999999999999e-06.
+double rounded(double x)
+{
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.12g", x);
+  return std::strtod(text.data(), nullptr);
+}
+
 /// Values of a list given on the command line, or else the default, from coarse to fine.
 std::vector<double> ladder(const std::string &option, const std::vector<std::string> &given, Kind dimension,
                            std::vector<double> otherwise)
 {
   std::vector<double> values;
   for (const std::string &text : given)
-    values.push_back(option_value(option, text, dimension));
+    values.push_back(rounded(option_value(option, text, dimension)));
   if (values.empty())
     values = std::move(otherwise);
   std::sort(values.rbegin(), values.rend());
@@ -64,8 +75,8 @@ std::vector<double> default_steps(const Scene &scene, bool quick)
   const double                own  = run.method.tolerance > 0. ? 0. : run.method.step;
   const double                base = own > 0. ? own : (run.end - run.begin) / 20000.;
   std::vector<double>         steps;
-  for (int k = 5; k >= -5; k -= quick ? 2 : 1)
-    steps.push_back(std::ldexp(base, k));
+  for (int k = 5; k >= -3; k -= quick ? 2 : 1)
+    steps.push_back(rounded(std::ldexp(base, k)));
   return steps;
 }
 

@@ -71,7 +71,10 @@ void add_peers(std::vector<ChartMethod> &methods)
   methods.push_back(peer("ida-2", "IDA", PeerKind::ida, 2));
   methods.push_back(peer("ida-5", "IDA", PeerKind::ida, 5));
   methods.push_back(peer("ida-5-dense", "IDA", PeerKind::ida, 5, PeerSolver::dense));
+  methods.push_back(peer("arkode-3", "ARKODE", PeerKind::explicit_rk, 3));
+  methods.push_back(peer("arkode-4", "ARKODE", PeerKind::explicit_rk, 4));
   methods.push_back(peer("arkode-5", "ARKODE", PeerKind::explicit_rk, 5));
+  methods.push_back(peer("arkode-6", "ARKODE", PeerKind::explicit_rk, 6));
   methods.push_back(peer("arkode-8", "ARKODE", PeerKind::explicit_rk, 8));
 }
 

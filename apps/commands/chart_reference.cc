@@ -50,6 +50,7 @@ Reference attempt(const WorkProblem &problem, const Candidate &candidate, std::s
 {
   WorkProblem patient = problem;
   patient.cpu_limit *= patience;
+  patient.repeat_s = 0.;
   Reference  reference;
   const auto run = [&](const MethodOptions &method)
   {

@@ -12,9 +12,10 @@ namespace gestell::apps
 namespace
 {
 
-/// Short runs are repeated until that much time is spent, and at most so often.
-constexpr double repeat_s     = 0.5;
-constexpr int    most_repeats = 7;
+/// What rounding may leave of the last step, relative to the run.
+constexpr double rounding = 1e-12;
+
+constexpr int most_repeats = 7;
 
 std::vector<int> coordinates_of(const std::vector<coupling::Signal> &signals)
 {
@@ -40,10 +41,11 @@ public:
 
   void step()
   {
-    for (; next_ < problem_.samples.size() && problem_.samples[next_] <= integrator_.time(); ++next_)
+    const double now = integrator_.time(), slack = rounding * (problem_.samples.back() - problem_.begin);
+    for (; next_ < problem_.samples.size() && problem_.samples[next_] <= now + slack; ++next_)
     {
-      const double t      = problem_.samples[next_];
-      const bool   at_end = t == integrator_.time();
+      const double t      = std::min(problem_.samples[next_], now);
+      const bool   at_end = t == now;
       if (!at_end)
         integrator_.interpolate(t, local_);
       if (!coordinates_.empty())
@@ -71,7 +73,7 @@ private:
 std::string step_to_end(const WorkProblem &problem, coupling::EventDriver &driver,
                         const coupling::TimeIntegrator &integrator)
 {
-  const double end = problem.samples.back(), finish = end - 1e-12 * (end - problem.begin);
+  const double end = problem.samples.back(), finish = end - rounding * (end - problem.begin);
   const double began = peers::thread_seconds();
   try
   {
@@ -120,7 +122,6 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
   run.events         = long(driver.events().size());
   if (sampling == Sampling::off || !run.failure.empty())
     return run;
-  // Rounding may leave the last sample beyond the end of the last step.
   if (sampler.complete())
     run.values = sampler.values();
   else
@@ -130,10 +131,10 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
 
 /// Repeats a short run without samples and keeps the shortest times.
 template <typename Once>
-void repeat(WorkRun &run, const Once &once)
+void repeat(const WorkProblem &problem, WorkRun &run, const Once &once)
 {
   double spent = run.cpu_s + run.setup_s;
-  for (int k = 1; k < most_repeats && run.failure.empty() && spent < repeat_s; ++k)
+  for (int k = 1; k < most_repeats && run.failure.empty() && spent < problem.repeat_s; ++k)
   {
     const WorkRun again = once();
     run.cpu_s           = std::min(run.cpu_s, again.cpu_s);
@@ -207,7 +208,7 @@ double scaled_error(const SignalSamples &values, const SignalSamples &reference)
 WorkRun measure(const WorkProblem &problem, const coupling::MethodOptions &method, bool events)
 {
   WorkRun run = run_once(problem, method, events, Sampling::on);
-  repeat(run, [&] { return run_once(problem, method, events, Sampling::off); });
+  repeat(problem, run, [&] { return run_once(problem, method, events, Sampling::off); });
   return run;
 }
 
@@ -239,7 +240,7 @@ WorkRun measure(const WorkProblem &problem, const peers::PeerOptions &options, c
   WorkRun                 run   = told(first);
   if (run.failure.empty())
     run.values = signals_of(problem, first, options.events);
-  repeat(run, [&] { return told(once({problem.samples.back()})); });
+  repeat(problem, run, [&] { return told(once({problem.samples.back()})); });
   return run;
 }
 

@@ -22,9 +22,10 @@ struct WorkProblem
   coupling::Machine            &machine;
   const coupling::InitialState &initial;
   double                        begin = 0.; ///< [s]
-  std::vector<double>           samples{};    ///< [s] ascending, after begin; the last one ends the run
+  std::vector<double>           samples{};  ///< [s] ascending, after begin; the last one ends the run
   std::vector<coupling::Signal> signals{};
   double                        cpu_limit = 20.; ///< [s] of one run; longer ones are given up
+  double                        repeat_s  = 0.5; ///< shorter runs are repeated for so long
   const std::atomic<bool>      *stop      = nullptr;
 };
 

@@ -46,11 +46,11 @@ std::string power(int n)
   return text;
 }
 
-std::string seconds(int n)
+/// A time in the unit in which it reads well.
+std::string seconds(double x)
 {
-  static const std::array<const char *, 3> units = {"µs", "ms", "s"};
-  const int                                unit  = std::clamp(n < -3 ? 0 : n < 0 ? 1 : 2, 0, 2);
-  return short_text(std::pow(10., n + (unit == 0 ? 6 : unit == 1 ? 3 : 0)), 4) + " " + units[unit];
+  const double unit = x < 0.99e-3 ? 1e6 : x < 0.99 ? 1e3 : 1.;
+  return short_text(x * unit, 4) + (unit == 1. ? " s" : unit == 1e3 ? " ms" : " µs");
 }
 
 /// A method's line: its front over both treatments of events.
@@ -114,10 +114,10 @@ LogFrame frame_of(const WorkPrecision &chart, const std::vector<Line> &lines, Wo
   const double room = 0.08; // of a decade, so that markers do not lie on the border
   LogFrame     f{std::log10(x0) - room, std::log10(x1) + room, std::floor(std::log10(y0) - room),
              std::ceil(std::log10(y1) + room)};
-  // At least one tick each.
-  f.x0 = std::min(f.x0, std::ceil(f.x0));
-  if (std::floor(f.x1) < std::ceil(f.x0))
-    f.x1 = std::ceil(f.x0);
+  // Room for two ticks at least.
+  const double missing = 0.8 - (f.x1 - f.x0);
+  if (missing > 0.)
+    f.x0 -= 0.5 * missing, f.x1 += 0.5 * missing;
   return f;
 }
 
@@ -157,12 +157,18 @@ std::string stroke(int style, int colour)
 std::string axes(const LogFrame &f, WorkMeasure measure)
 {
   std::string svg;
-  for (int n = int(std::ceil(f.x0 - 1e-9)); n <= f.x1 + 1e-9; ++n)
-  {
-    const double x = f.px(std::pow(10., n));
-    svg += segment("class=\"grid\"", x, top, x, bottom) +
-           svg_text(x, bottom + 18., measure == WorkMeasure::cpu ? seconds(n) : power(n), "tick", "middle");
-  }
+  const bool  few = f.x1 - f.x0 < 2.5; // decades alone would leave the axis empty
+  for (int n = int(std::floor(f.x0)); n <= f.x1 + 1e-9; ++n)
+    for (const int times : {1, 2, 5})
+    {
+      const double value = times * std::pow(10., n), x = f.px(value);
+      if ((times > 1 && !few) || x < left - 0.5 || x > right + 0.5)
+        continue;
+      const std::string number = measure == WorkMeasure::cpu ? seconds(value)
+                                 : times == 1                ? power(n)
+                                                             : std::to_string(times) + "·" + power(n);
+      svg += segment("class=\"grid\"", x, top, x, bottom) + svg_text(x, bottom + 18., number, "tick", "middle");
+    }
   for (int n = int(std::ceil(f.y0 - 1e-9)); n <= f.y1 + 1e-9; ++n)
   {
     const double y = f.py(std::pow(10., n));

@@ -16,7 +16,7 @@ const char *const work_precision_style = R"css(
 #chart .plot svg { width: 100%; height: auto; display: block; touch-action: manipulation; }
 #chart .methods { flex: 0 1 17rem; font-size: .88rem; columns: auto; }
 #chart .methods label { display: block; line-height: 1.5; cursor: pointer; }
-#chart .methods i { display: inline-block; width: .8em; height: .8em; border-radius: 50%; margin: 0 .4em 0 .2em; }
+#chart .methods svg { margin: 0 .4em 0 .2em; vertical-align: -1px; }
 #chart .methods .family { margin-top: .5rem; font-weight: 600; cursor: pointer; }
 #chart .tip { position: absolute; pointer-events: none; background: var(--paper); border: 1px solid var(--rule);
               box-shadow: 0 2px 10px rgba(0,0,0,.18); border-radius: 5px; padding: .5rem .7rem; font-size: .84rem;
@@ -31,12 +31,13 @@ const char *const work_precision_script = R"js(
 (function () {
   'use strict';
   const box = document.getElementById('chart'), name = 'http://www.w3.org/2000/svg';
-  const measures = { cpu: 'CPU time of stepping [s]', total: 'CPU time with set-up [s]', steps: 'steps', newton: 'Newton iterations',
+  const measures = { cpu: 'CPU time of stepping', total: 'CPU time with set-up', steps: 'steps', newton: 'Newton iterations',
                      factorisations: 'factorisations', solves: 'linear solves', evaluations: 'evaluations of forces' };
   const state = { model: work.models.length - 1, measure: 'cpu', events: 'both', hidden: new Set(), front: true };
   work.points.forEach(p => { p.total = p.cpu + p.setup; });
   const methods = [];
-  work.points.forEach(p => { if (!methods.some(m => m.method === p.method)) methods.push({ method: p.method, family: p.family, colour: p.colour }); });
+  work.points.forEach(p => { if (!methods.some(m => m.method === p.method)) methods.push({ method: p.method, family: p.family, colour: p.colour,
+    style: methods.filter(m => m.family === p.family).length }); });
 
   function make(tag, attributes, parent, text) {
     const svg = ['svg', 'path', 'circle', 'line', 'text', 'rect', 'g'].includes(tag);
@@ -72,7 +73,7 @@ const char *const work_precision_script = R"js(
   const board = make('div', { class: 'board' }, box), plot = make('div', { class: 'plot' }, board);
   const list = make('div', { class: 'methods' }, board), tip = make('div', { class: 'tip', hidden: '' }, board);
   const chosen = make('div', { class: 'chosen' }, box);
-  make('p', { class: 'soft' }, chosen, 'Click a run of ours to see the lines that make a scene use it.');
+  make('p', { class: 'soft' }, chosen, 'Full lines: events located; dashed: passed over. Click a run of ours to see the lines that make a scene use it.');
 
   function boxes() {
     list.textContent = '';
@@ -90,7 +91,8 @@ const char *const work_precision_script = R"js(
       }
       const l = make('label', {}, list), c = make('input', { type: 'checkbox' }, l);
       c.checked = !state.hidden.has(m.method);
-      make('i', { style: 'background:var(--s' + m.colour + ')' }, l);
+      const s = make('svg', { viewBox: '-6 -6 12 12', width: 12, height: 12 }, l);
+      make('path', { d: shapes[m.style % 4](0, 0), fill: 'var(--s' + m.colour + ')' }, s);
       l.append(m.method);
       c.addEventListener('change', () => { c.checked ? state.hidden.delete(m.method) : state.hidden.add(m.method); draw(); });
       l.addEventListener('mouseenter', () => emphasise(m.method));
@@ -111,6 +113,13 @@ const char *const work_precision_script = R"js(
   }
   const raised = n => '10' + String(n).replace('-', '⁻').replace(/\d/g, d => '⁰¹²³⁴⁵⁶⁷⁸⁹'[+d]);
 
+  const time = t => t < .99e-3 ? +(1e6 * t).toPrecision(3) + ' µs' : t < .99 ? +(1e3 * t).toPrecision(3) + ' ms' : +t.toPrecision(3) + ' s';
+  // Disc, square, triangle, diamond: the methods of a family in turn.
+  const shapes = [
+    (x, y) => 'M' + (x - 3.6) + ' ' + y + 'a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z',
+    (x, y) => 'M' + (x - 3.2) + ' ' + (y - 3.2) + 'h6.4v6.4h-6.4Z',
+    (x, y) => 'M' + x + ' ' + (y - 4.2) + 'l4 7h-8Z',
+    (x, y) => 'M' + x + ' ' + (y - 4.6) + 'l4.2 4.6l-4.2 4.6l-4.2 -4.6Z'];
   function draw() {
     const W = 760, H = 560, L = 66, R = 745, T = 14, B = 505;
     plot.textContent = '';
@@ -121,10 +130,14 @@ const char *const work_precision_script = R"js(
     const lx = shown.map(p => Math.log10(work_of(p))), ly = shown.map(p => Math.log10(p.error));
     const x0 = Math.min(...lx) - .12, x1 = Math.max(...lx) + .12, y0 = Math.floor(Math.min(...ly) - .1), y1 = Math.ceil(Math.max(...ly) + .1);
     const px = x => L + (Math.log10(x) - x0) / (x1 - x0) * (R - L), py = y => B - (Math.log10(y) - y0) / (y1 - y0) * (B - T);
-    for (let n = Math.ceil(x0); n <= x1; ++n) {
-      make('line', { class: 'soft-line', x1: px(10 ** n), x2: px(10 ** n), y1: T, y2: B }, svg);
-      make('text', { x: px(10 ** n), y: B + 20, 'text-anchor': 'middle' }, svg, raised(n));
-    }
+    const times = x1 - x0 < 2.5 ? [1, 2, 5] : [1], seconds = state.measure === 'cpu' || state.measure === 'total';
+    for (let n = Math.floor(x0); n <= x1; ++n)
+      for (const m of times) {
+        const v = m * 10 ** n;
+        if (Math.log10(v) < x0 || Math.log10(v) > x1) continue;
+        make('line', { class: 'soft-line', x1: px(v), x2: px(v), y1: T, y2: B }, svg);
+        make('text', { x: px(v), y: B + 20, 'text-anchor': 'middle' }, svg, seconds ? time(v) : m === 1 ? raised(n) : m + '·' + raised(n));
+      }
     for (let n = y0; n <= y1; ++n) {
       make('line', { class: 'soft-line', x1: L, x2: R, y1: py(10 ** n), y2: py(10 ** n) }, svg);
       make('text', { x: L - 8, y: py(10 ** n) + 4, 'text-anchor': 'end' }, svg, raised(n));
@@ -150,8 +163,8 @@ const char *const work_precision_script = R"js(
         make('path', { d: line.map((p, i) => (i ? 'L' : 'M') + px(work_of(p)) + ' ' + py(p.error)).join(''), fill: 'none', stroke: c,
                        'stroke-width': 1.6, 'stroke-dasharray': events ? 'none' : '5 4' }, g);
         for (const p of line)
-          make('circle', { cx: px(work_of(p)), cy: py(p.error), r: 3.8, stroke: c, 'stroke-width': 1.4,
-                           fill: p.resolved ? c : 'var(--paper)' }, g);
+          make('path', { d: shapes[m.style % 4](px(work_of(p)), py(p.error)), stroke: c, 'stroke-width': 1.3,
+                         fill: p.resolved ? c : 'var(--paper)' }, g);
       }
     const ring = make('circle', { r: 7.5, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 1.5, visibility: 'hidden' }, svg);
     const nearest = event => {

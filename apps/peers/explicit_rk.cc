@@ -21,6 +21,24 @@ int guards(double t, N_Vector y, double *g, void *user)
   return 0;
 }
 
+/// Embedded pairs: Bogacki-Shampine 3(2), Zonneveld 4(3), Dormand-Prince 5(4), Verner 6(5), Fehlberg 8(7).
+ARKODE_ERKTableID table(int order)
+{
+  switch (order)
+  {
+  case 3:
+    return ARKODE_BOGACKI_SHAMPINE_4_2_3;
+  case 4:
+    return ARKODE_ZONNEVELD_5_3_4;
+  case 6:
+    return ARKODE_VERNER_8_5_6;
+  case 8:
+    return ARKODE_FEHLBERG_13_7_8;
+  default:
+    return ARKODE_DORMAND_PRINCE_7_4_5;
+  }
+}
+
 class ExplicitRk : public Stepper
 {
 public:
@@ -31,7 +49,7 @@ public:
     memory_ = ERKStepCreate(rate, problem.t, parts_.y, parts_.context);
     ERKStepSetErrHandlerFn(memory_, keep_message, &parts_.failure);
     ERKStepSetUserData(memory_, &callbacks);
-    ERKStepSetTableNum(memory_, options.order == 8 ? ARKODE_FEHLBERG_13_7_8 : ARKODE_DORMAND_PRINCE_7_4_5);
+    ERKStepSetTableNum(memory_, table(options.order));
     ERKStepSetMaxNumSteps(memory_, -1);
     ERKStepSetMaxHnilWarns(memory_, -1);
     expect(ERKStepSVtolerances(memory_, options.tolerance, parts_.weights), "ERKStepSVtolerances");

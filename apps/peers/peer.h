@@ -16,7 +16,8 @@ enum class PeerKind
   cvode_bdf,   ///< CVODE, BDF with variable step and order 1..5
   cvode_adams, ///< CVODE, Adams-Moulton with variable step and order 1..12, its equation solved by Newton too
   ida,         ///< IDA, BDF of order 1..5 on M v' + B v + C q = f + W p, no mass matrix inverted in its equation
-  explicit_rk  ///< ARKODE, explicit embedded Runge-Kutta: order 5 (Dormand-Prince) or 8 (Fehlberg 7-8)
+  explicit_rk  ///< ARKODE, explicit embedded Runge-Kutta of order 3 (Bogacki-Shampine), 4 (Zonneveld), 5
+              ///< (Dormand-Prince), 6 (Verner) or 8 (Fehlberg)
 };
 
 /// How the linear equations of Newton's iteration are solved.
@@ -39,7 +40,7 @@ struct PeerProblem
 struct PeerOptions
 {
   PeerKind   kind      = PeerKind::cvode_bdf;
-  int        order     = 5; ///< the highest used; explicit_rk: 5 or 8
+  int        order     = 5; ///< the highest used; explicit_rk: 3, 4, 5, 6 or 8
   PeerSolver solver    = PeerSolver::condensed;
   double     tolerance = 1e-4;  ///< relative: error weights are tolerance (|y_i| + scale_i)
   bool       events    = false; ///< located by the library's root finding, which is restarted there; else passed over

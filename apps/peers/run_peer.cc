@@ -30,8 +30,10 @@ void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem
               problem.samples.front() >= problem.t,
           "the instants of the samples must ascend from the start.");
   const bool rk = options.kind == PeerKind::explicit_rk, adams = options.kind == PeerKind::cvode_adams;
-  require(rk ? options.order == 5 || options.order == 8 : options.order >= 1 && options.order <= (adams ? 12 : 5),
-          "order " + std::to_string(options.order) + "; BDF has 1 to 5, Adams 1 to 12, explicit Runge-Kutta 5 or 8.");
+  require(rk ? options.order >= 3 && options.order <= 8 && options.order != 7
+             : options.order >= 1 && options.order <= (adams ? 12 : 5),
+          "order " + std::to_string(options.order) +
+              "; BDF has 1 to 5, Adams 1 to 12, explicit Runge-Kutta 3, 4, 5, 6 or 8.");
 }
 
 std::unique_ptr<Stepper> make_stepper(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)

@@ -98,7 +98,8 @@ SundialsParts::SundialsParts(Callbacks &callbacks, const PeerProblem &problem, c
     : n_(2 * problem.q.size())
 {
   SUNContext_Create(nullptr, &context);
-  y       = vector();
+  y = vector();
+  N_VEnableFusedOps_Serial(y, SUNTRUE); // clones inherit it
   weights = vector();
   Eigen::Map<Eigen::VectorXd>(values(y), n_) << problem.q, problem.v;
   Eigen::Map<Eigen::VectorXd>(values(weights), n_) << problem.q_scale, problem.v_scale;

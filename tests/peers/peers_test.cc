@@ -128,7 +128,7 @@ TEST(Peers, RefuseWhatTheyCannotDo)
   SmallSystem       system(MatrixXd::Ones(1, 1), MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1));
   const PeerProblem good = cosine_problem();
   EXPECT_THROW(run_peer(system, good, options(PeerKind::cvode_bdf, 6)), std::invalid_argument);
-  EXPECT_THROW(run_peer(system, good, options(PeerKind::explicit_rk, 4)), std::invalid_argument);
+  EXPECT_THROW(run_peer(system, good, options(PeerKind::explicit_rk, 7)), std::invalid_argument);
   PeerOptions loose = options(PeerKind::cvode_bdf, 5);
   loose.tolerance   = 0.;
   EXPECT_THROW(run_peer(system, good, loose), std::invalid_argument);
