@@ -38,7 +38,7 @@ private:
   std::array<std::array<Answer, 7>, n_rungs> answers_{};
 };
 
-/// True if all roots r of BDF of the given order for y' = s y lie in |r| <= 1 + 1e-9, as in unstable_mode(), for
+/// True if all roots r of BDF of the given order for y' = s y lie in |r| <= 1 + 1e-9, for
 /// s = -zeta omega + i omega sqrt(1 - zeta^2); by the recursion of Schur and Cohn, without computing roots.
 bool bdf_decays(int order, const SpectrumLine &mode, double h);
 

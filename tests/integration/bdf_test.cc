@@ -1,5 +1,4 @@
 #include "coupling/integration/bdf.h"
-#include "coupling/integration/bdf_stability.h"
 #include "tests/integration/small_system.h"
 
 #include <gtest/gtest.h>
@@ -207,28 +206,6 @@ TEST(Bdf, RefusesOrdersAndStepsThatDoNotExist)
   options.order = 2;
   options.step  = 0.;
   EXPECT_THROW(Bdf(system, options), std::invalid_argument);
-}
-
-// Undamped modes: BDF3 is unstable on 0 < omega h < sqrt(15)/2, BDF4 on 0 < omega h < 10 sqrt(2)/3 (closed forms).
-TEST(BdfStability, UnstableIntervalsOfUndampedModesEndWhereTheFormulasSay)
-{
-  const auto radius = [](int order, double omega_h) { return bdf_spectral_radius(order, {omega_h, 0.}, 1.); };
-  for (const auto &[order, end] : {std::pair{3, std::sqrt(15.) / 2.}, std::pair{4, 10. * std::sqrt(2.) / 3.}})
-  {
-    EXPECT_GT(radius(order, end - 1e-4), 1. + 1e-7);
-    EXPECT_LT(radius(order, end + 1e-4), 1. - 1e-7);
-  }
-  for (const double omega_h : {1e-3, 0.3, 3., 300.})
-    EXPECT_LE(radius(2, omega_h), 1. + 1e-12);
-}
-
-TEST(BdfStability, NamesTheModeThatGrowsFastest)
-{
-  const std::vector<SpectrumLine> spectrum{{10., 0.2}, {1000., 5e-4}, {1e5, 0.02}};
-  ASSERT_TRUE(unstable_mode(4, spectrum, 1e-3));
-  EXPECT_EQ(unstable_mode(4, spectrum, 1e-3)->mode.omega, 1000.);
-  EXPECT_FALSE(unstable_mode(2, spectrum, 1e-3));
-  EXPECT_FALSE(unstable_mode(4, spectrum, 1e-2)); // 1000 * 0.01 lies beyond the interval of order 4
 }
 
 } // namespace
