@@ -296,7 +296,7 @@ TEST(Measurement, OfAPeerGivesTheSameSignalsAsOurMethods)
                 b = measure(tiny.problem, peer, motion_scales(tiny.problem, own, true));
   ASSERT_EQ(a.failure, "");
   ASSERT_EQ(b.failure, "");
-  EXPECT_LT(scaled_error(b.values, a.values), 1e-5); // local errors of 1e-8 in some hundred steps
+  EXPECT_LT(scaled_error(b.values, a.values), 1e-4); // local errors of 1e-8 in some thousand steps
   EXPECT_EQ(a.events, b.events);
   EXPECT_GT(a.events, 2);
 }
