@@ -68,7 +68,7 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
   if (stability.step > 0.)
     method.step = stability.step;
   if (!(method.step > 0.))
-    throw std::invalid_argument("stability: the scene controls its step; give the one to look at, such as --step 1e-4");
+    throw std::invalid_argument("stability: the scene names no step; give the one to look at, such as --step 1e-4");
   if (method.tolerance > 0.)
     study.notes.push_back("The scene controls its step; its modes are shown at " + std::to_string(method.step) + " s.");
   method.tolerance = 0.;

@@ -51,6 +51,23 @@ TEST(StabilityCommand, LaysTheModesOfASceneOverTheMaps)
   }
 }
 
+TEST(StabilityGuard, StopsARunThatWouldGrowUnlessItIsForced)
+{
+  const Folder      folder("stability_guard");
+  const std::string run = "run " + scene("press_minimal.toml") +
+                          " --set run.method=bdf --set run.order=3 --set run.step=1.3e-3 --set run.end=0.02" +
+                          folder.option();
+  const Answer refused = gestell(run); // 123 Hz with 3.7 %: omega h = 1
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(refused.says("unstable")) << refused.text;
+  EXPECT_TRUE(refused.says("Hz, damping ratio")) << refused.text;
+  EXPECT_TRUE(refused.says("run.force_unstable")) << refused.text;
+
+  const Answer forced = gestell(run + "--set run.force_unstable=true");
+  EXPECT_NE(forced.exit_code, 2) << forced.text;
+  EXPECT_NE(read(folder.results() / "summary.json").find("unstable"), std::string::npos);
+}
+
 TEST(StabilityCommand, RefusesWhatItCannotShow)
 {
   const Folder folder("stability_bad");
