@@ -70,6 +70,7 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
   dp_du_.setZero(n_u_, n_u_);
   dp_dv_.setZero(n_u_, n_u_);
   stiffness_.setZero(n_u_);
+  moved_.setZero(n_u_);
   for (LocalState *state : {&local_, &base_, &now_.local})
     state->resize(n_u_);
 }
@@ -150,16 +151,16 @@ void BdfControlled::restart()
   t_begin_ = t_end_ = local_.t;
   system_.local_force(local_, local_.p);
   if (!system_.held().empty())
-    forces_of_held();
+    forces_of_held(z_);
   z_.tail(n_u_) = local_.p;
   now_known_    = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 
-/// What holds a measure at a start is no law's value, but follows from the equation of motion.  Where M is singular,
+/// What holds a measure at an instant is no law's value, but follows from the equation of motion.  Where M is singular,
 /// the first step finds it.
-void BdfControlled::forces_of_held()
+void BdfControlled::forces_of_held(const Eigen::VectorXd &z)
 {
   if (!consistent_ && !massless_)
     try
@@ -172,8 +173,8 @@ void BdfControlled::forces_of_held()
     }
   if (!consistent_)
     return;
-  h_q_ = z_.head(n_);
-  h_v_ = z_.segment(n_, n_);
+  h_q_ = z.head(n_);
+  h_v_ = z.segment(n_, n_);
   consistent_->solve(h_q_, h_v_, product_, local_, work_);
 }
 
@@ -191,8 +192,10 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   base_.v = history.segment(2 * n_ + n_u_, n_u_);
   base_.u = history.segment(2 * n_, n_u_) + h_beta * base_.v;
   base_.a.setZero();
-  const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
-  implicit_.solve(implicit_.condensed(form, work_), f_, base_, x_, local_, work_);
+  const StepForm                 form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
+  const ImplicitStep::Condensed &condensed = implicit_.condensed(form, work_);
+  implicit_.solve(condensed, f_, base_, x_, local_, work_);
+  moved_                             = condensed.S.diagonal().cwiseProduct(local_.p);
   z.head(n_)                         = h_q_ + x_;
   z.segment(n_, n_)                  = h_v_ + inverse * x_;
   z.segment(2 * n_, n_u_)            = local_.u;
@@ -241,9 +244,10 @@ void BdfControlled::interpolate(double t, LocalState &state) const
     point(z_, t, state);
     return;
   }
-  const double s = (t - t_end_) / step_of(rung_);
-  differences_.at(s, 2, 2 * n_ + 2 * n_u_, state.a);
-  differences_.at(s, 2, 2 * n_ + 3 * n_u_, state.p);
+  const double s      = (t - t_end_) / step_of(rung_);
+  const int    degree = started_ ? 2 : order_ + 1;
+  differences_.at(s, degree, 2 * n_ + 2 * n_u_, state.a);
+  differences_.at(s, degree, 2 * n_ + 3 * n_u_, state.p);
 }
 
 void BdfControlled::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
@@ -279,6 +283,11 @@ void BdfControlled::cut(double t)
   }
   cut_ = true;
   present(z_cut_, t);
+  if (!system_.held().empty() && t > t_begin_)
+  {
+    forces_of_held(z_cut_); // as they will be at the restart, so that what breaks away does not stick again at once
+    z_cut_.tail(2 * n_u_) << local_.a, local_.p;
+  }
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   stiffness_ = dp_du_.diagonal();
 }

@@ -94,10 +94,11 @@ private:
   void               point(const Eigen::VectorXd &z, double t, LocalState &state) const;
   void               present(const Eigen::VectorXd &z, double t);
   void               load(double t);
-  void               forces_of_held();
+  void               forces_of_held(const Eigen::VectorXd &z);
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
   void               multistep();
   void               resolve_stiffness();
+  void               improve_middle();
   void               newton_failed(const ConvergenceFailure &failure);
   void               start();
   Trial              try_multistep(double h);
@@ -136,6 +137,7 @@ private:
   Eigen::VectorXd                  chain_[2], middle_[3], end_[3];
   Eigen::MatrixXd                  dp_du_, dp_dv_;
   Eigen::VectorXd                  stiffness_; ///< -dp/du by measure, before an event; then its change there [n_u]
+  Eigen::VectorXd                  moved_;     ///< S_jj p_j of the last step tried [n_u]
   std::string                      reason_;    ///< of Newton's last failure
   LocalState                       local_, base_;
   mutable Instant                  now_;

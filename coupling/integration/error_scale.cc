@@ -63,6 +63,8 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   }
   sums_.assign(n_groups_, 0.);
   sums_v_.assign(n_groups_, 0.);
+  changes_.assign(n_groups_, 0.);
+  moved_.assign(n_groups_, 0.);
 }
 
 void ErrorScale::copy(const Excursions &from, Excursions &to)
@@ -162,6 +164,21 @@ void ErrorScale::find_ends()
     }
   ends_.resize(static_cast<Eigen::Index>(end_index_.size()), W.cols());
   ends_.setFromTriplets(entries.begin(), entries.end());
+
+  end_group_.assign(end_index_.size(), 0);
+  for (const Run &run : runs_)
+    for (std::size_t k = 0; k < end_index_.size(); ++k)
+      if (end_index_[k] >= run.first && end_index_[k] < run.first + run.size)
+        end_group_[k] = run.group;
+  root_mass_.setZero(W.cols());
+  for (int j = 0; j < W.outerSize(); ++j)
+  {
+    double mobility = 0.;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+      if (m_[it.row()] > 0.)
+        mobility += it.value() * it.value() / m_[it.row()];
+    root_mass_[j] = mobility > 0. ? 1. / std::sqrt(mobility) : 0.;
+  }
 }
 
 /// sum m_i (x_i - from_i)^2 of each group; returns their sum.
@@ -202,7 +219,7 @@ void ErrorScale::refuse()
   expected_until_ = t_;
 }
 
-bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &to)
+bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &to, const Vector &moved)
 {
   t_ = t;
   const Vector q_begin(q_begin_), v_begin(v_begin_);
@@ -226,24 +243,26 @@ bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &
   if (t <= expected_until_)
     for (const auto x : all)
       scale_.*x = (scale_.*x).cwiseMax(expected_.*x);
-  set_scales(h, from, to);
+  set_scales(h, from, to, moved);
   return true;
 }
 
-void ErrorScale::set_scales(double h, const Motion &from, const Motion &to)
+void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, const Vector &moved)
 {
   const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
   const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
   // chi, and from it 1 / (scale chi), but not above what rounding leaves, which reaches velocities with the highest
   // frequency that the step resolves; a motion that does not move has no error.
-  const auto invert = [&](double E, double V, double change_of_speed, double size, double &of_q, double &of_v)
+  const auto invert =
+      [&](double E, double V, double change_of_speed, double size, double rate, double &of_q, double &of_v)
   {
     const bool   moves     = E > 0. && V > 0.;
     const double chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
     const double frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
-    const double q = std::max(E * chi, floor * size), v = std::max(V * chi, floor * size * frequency);
-    of_q = q > 0. ? 1. / q : 0.;
-    of_v = v > 0. ? 1. / v : 0.;
+    const double q         = std::max(E * chi, floor * std::max(size, h * rate));
+    const double v         = std::max(V * chi, floor * std::max(size * frequency, rate));
+    of_q                   = q > 0. ? 1. / q : 0.;
+    of_v                   = v > 0. ? 1. / v : 0.;
   };
 
   double most = 0., fastest = 0.;
@@ -253,23 +272,35 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to)
     fastest = std::max(fastest, scale_.v[g]);
   }
   energy(to.q, nullptr, sums_);
-  energy(to.v, &from.v, sums_v_);
+  energy(to.v, nullptr, sums_v_);
+  energy(to.v, &from.v, changes_);
+  std::fill(moved_.begin(), moved_.end(), 0.);
+  for (int j = 0; j < ends_.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
+    {
+      double &largest = moved_[end_group_[it.row()]];
+      largest         = std::max(largest, std::abs(moved[j]) * root_mass_[j]);
+    }
   for (int g = 0; g < n_groups_; ++g)
     invert(std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
-           std::max(scale_.v[g], group_floor * fastest), std::sqrt(sums_v_[g]), std::sqrt(sums_[g]), inverse_q_[g],
+           std::max(scale_.v[g], group_floor * fastest), std::sqrt(changes_[g]),
+           std::max(std::sqrt(sums_[g]), moved_[g]), std::max(std::sqrt(sums_v_[g]), moved_[g] / h), inverse_q_[g],
            inverse_v_[g]);
 
   for (int j = 0; j < ends_.outerSize(); ++j)
   {
-    double way = 0., speed = 0., size = std::abs(to.u[j]);
+    double way = 0., speed = 0.;
+    double size = std::max(std::abs(to.u[j]), std::abs(moved[j]));
+    double rate = std::max(std::abs(to.u_rate[j]), std::abs(moved[j]) / h);
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
       way += it.value() * bounded(scale_.end_q[it.row()], scale_.end_v[it.row()]);
       speed += it.value() * scale_.end_v[it.row()];
       size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
+      rate = std::max(rate, it.value() * std::abs(to.v[end_index_[it.row()]]));
     }
     invert(std::max(bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way),
-           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(to.u_rate[j] - from.u_rate[j]), size,
+           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(to.u_rate[j] - from.u_rate[j]), size, rate,
            inverse_u_[j], inverse_rate_[j]);
   }
 }

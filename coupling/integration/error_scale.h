@@ -28,7 +28,8 @@ namespace gestell::coupling
  * the number of times the motion goes through its range, however many steps that takes: global errors are proportional
  * to the tolerance.  A method of order k has an error of order h^k in this measure.
  *
- * Errors that rounding explains do not count: E is not below |q| rounding / tolerance.
+ * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
+ * and what forces that balance each other would do alone.
  */
 class ErrorScale
 {
@@ -48,9 +49,11 @@ public:
   /// The motion begins here.
   void begin(const Motion &at);
 
-  /// A step of length h [s] would lead from `from` to `to` at t: the scales for its errors.  False if `to` is not
-  /// finite.
-  bool consider(double t, double h, const Motion &from, const Motion &to);
+  /// A step of length h [s] would lead from `from` to `to` at t: the scales for its errors.
+  /// @param moved  [n_u] how far local forces alone move the measures in the step: a force that holds a body leaves
+  ///               rounding of what it holds it back
+  /// @return false if `to` is not finite
+  bool consider(double t, double h, const Motion &from, const Motion &to, const Vector &moved);
   /// The step last considered is taken: its excursions count from now on.
   void accept();
   /// It is refused.  But it tells how far the motion will have gone by its end, and until then scales are not below
@@ -88,7 +91,7 @@ private:
   void        find_groups();
   void        find_ends();
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
-  void        set_scales(double h, const Motion &from, const Motion &to);
+  void        set_scales(double h, const Motion &from, const Motion &to, const Vector &moved);
 
   const SecondOrderSystem    &system_;
   double                      tolerance_, omega_1_, omega_n_;
@@ -97,12 +100,14 @@ private:
   Eigen::VectorXd             m_;         ///< [n]
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
-  Eigen::VectorXd             q_begin_, v_begin_, u_begin_, rate_begin_;
-  Excursions                  accepted_, reached_; ///< before and after the step that is considered
-  Excursions                  expected_, scale_;   ///< of a step refused; reached or expected
-  double                      t_ = 0., expected_until_ = 0.;
-  Eigen::VectorXd             inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
-  mutable std::vector<double> sums_, sums_v_;                                    // [groups]
+  std::vector<int>            end_group_; ///< and their groups
+  Eigen::VectorXd root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
+  Eigen::VectorXd q_begin_, v_begin_, u_begin_, rate_begin_;
+  Excursions      accepted_, reached_; ///< before and after the step that is considered
+  Excursions      expected_, scale_;   ///< of a step refused; reached or expected
+  double          t_ = 0., expected_until_ = 0.;
+  Eigen::VectorXd inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
+  mutable std::vector<double> sums_, sums_v_, changes_, moved_;      // [groups]
 };
 
 /// Frequency [rad/s] of the slowest elastic mode of a spectrum; infinite if there is none.

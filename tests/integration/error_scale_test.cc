@@ -27,7 +27,7 @@ double error(const SecondOrderSystem &system, const Vector &q, const Vector &v, 
   ErrorScale   scale(system, system.spectrum(), 1e-6);
   const Vector rest = Vector::Zero(q.size());
   scale.begin(motion(rest, rest));
-  EXPECT_TRUE(scale.consider(h, h, motion(rest, rest), motion(q, v)));
+  EXPECT_TRUE(scale.consider(h, h, motion(rest, rest), motion(q, v), none));
   return scale.error(motion(e_q, e_v));
 }
 
@@ -91,7 +91,7 @@ TEST(ErrorScale, FreeRotationHasNoLargestExcursion)
     angle_at = at(t + h, twist, rate);
     to << angle_at + twist, angle_at - twist;
     to_v << 100. + rate, 100. - rate;
-    ASSERT_TRUE(scale.consider(t + h, h, motion(from, from_v), motion(to, to_v)));
+    ASSERT_TRUE(scale.consider(t + h, h, motion(from, from_v), motion(to, to_v), none));
     scale.accept();
     last = scale.error(motion(Eigen::Vector2d(1e-4, -1e-4), Eigen::Vector2d(0., 0.)));
     if (t == 1.04)
@@ -116,7 +116,7 @@ TEST(ErrorScale, AMotionFromRestIsMeasuredByWhereARefusedStepWouldHaveLed)
   {
     const auto [q_0, v_0] = cube(from);
     const auto [q_1, v_1] = cube(to);
-    EXPECT_TRUE(scale.consider(to, to - from, motion(q_0, v_0), motion(q_1, v_1)));
+    EXPECT_TRUE(scale.consider(to, to - from, motion(q_0, v_0), motion(q_1, v_1), none));
     return scale.error(motion(e, rest));
   };
   scale.begin(motion(rest, rest));
@@ -134,7 +134,7 @@ TEST(ErrorScale, AMotionFromRestIsMeasuredByWhereARefusedStepWouldHaveLed)
   other.begin(motion(rest, rest));
   const auto [q_0, v_0] = cube(0.1);
   const auto [q_1, v_1] = cube(0.11);
-  ASSERT_TRUE(other.consider(0.11, 0.01, motion(q_0, v_0), motion(q_1, v_1)));
+  ASSERT_TRUE(other.consider(0.11, 0.01, motion(q_0, v_0), motion(q_1, v_1), none));
   EXPECT_DOUBLE_EQ(other.error(motion(e, rest)), after);
 }
 
@@ -144,8 +144,8 @@ TEST(ErrorScale, TellsOfMotionsThatAreNotFinite)
   ErrorScale        scale(system, system.spectrum(), 1e-6);
   const Vector      rest = Vector::Zero(2), wild = Eigen::Vector2d(0., std::nan(""));
   scale.begin(motion(rest, rest));
-  EXPECT_FALSE(scale.consider(1., 1., motion(rest, rest), motion(rest, wild)));
-  EXPECT_FALSE(scale.consider(1., 1., motion(rest, rest), motion(wild, rest)));
+  EXPECT_FALSE(scale.consider(1., 1., motion(rest, rest), motion(rest, wild), none));
+  EXPECT_FALSE(scale.consider(1., 1., motion(rest, rest), motion(wild, rest), none));
 }
 
 TEST(ErrorScale, NamesTheCoordinateOrTheForceOfTheLargestError)
@@ -154,7 +154,7 @@ TEST(ErrorScale, NamesTheCoordinateOrTheForceOfTheLargestError)
   ErrorScale   scale(system, system.spectrum(), 1e-6);
   const Vector rest = Vector::Zero(1), one = Vector::Ones(1);
   scale.begin({rest, rest, rest, rest});
-  ASSERT_TRUE(scale.consider(0.1, 0.1, {rest, rest, rest, rest}, {one, one, one, one}));
+  ASSERT_TRUE(scale.consider(0.1, 0.1, {rest, rest, rest, rest}, {one, one, one, one}, rest));
   EXPECT_EQ(scale.worst({one, rest, rest, rest}), "q0");
   EXPECT_EQ(scale.worst({rest, rest, one, rest}), "the force on q0");
   EXPECT_GT(scale.error_of_measures(rest, one), 0.);
