@@ -32,7 +32,9 @@ BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem
 {
   require(o.tolerance >= 1e-13 && o.tolerance <= 0.1, "tolerance", o.tolerance, "between 1e-13 and 0.1");
   require(o.max_order >= 1 && o.max_order <= 6, "max_order", o.max_order, "1 to 6");
-  require(o.min_order >= 1 && o.min_order <= o.max_order, "min_order", o.min_order, "1 to max_order");
+  require(o.min_order >= 0 && o.min_order <= o.max_order, "min_order", o.min_order, "1 to max_order, or 0");
+  if (o.min_order == 0)
+    o.min_order = std::min(2, o.max_order);
   require(system.n_constraints() == 0, "the number of constraints", system.n_constraints(),
           "zero: ideal joints are not integrated here; use compliant joints");
   if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))

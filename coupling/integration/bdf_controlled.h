@@ -50,12 +50,13 @@ class BdfControlled : public TimeIntegrator
 public:
   struct Options
   {
-    double        tolerance     = 1e-4;         ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 0.1
-    double        largest_step  = 0.;           ///< h_max [s]; 0: 1 / omega of the slowest elastic mode
-    double        smallest_step = 0.;           ///< [s]; 0: 2^-40 of the largest
-    int           min_order = 1, max_order = 5; ///< 1..6
-    bool          fixed_order = false;          ///< max_order throughout
-    NewtonOptions newton;                       ///< max_iterations; the tolerance follows from that of the error
+    double        tolerance     = 1e-4;  ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 0.1
+    double        largest_step  = 0.;    ///< h_max [s]; 0: 1 / omega of the slowest elastic mode
+    double        smallest_step = 0.;    ///< [s]; 0: 2^-40 of the largest
+    int           max_order     = 5;     ///< 1..6
+    int           min_order     = 0;     ///< 1..max_order; 0: 2, as implicit Euler damps too much, or max_order if less
+    bool          fixed_order   = false; ///< max_order throughout
+    NewtonOptions newton;                ///< max_iterations; the tolerance follows from that of the error
   };
 
   /// @throws std::invalid_argument naming the option, its value and what it may be

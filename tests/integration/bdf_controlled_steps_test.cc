@@ -236,6 +236,48 @@ TEST(BdfControlled, IsTheSameEveryTimeAndTakesNothingFromTheHeap)
   EXPECT_EQ(end[0], end[1]);
 }
 
+/// A mass that sticks where it is.
+class StuckMass : public ModalSystem
+{
+public:
+  StuckMass() : ModalSystem(Matrix::Identity(1, 1), Matrix::Zero(1, 1), Matrix::Constant(1, 1, 100.))
+  {
+    set_law(Vector::Ones(1), [](double, double, double &, double &, double &) {}); // p is what holds it
+    loads().add_harmonic(0, 4., 10., 0.);
+  }
+  const std::vector<HeldMeasure> &held() const override { return held_; }
+
+private:
+  std::vector<HeldMeasure> held_{{0, 0.}};
+};
+
+TEST(BdfControlled, WhatHoldsAMassFollowsFromEquilibrium)
+{
+  const StuckMass        system;
+  const double           x = 0.05;
+  BdfControlled::Options options;
+  options.tolerance    = 1e-6;
+  options.largest_step = 0.01;
+  BdfControlled bdf(system, options);
+  const auto    force = [&](double t) { return 100. * x - 10. * std::cos(4. * t); };
+  bdf.begin(0., Vector::Constant(1, x), Vector::Zero(1));
+  EXPECT_NEAR(bdf.local().p[0], force(0.), 1e-12);
+  for (int i = 0; i < 100; ++i)
+  {
+    bdf.advance();
+    EXPECT_NEAR(bdf.instant().q[0], x, 1e-14);
+    EXPECT_NEAR(bdf.local().p[0], force(bdf.time()), 1e-9);
+  }
+  EXPECT_EQ(bdf.step(), options.largest_step); // nothing moves: no error
+  LocalState dense;
+  dense.resize(1);
+  const double middle = bdf.time() - 0.4 * bdf.step();
+  bdf.interpolate(middle, dense);
+  EXPECT_NEAR(dense.p[0], force(middle), 2e-6); // cubic: 10 (4 h)^4 / 24
+  bdf.cut(middle);
+  EXPECT_NEAR(bdf.local().p[0], force(middle), 1e-12); // as at a restart there
+}
+
 TEST(BdfControlled, RefusesOptionsThatMakeNoSense)
 {
   const ModalSystem system = duffing(1., 1.);
@@ -250,7 +292,7 @@ TEST(BdfControlled, RefusesOptionsThatMakeNoSense)
   refuse([](auto &o) { o.tolerance = 1e-14; });
   refuse([](auto &o) { o.tolerance = 0.2; });
   refuse([](auto &o) { o.max_order = 7; });
-  refuse([](auto &o) { o.min_order = 0; });
+  refuse([](auto &o) { o.min_order = -1; });
   refuse([](auto &o) { o.min_order = 6; });
   refuse([](auto &o) { o.largest_step = -1.; });
   refuse([](auto &o) { o.smallest_step = 1.; });
