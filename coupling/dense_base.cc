@@ -216,22 +216,31 @@ void DenseBase::stiffness_times(const VectorXd &x, VectorXd &y) const
 
 std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, double w_C) const
 {
-  const auto     n_L = Eigen::Index(order_.size()) - n_N_;
-  const MatrixXd A   = w_M * M_ + w_B * B_ + w_C * C_;
-  require(A.allFinite(), "the weights of the time step are no finite numbers");
+  const auto n_L = Eigen::Index(order_.size()) - n_N_;
+  require(std::isfinite(w_M) && std::isfinite(w_B) && std::isfinite(w_C),
+          "the weights of the time step are no finite numbers");
   if (n_L == 0 || (w_B != 0. && damping_.LL.size() > 0))
   {
     std::vector<int> all(order_.size());
     for (std::size_t i = 0; i < all.size(); ++i)
       all[i] = int(i);
+    const MatrixXd A = w_M * M_ + w_B * B_ + w_C * C_;
+    require(A.allFinite(), "the matrix of the time step overflows");
     return std::make_unique<InverseSolver>(inverse(A, all));
   }
-  const Blocks blocks = blocks_of(A);
+  // By blocks: the whole of A is mostly zeros, and integrators that change their step ask often.
+  const MatrixXd NN       = w_M * mass_.NN + w_B * damping_.NN + w_C * stiffness_.NN;
+  const VectorXd diagonal = w_M * mass_.diagonal + w_B * damping_.diagonal + w_C * stiffness_.diagonal;
+  MatrixXd       LN       = MatrixXd::Zero(n_L, n_N_);
+  if (mass_.LN.size() > 0)
+    LN += w_M * mass_.LN;
+  if (damping_.LN.size() > 0)
+    LN += w_B * damping_.LN;
+  require(NN.allFinite() && LN.allFinite() && diagonal.allFinite(), "the matrix of the time step overflows");
   for (Eigen::Index i = 0; i < n_L; ++i)
-    if (blocks.diagonal(i) == 0.)
+    if (diagonal(i) == 0.)
       refuse_singular(order_[n_N_ + i]);
-  const MatrixXd A_LN = blocks.LN.size() > 0 ? blocks.LN : MatrixXd(MatrixXd::Zero(n_L, n_N_));
-  return std::make_unique<CondensedSolver>(blocks.NN, A_LN, blocks.diagonal, order_);
+  return std::make_unique<CondensedSolver>(NN, LN, diagonal, order_);
 }
 
 std::vector<SpectrumLine> DenseBase::spectrum() const
