@@ -25,20 +25,21 @@ namespace gestell::coupling
  *
  * Error.  The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the measure of ErrorScale,
  * must not exceed the tolerance.  A step is refused if it does, or if Newton's method fails; then everything is as
- * before it, and it is tried with half the length or less.  Two refusals lower the order to 2, three start anew.  The
- * step grows, by up to three rungs at once, after k + 1 steps of equal length, and only if the error expected is below
- * 0.3 of the tolerance, so that it does not come back at once.
+ * before it (but see ErrorScale::refuse()), and it is tried with half the length or less.  Two refusals lower the order
+ * to 2, three start anew.  The step grows, by up to three rungs at once, after k + 1 steps of equal length, and only if
+ * the error expected is below 0.3 of the tolerance, so that it does not come back at once.
  *
- * Order.  With every growth orders k - 1 and k + 1 are looked at as well.  From order 3 on BDF makes lightly damped
+ * Order.  With every growth orders k - 1, k + 1 and 2 are looked at as well.  From order 3 on BDF makes lightly damped
  * modes grow where omega h is neither small nor very large, so at each rung only orders are used for which no mode of
- * the base system grows (BdfOrderLimit): frames with damping of 1 % stay at order 2 unless the step resolves their
- * highest mode some twenty times per radian.  Closed contacts change the spectrum; what grows then shows in the error,
- * and refusals lower the order.  With fixed_order this rule does not hold: the caller has looked.
+ * the base system grows (BdfOrderLimit): frames with damping of 1 % stay at order 2 unless omega h of
+ * their highest mode is below 0.34 (orders 3 and 4) or 0.71 (order 5).  Closed contacts change the spectrum; what grows
+ * then shows in the error, and refusals lower the order.  With fixed_order this rule does not hold: the caller has
+ * looked.
  *
  * Start, and restart at events.  Chains of one, two and four implicit Euler steps over the same length, extrapolated to
  * third order, give three points: BDF2 goes on from there at once with half that length.  Their local error, tested as
- * that of any step, is that of the extrapolation to second order.  A fixed order above 2 is reached within a few steps,
- * which are as small as the tolerance makes order 2.
+ * that of any step, is that of the extrapolation to second order.  They resolve the stiffness that the event brings.  A
+ * fixed order above 2 is reached within a few steps, which are as small as the tolerance makes order 2.
  *
  * Newton's tolerance is 1e-2 of the error tolerance, and not below 1e-12.
  *
