@@ -261,8 +261,14 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   const auto steps = ladder("--steps", request.chart.steps, kind::time, default_steps(scene, request.chart.quick));
   const auto tolerances =
       ladder("--tolerances", request.chart.tolerances, kind::number, default_tolerances(request.chart.quick));
-  const auto methods = choose_methods(
-      request.chart.methods, request.chart.peers ? PeerChoice::with : PeerChoice::without, prepared.machine.size());
+  auto methods = choose_methods(request.chart.methods, request.chart.peers ? PeerChoice::with : PeerChoice::without,
+                                prepared.machine.size());
+  for (ChartMethod &method : methods)
+    if (method.peer && request.chart.native)
+    {
+      method.peer->vectors = peers::PeerVectors::native;
+      method.name          = peers::peer_name(*method.peer);
+    }
   const MotionScales scales = motion_scales(problem, reference.method, true);
   const SeriesRun    series(problem, reference.values, model, scales, longest_step(problem));
   const double       n_series = double(methods.size() * request.events.size());

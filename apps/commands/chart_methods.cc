@@ -135,10 +135,11 @@ std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, Pe
       wanted = wanted || matches(method.key, key);
     if (keys.empty())
     {
-      // First order, and what is unstable at every useful step, only when asked for.
+      // First order, what is unstable at every useful step, and peers that are never best, only when asked for.
       const bool odd = !method.peer && method.own.method == Method::bdf && !method.controlled && method.own.order != 2;
       const bool dense = method.peer && method.peer->solver == PeerSolver::dense && n_coordinates > largest_dense;
-      wanted           = !odd && !dense && !(method.peer && with_peers == PeerChoice::without);
+      wanted           = !odd && !dense && method.key != "cvode-3" && method.key != "arkode-6" &&
+               !(method.peer && with_peers == PeerChoice::without);
     }
     if (wanted)
       chosen.push_back(method);

@@ -44,6 +44,7 @@ struct ChartCommandOptions
   std::string              reference;        ///< CSV file; empty: an own fine run
   std::string              events  = "both"; ///< "both", "on" or "off"
   bool                     peers   = true;   ///< general-purpose libraries as well
+  bool                     native  = false;  ///< vectors of peers compiled for this processor
   bool                     quick   = false;  ///< fewer steps and tolerances
   int                      samples = 2000;   ///< instants errors are measured at
   double                   limit   = 20.;    ///< [s] of CPU time for one run

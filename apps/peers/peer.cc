@@ -14,14 +14,15 @@ double thread_seconds()
 
 std::string peer_name(const PeerOptions &options)
 {
-  const std::string order = std::to_string(options.order);
+  const std::string native = options.vectors == PeerVectors::native ? ", native vectors" : "";
+  const std::string order  = std::to_string(options.order);
   if (options.kind == PeerKind::explicit_rk)
-    return "ARKODE explicit " + order;
+    return "ARKODE explicit " + order + native;
   const std::string solver = options.solver == PeerSolver::condensed ? ", condensed" : ", dense";
   return (options.kind == PeerKind::ida           ? "IDA "
           : options.kind == PeerKind::cvode_adams ? "CVODE Adams "
                                                   : "CVODE BDF ") +
-         order + solver;
+         order + solver + native;
 }
 
 } // namespace gestell::peers

@@ -17,7 +17,7 @@ enum class PeerKind
   cvode_adams, ///< CVODE, Adams-Moulton with variable step and order 1..12, its equation solved by Newton too
   ida,         ///< IDA, BDF of order 1..5 on M v' + B v + C q = f + W p, no mass matrix inverted in its equation
   explicit_rk  ///< ARKODE, explicit embedded Runge-Kutta of order 3 (Bogacki-Shampine), 4 (Zonneveld), 5
-              ///< (Dormand-Prince), 6 (Verner) or 8 (Fehlberg)
+               ///< (Dormand-Prince), 6 (Verner) or 8 (Fehlberg)
 };
 
 /// How the linear equations of Newton's iteration are solved.
@@ -25,6 +25,13 @@ enum class PeerSolver
 {
   condensed, ///< with SecondOrderSystem::factorise(1, gamma, gamma^2) and the local tangent as update of low rank
   dense      ///< the library's own LU of the analytic Jacobian [2 n x 2 n]
+};
+
+/// What the library's vectors are added and scaled with.
+enum class PeerVectors
+{
+  library, ///< its own loops as distributed, with fused operations
+  native   ///< loops compiled for this processor like the rest of the program
 };
 
 /// Where the comparison begins, and the sizes coordinates have in it.
@@ -39,12 +46,13 @@ struct PeerProblem
 
 struct PeerOptions
 {
-  PeerKind   kind      = PeerKind::cvode_bdf;
-  int        order     = 5; ///< the highest used; explicit_rk: 3, 4, 5, 6 or 8
-  PeerSolver solver    = PeerSolver::condensed;
-  double     tolerance = 1e-4;  ///< relative: error weights are tolerance (|y_i| + scale_i)
-  bool       events    = false; ///< located by the library's root finding, which is restarted there; else passed over
-  double     cpu_limit = 60.;   ///< [s]; longer runs are given up
+  PeerKind    kind      = PeerKind::cvode_bdf;
+  int         order     = 5; ///< the highest used; explicit_rk: 3, 4, 5, 6 or 8
+  PeerSolver  solver    = PeerSolver::condensed;
+  PeerVectors vectors   = PeerVectors::library;
+  double      tolerance = 1e-4;  ///< relative: error weights are tolerance (|y_i| + scale_i)
+  bool        events    = false; ///< located by the library's root finding, which is restarted there; else passed over
+  double      cpu_limit = 60.;   ///< [s]; longer runs are given up
 };
 
 /// The motion at one instant, with the history of the elements that forces at it depend on.

@@ -1,5 +1,7 @@
 #include "apps/peers/sundials.h"
 
+#include "apps/peers/native_vectors.h"
+
 #include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -100,6 +102,8 @@ SundialsParts::SundialsParts(Callbacks &callbacks, const PeerProblem &problem, c
   SUNContext_Create(nullptr, &context);
   y = vector();
   N_VEnableFusedOps_Serial(y, SUNTRUE); // clones inherit it
+  if (options.vectors == PeerVectors::native)
+    use_native_arithmetic(y);
   weights = vector();
   Eigen::Map<Eigen::VectorXd>(values(y), n_) << problem.q, problem.v;
   Eigen::Map<Eigen::VectorXd>(values(weights), n_) << problem.q_scale, problem.v_scale;
@@ -131,7 +135,7 @@ SundialsParts::~SundialsParts()
 
 N_Vector SundialsParts::vector()
 {
-  vectors_.push_back(N_VNew_Serial(n_, context));
+  vectors_.push_back(vectors_.empty() ? N_VNew_Serial(n_, context) : N_VClone(vectors_.front()));
   return vectors_.back();
 }
 

@@ -43,8 +43,8 @@ TEST(FirstOrderForm, JacobianIsTheDerivativeOfTheRate)
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
   form.know_dense();
-  const VectorXd    y = some_state();
-  MatrixXd          J(6, 6);
+  const VectorXd y = some_state();
+  MatrixXd       J(6, 6);
   form.linearise(0.3, y.data());
   form.rate_jacobian(J);
 
@@ -65,8 +65,8 @@ TEST(FirstOrderForm, ResidualIsZeroForTheRate)
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
   form.know_dense();
-  const VectorXd    y = some_state();
-  VectorXd          rate(6), r(6);
+  const VectorXd y = some_state();
+  VectorXd       rate(6), r(6);
   form.rate(0.3, y.data(), rate.data());
   form.residual(0.3, y.data(), rate.data(), r.data());
 
@@ -80,8 +80,8 @@ TEST(FirstOrderForm, CondensedSolverSolvesWithTheDenseMatrix)
   const SmallSystem system = chain();
   FirstOrderForm    form(system);
   form.know_dense();
-  const VectorXd    y = some_state();
-  MatrixXd          J(6, 6);
+  const VectorXd y = some_state();
+  MatrixXd       J(6, 6);
   form.linearise(0.3, y.data());
   for (const double gamma : {1e-3, 0.2, 5.})
   {
@@ -112,8 +112,8 @@ TEST(FirstOrderForm, HeldMeasuresAreNotAccelerated)
   const HeldChain system;
   FirstOrderForm  form(system);
   form.know_dense();
-  const VectorXd  y = some_state();
-  VectorXd        rate(6);
+  const VectorXd y = some_state();
+  VectorXd       rate(6);
   form.rate(0.3, y.data(), rate.data());
   const VectorXd w = MatrixXd(system.W);
 
@@ -135,8 +135,8 @@ TEST(FirstOrderForm, CondensedSolverHoldsMeasuresToo)
   const HeldChain system;
   FirstOrderForm  form(system);
   form.know_dense();
-  const VectorXd  y = some_state();
-  MatrixXd        J(6, 6);
+  const VectorXd y = some_state();
+  MatrixXd       J(6, 6);
   form.linearise(0.3, y.data());
   form.rate_jacobian(J);
   ASSERT_TRUE(form.factorise(0.2));

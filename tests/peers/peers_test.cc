@@ -196,6 +196,17 @@ TEST_P(EveryPeer, ReproducesTheBenchmark)
   EXPECT_LT(std::sqrt(sum / size), 1e-4);
 }
 
+TEST_P(EveryPeer, TakesTheSameStepsWithNativeVectors)
+{
+  SmallSystem one(MatrixXd::Ones(1, 1), MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1)), other = one;
+  PeerOptions native = GetParam();
+  native.vectors     = PeerVectors::native;
+  const PeerResult a = run_peer(one, cosine_problem(), GetParam()), b = run_peer(other, cosine_problem(), native);
+  ASSERT_EQ(b.failure, "");
+  EXPECT_EQ(a.work.steps, b.work.steps); // two numbers: sums have one order
+  EXPECT_NEAR(a.samples.back().q[0], b.samples.back().q[0], 1e-10);
+}
+
 TEST(Peers, StepsDoNotDependOnTheLinearSolver)
 {
   for (const PeerKind kind : {PeerKind::cvode_bdf, PeerKind::ida})
