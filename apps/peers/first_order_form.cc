@@ -132,17 +132,17 @@ void FirstOrderForm::linearise(double t, const double *y)
 
 /// Woodbury in the measures: with A_0 = M + gamma B + gamma^2 C, Y = A_0^-1 W, S = W^T Y and D the tangent,
 ///     x = x_0 + Y z,   (I - D S) z = D W^T x_0;   a held measure has  (S z)_h = given - (W^T x_0)_h  instead.
-bool FirstOrderForm::factorise(double gamma)
+bool FirstOrderForm::prepare(double w_M, double w_B, double w_C, double tangent_v, double tangent_u)
 {
   ++work_.factorisations;
-  if (gamma != gamma_)
+  if (w_M != known_M_ || w_B != known_B_ || w_C != known_C_)
   {
-    shifted_ = system_.factorise(1., gamma, gamma * gamma);
+    shifted_ = system_.factorise(w_M, w_B, w_C);
     condense(*shifted_, system_.directions(), column_, a_, Y_, S_);
     work_.solves += n_u_;
-    gamma_ = gamma;
+    known_M_ = w_M, known_B_ = w_B, known_C_ = w_C;
   }
-  tangent_         = gamma * dp_dv_ + (gamma * gamma) * dp_du_;
+  tangent_         = tangent_v * dp_dv_ + tangent_u * dp_du_;
   small_.noalias() = -tangent_ * S_;
   small_.diagonal().array() += 1.;
   for (const coupling::HeldMeasure &held : system_.held())
@@ -150,6 +150,33 @@ bool FirstOrderForm::factorise(double gamma)
   if (n_u_ > 0)
     small_lu_.compute(small_);
   return small_.allFinite();
+}
+
+bool FirstOrderForm::factorise(double gamma)
+{
+  gamma_ = gamma;
+  return prepare(1., gamma, gamma * gamma, gamma, gamma * gamma);
+}
+
+bool FirstOrderForm::factorise_displacements(double w_M, double w_B)
+{
+  return system_.held().empty() && prepare(w_M, w_B, 1., w_B, 1.);
+}
+
+void FirstOrderForm::solve_displacements(double *b)
+{
+  f_ = Eigen::Map<const Vector>(b, n_);
+  solve_velocity();
+  Eigen::Map<Vector>(b, n_) = f_;
+}
+
+void FirstOrderForm::displacement_residual(double t, const double *y, const double *acceleration, double *r)
+{
+  ++work_.evaluations;
+  load(t, y);
+  a_ = Eigen::Map<const Vector>(acceleration, n_);
+  system_.mass_times(a_, product_);
+  Eigen::Map<Vector>(r, n_) = product_ - f_;
 }
 
 /// f_ := A^-1 f_, with W_h^T f_ = held_rate_ afterwards where measures are held.

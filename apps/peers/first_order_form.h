@@ -45,6 +45,15 @@ public:
   /// @return false if A is singular
   bool factorise(double gamma);
 
+  /// As factorise(), for  w_M M + w_B B + C - W (w_B dp/dv + dp/du) W^T: a formula in the displacements alone.
+  bool factorise_displacements(double w_M, double w_B);
+
+  /// b [n] := (that matrix)^-1 b.
+  void solve_displacements(double *b);
+
+  /// r [n] = M v' + B v + C q - f_t - W p.
+  void displacement_residual(double t, const double *y, const double *acceleration, double *r);
+
   /// b := (I - gamma dF/dy)^-1 b.
   void solve_rate_form(double *b);
 
@@ -69,6 +78,7 @@ private:
   using Vector = Eigen::VectorXd;
   using Matrix = Eigen::MatrixXd;
 
+  bool prepare(double w_M, double w_B, double w_C, double tangent_v, double tangent_u);
   void load(double t, const double *y);
   void add_held_forces();
   void solve_velocity();
@@ -79,7 +89,7 @@ private:
   std::unique_ptr<coupling::LinearSolver> mass_, shifted_;
   Matrix                                  Y_M_, S_M_; // M^-1 W [n x n_u], W^T M^-1 W
 
-  double                      gamma_ = 0.;
+  double                      gamma_ = 0., known_M_ = 0., known_B_ = 0., known_C_ = 0.; ///< of shifted_
   Matrix                      Y_, S_, small_, dp_du_, dp_dv_, tangent_;
   Eigen::PartialPivLU<Matrix> small_lu_;
   coupling::LocalState        local_;

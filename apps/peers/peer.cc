@@ -18,6 +18,10 @@ std::string peer_name(const PeerOptions &options)
   const std::string order  = std::to_string(options.order);
   if (options.kind == PeerKind::explicit_rk)
     return "ARKODE explicit " + order + native;
+  if (options.kind == PeerKind::petsc_bdf)
+    return "PETSc BDF " + order + ", condensed";
+  if (options.kind == PeerKind::petsc_alpha)
+    return "PETSc alpha2 0.8, condensed";
   const std::string solver = options.solver == PeerSolver::condensed ? ", condensed" : ", dense";
   return (options.kind == PeerKind::ida           ? "IDA "
           : options.kind == PeerKind::cvode_adams ? "CVODE Adams "

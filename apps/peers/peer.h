@@ -16,8 +16,10 @@ enum class PeerKind
   cvode_bdf,   ///< CVODE, BDF with variable step and order 1..5
   cvode_adams, ///< CVODE, Adams-Moulton with variable step and order 1..12, its equation solved by Newton too
   ida,         ///< IDA, BDF of order 1..5 on M v' + B v + C q = f + W p, no mass matrix inverted in its equation
-  explicit_rk  ///< ARKODE, explicit embedded Runge-Kutta of order 3 (Bogacki-Shampine), 4 (Zonneveld), 5
+  explicit_rk, ///< ARKODE, explicit embedded Runge-Kutta of order 3 (Bogacki-Shampine), 4 (Zonneveld), 5
                ///< (Dormand-Prince), 6 (Verner) or 8 (Fehlberg)
+  petsc_bdf,   ///< PETSc TS, BDF of fixed order 1..6 with variable step, on the equations of IDA
+  petsc_alpha  ///< PETSc TS, generalised alpha for second order, spectral radius 0.8, variable step
 };
 
 /// How the linear equations of Newton's iteration are solved.
@@ -78,6 +80,9 @@ std::string peer_name(const PeerOptions &options);
 
 /// False if this build has no SUNDIALS; run_peer() then throws std::invalid_argument.
 bool peers_available();
+
+/// False if the plugin with PETSc was not built; run_peer() then throws std::invalid_argument for its kinds.
+bool petsc_available();
 
 /// The version of the library, "SUNDIALS 6.4.1"; empty without it.
 std::string peer_version();

@@ -12,6 +12,11 @@ bool peers_available()
   return false;
 }
 
+bool petsc_available()
+{
+  return false;
+}
+
 std::string peer_version()
 {
   return "";

@@ -17,6 +17,24 @@ void require(bool condition, const std::string &message)
     throw std::invalid_argument("peers: " + message);
 }
 
+bool order_is_known(const PeerOptions &options)
+{
+  const int p = options.order;
+  switch (options.kind)
+  {
+  case PeerKind::cvode_adams:
+    return p >= 1 && p <= 12;
+  case PeerKind::explicit_rk:
+    return p >= 3 && p <= 8 && p != 7;
+  case PeerKind::petsc_bdf:
+    return p >= 1 && p <= 6;
+  case PeerKind::petsc_alpha:
+    return true;
+  default:
+    return p >= 1 && p <= 5;
+  }
+}
+
 void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
 {
   const int n = system.size();
@@ -29,11 +47,12 @@ void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem
   require(!problem.samples.empty() && std::is_sorted(problem.samples.begin(), problem.samples.end()) &&
               problem.samples.front() >= problem.t,
           "the instants of the samples must ascend from the start.");
-  const bool rk = options.kind == PeerKind::explicit_rk, adams = options.kind == PeerKind::cvode_adams;
-  require(rk ? options.order >= 3 && options.order <= 8 && options.order != 7
-             : options.order >= 1 && options.order <= (adams ? 12 : 5),
+  const bool petsc = options.kind == PeerKind::petsc_bdf || options.kind == PeerKind::petsc_alpha;
+  require(order_is_known(options),
           "order " + std::to_string(options.order) +
-              "; BDF has 1 to 5, Adams 1 to 12, explicit Runge-Kutta 3, 4, 5, 6 or 8.");
+              "; BDF has 1 to 5 (PETSc 6), Adams 1 to 12, explicit Runge-Kutta 3, 4, 5, 6 or 8.");
+  require(!petsc || !options.events, "PETSc passes over events; leave them out.");
+  require(!petsc || options.solver == PeerSolver::condensed, "PETSc has the condensed solver only.");
 }
 
 std::unique_ptr<Stepper> make_stepper(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)
@@ -44,6 +63,9 @@ std::unique_ptr<Stepper> make_stepper(Callbacks &callbacks, const PeerProblem &p
     return make_ida(callbacks, problem, options);
   case PeerKind::explicit_rk:
     return make_explicit_rk(callbacks, problem, options);
+  case PeerKind::petsc_bdf:
+  case PeerKind::petsc_alpha:
+    return make_petsc(callbacks, problem, options);
   default:
     return make_cvode(callbacks, problem, options);
   }

@@ -42,6 +42,8 @@ struct Callbacks
 
 std::unique_ptr<Stepper> make_cvode(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options);
 std::unique_ptr<Stepper> make_ida(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options);
+/// From the plugin that holds PETSc, which is loaded at the first call.
+std::unique_ptr<Stepper> make_petsc(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options);
 std::unique_ptr<Stepper> make_explicit_rk(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options);
 
 } // namespace gestell::peers

@@ -131,6 +131,7 @@ double EventDriver::value_at(int guard, double t)
 void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
 {
   const double finest = resolution(high, high - low);
+  const double width = high - low;
   int          side   = 0;
   double       f_low = g_low, f_high = g_high;
   for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
@@ -139,18 +140,21 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
     if (!(t > low && t < high) || k % 8 == 7)
       t = 0.5 * (low + high);
     const double g = value_at(guard, t);
+    const bool wide = high - low > 1e-3 * width; // below, the slope would be rounding
     if (g < 0.)
     {
-      crossing.slope = (g_high - g) / std::max(high - t, finest);
-      low = t, f_low = g;
+      if (wide)
+        crossing.slope = (g_high - g) / (high - t);
+      low = t, f_low = g_low = g;
       if (side == -1)
         f_high *= 0.5;
       side = -1;
     }
     else
     {
-      crossing.slope = (g - g_low) / std::max(t - low, finest);
-      high = t, f_high = g, g_high = g;
+      if (wide)
+        crossing.slope = (g - g_low) / (t - low);
+      high = t, f_high = g_high = g;
       if (side == 1)
         f_low *= 0.5;
       side = 1;

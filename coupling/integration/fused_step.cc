@@ -15,6 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
+constexpr int    pieces_at_kinks     = 128; ///< of the way of a step: the energy of a contact is met to some 1e-5
+constexpr double noticeable          = 1e-2; ///< departure of a law from a parabola, relative to its force
 
 /**
  * One unknown force per measure and step: linear between the ends, or its mean along the way of the step.
@@ -27,7 +29,7 @@ constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has
  * average:  g = in_0, F = E in_0, p the force over the step, the mean of the law along the straight way from
  *           (u_k, u'_k) to (u_k+1, u'_k+1) by Gauss' rule.  As a constant force does the work p (u_k+1 - u_k) on the
  *           base system, which is carried exactly, a law with a potential gives and takes just what it stores: the step
- *           is stable at every contact.
+ *           is stable at every contact.  Where a kink lies on the way, the mean is taken in many pieces.
  */
 class FusedStep final : public ForceStep
 {
@@ -41,7 +43,7 @@ public:
       x->setZero(n);
     for (VectorXd *x : {&p_begin_, &p_, &change_, &p_before_})
       x->setZero(n_u_);
-    for (LocalState *state : {&at_begin_, &at_end_, &node_})
+    for (LocalState *state : {&at_begin_, &at_end_, &node_, &way_, &first_, &end_})
       state->resize(n_u_);
     free_.setZero(2 * n_u_);
     dp_du_.setZero(n_u_, n_u_);
@@ -190,6 +192,57 @@ private:
     node_.v.noalias() += S_v_.lazyProduct(p_);
   }
 
+  /// Mean of the law and of its derivatives by the motion of the end of the way, in n pieces of two Gauss points.
+  void mean_of_law(int n)
+  {
+    static constexpr double half = 0.28867513459481287; // sqrt(3)/6
+    dp_du_.setZero();
+    dp_dv_.setZero();
+    change_.setZero();
+    const double weight = 0.5 / n;
+    for (int k = 0; k < n; ++k)
+      for (const double point : {0.5 - half, 0.5 + half})
+      {
+        const double sigma = (k + point) / n;
+        way_.u             = (1. - sigma) * at_begin_.u + sigma * node_.u;
+        way_.v             = (1. - sigma) * at_begin_.v + sigma * node_.v;
+        way_.p             = p_;
+        context_.system->local_derivatives(way_, way_.p, dp_of_u_, dp_of_v_);
+        change_ += weight * way_.p;
+        dp_du_ += (weight * sigma) * dp_of_u_;
+        dp_dv_ += (weight * sigma) * dp_of_v_;
+        if (n == 1 && point < 0.5)
+          first_ = way_;
+      }
+    context_.work.evaluations += 2 * n;
+  }
+
+  /// After mean_of_law(1): the law at the ends of the way is not what its values and slope at the second Gauss point and
+  /// the value at the first say of it, up to the second degree.
+  bool kink_on_the_way()
+  {
+    end_.u = node_.u;
+    end_.v = node_.v;
+    end_.p = p_;
+    context_.system->local_force(end_, end_.p);
+    ++context_.work.evaluations;
+    // Parabola in sigma through both Gauss points with the slope at the second.
+    static constexpr double distance = 0.57735026918962573, far = 0.21132486540518712; // of the points; to the near end
+    for (int r = 0; r < n_u_; ++r)
+    {
+      double slope = 0.;
+      for (int j = 0; j < n_u_; ++j)
+        slope += dp_of_u_(r, j) * (node_.u[j] - at_begin_.u[j]) + dp_of_v_(r, j) * (node_.v[j] - at_begin_.v[j]);
+      const double second = way_.p[r], bend = (first_.p[r] - second + slope * distance) / (distance * distance);
+      const double at_end = second + slope * far + bend * far * far, way = 1. - far;
+      const double at_begin = second - slope * way + bend * way * way;
+      const double size = std::max({std::abs(first_.p[r]), std::abs(second), std::abs(end_.p[r]), std::abs(at_begin_.p[r])});
+      if (std::max(std::abs(at_end - end_.p[r]), std::abs(at_begin - at_begin_.p[r])) > noticeable * size)
+        return true;
+    }
+    return false;
+  }
+
   /// change = phi(u, u') - p and the matrix of its tangent.
   void evaluate()
   {
@@ -202,23 +255,10 @@ private:
     }
     else
     {
-      // Mean along the way; the ends of the way move by sigma.
-      static constexpr double half = 0.28867513459481287; // sqrt(3)/6
-      dp_du_.setZero();
-      dp_dv_.setZero();
-      change_.setZero();
-      for (const double sigma : {0.5 - half, 0.5 + half})
-      {
-        way_.u = (1. - sigma) * at_begin_.u + sigma * node_.u;
-        way_.v = (1. - sigma) * at_begin_.v + sigma * node_.v;
-        way_.a.setZero(n_u_);
-        way_.p = p_;
-        system.local_derivatives(way_, way_.p, dp_of_u_, dp_of_v_);
-        change_ += 0.5 * way_.p;
-        dp_du_ += (0.5 * sigma) * dp_of_u_;
-        dp_dv_ += (0.5 * sigma) * dp_of_v_;
-      }
-      context_.work.evaluations += 2;
+      // Mean along the way by Gauss' rule; where a kink lies on it, in many short pieces.
+      mean_of_law(1);
+      if (kink_on_the_way())
+        mean_of_law(pieces_at_kinks);
     }
     change_ -= p_;
     MatrixXd &J   = lu_.matrix();
@@ -282,7 +322,7 @@ private:
   double           h_ = 0., contraction_ = unknown_contraction;
   VectorXd         y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, column_, moved_;
   MatrixXd         g_, F_, read_, S_u_, S_v_, dp_du_, dp_dv_, dp_of_u_, dp_of_v_;
-  LocalState       at_begin_, at_end_, node_, way_;
+  LocalState       at_begin_, at_end_, node_, way_, first_, end_;
   SmallLu          lu_;
 };
 

@@ -14,6 +14,17 @@ constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
 } // namespace
 
+namespace
+{
+bool is_held(const std::vector<HeldMeasure> &held, Eigen::Index measure)
+{
+  for (const HeldMeasure &h : held)
+    if (h.measure == measure)
+      return true;
+  return false;
+}
+} // namespace
+
 bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x)
 {
   const int n = static_cast<int>(x.size());
@@ -61,6 +72,7 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   correction_.setZero(n_u);
   u_begin_.setZero(n_u);
   scale_.setZero(n_u);
+  scale_before_.setZero(n_u);
   dp_.setZero(n_u, n_u);
   jacobian_.setZero(n_u, n_u);
   begin(u_begin_);
@@ -124,9 +136,9 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     }
 
     jacobian_.noalias() = -condensed.S.lazyProduct(dp_);
-    jacobian_.diagonal().array() += 1.;
-    for (const HeldMeasure &h : held)
-      jacobian_(h.measure, h.measure) -= 1.;
+    for (Eigen::Index i = 0; i < jacobian_.rows(); ++i)
+      if (!is_held(held, i)) // adding 1 and taking it away again would round a small S away
+        jacobian_(i, i) += 1.;
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
@@ -180,8 +192,10 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     xi_ = (local.u - base.u) / condensed.form.w_u;
   else
     xi_ = xi_free_;
+  scale_before_ = scale_;
   if (!iterate(condensed, base, local, work))
   {
+    scale_       = scale_before_; // runaway iterates are no excursions
     contraction_ = unknown_contraction;
     fail(base.t);
   }

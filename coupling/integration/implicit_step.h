@@ -73,7 +73,7 @@ private:
   const SecondOrderSystem                   &system_;
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
-  Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, correction_;
+  Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
   Eigen::MatrixXd                            dp_, jacobian_;
   double                                     contraction_; ///< of Newton's corrections, as seen last
 };

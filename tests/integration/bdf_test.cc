@@ -127,7 +127,7 @@ TEST(Bdf, OneFactorisationServesEveryStepOfAFixedSize)
   bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
   for (int i = 0; i < 500; ++i)
     bdf.advance();
-  EXPECT_EQ(bdf.work().factorisations, 3); // implicit Euler with h and h/2 to start, then BDF2
+  EXPECT_EQ(bdf.work().factorisations, 4); // implicit Euler with h, h/2 and h/3 to start, then BDF2
   EXPECT_LE(bdf.work().newton, 3 * 500);
 }
 
