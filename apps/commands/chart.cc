@@ -139,6 +139,8 @@ public:
   void run(const ChartMethod &method, bool events, int model, const std::vector<double> &settings,
            const std::function<void(const WorkPoint &)> &tell, std::vector<WorkPoint> &points) const
   {
+    if (events && !locates_events(method))
+      return;
     double last_cpu = 0., last_setting = 0.;
     for (const double setting : settings)
     {
@@ -183,10 +185,10 @@ private:
     {
       if (method.peer)
       {
-        peers::PeerOptions options = *method.peer;
-        options.tolerance          = setting;
-        options.events             = events;
-        options.cpu_limit          = problem_.cpu_limit;
+        peers::PeerOptions options                             = *method.peer;
+        (method.controlled ? options.tolerance : options.step) = setting;
+        options.events                                         = events;
+        options.cpu_limit                                      = problem_.cpu_limit;
         return measure(problem_, options, scales_);
       }
       coupling::MethodOptions options                        = method.own;

@@ -76,6 +76,12 @@ void add_peers(std::vector<ChartMethod> &methods)
   methods.push_back(peer("arkode-5", "ARKODE", PeerKind::explicit_rk, 5));
   methods.push_back(peer("arkode-6", "ARKODE", PeerKind::explicit_rk, 6));
   methods.push_back(peer("arkode-8", "ARKODE", PeerKind::explicit_rk, 8));
+  if (!peers::petsc_available())
+    return;
+  methods.push_back(peer("petsc-bdf-2", "PETSc", PeerKind::petsc_bdf, 2));
+  methods.push_back(peer("petsc-bdf-5", "PETSc", PeerKind::petsc_bdf, 5));
+  methods.push_back(peer("petsc-alpha2", "PETSc", PeerKind::petsc_alpha, 2));
+  methods.back().controlled = false;
 }
 
 bool matches(const std::string &key, const std::string &wanted)
@@ -145,6 +151,11 @@ std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, Pe
       chosen.push_back(method);
   }
   return chosen;
+}
+
+bool locates_events(const ChartMethod &method)
+{
+  return !method.peer || (method.peer->kind != PeerKind::petsc_bdf && method.peer->kind != PeerKind::petsc_alpha);
 }
 
 std::string scene_settings(const ChartMethod &method, double value, bool events)

@@ -35,6 +35,9 @@ enum class PeerChoice
 /// @throws std::invalid_argument naming a key that does not exist, with the nearest
 std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, PeerChoice peers, int n_coordinates);
 
+/// False for those that can only pass over events.
+bool locates_events(const ChartMethod &method);
+
 /// The entries of [run] with which a scene runs that method, one per line, by step or by tolerance.
 std::string scene_settings(const ChartMethod &method, double value, bool events);
 

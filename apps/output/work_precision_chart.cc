@@ -208,9 +208,9 @@ double work_of(const WorkPoint &point, WorkMeasure measure)
 
 int family_colour(const std::string &family)
 {
-  static const std::array<const char *, 6> families = {"BDF", "Newmark", "exact", "CVODE", "IDA", "ARKODE"};
-  // Blue, orange, green, purple, dark grey, sky blue: the ochre between them is too near to orange.
-  static const std::array<int, 6> colours = {0, 1, 2, 3, 5, 6};
+  static const std::array<const char *, 7> families = {"BDF", "Newmark", "exact", "CVODE", "IDA", "ARKODE", "PETSc"};
+  // Blue, orange, green, purple, dark grey, sky blue; the ochre, near to orange, comes last.
+  static const std::array<int, 7> colours = {0, 1, 2, 3, 5, 6, 4};
   for (std::size_t i = 0; i < families.size(); ++i)
     if (family == families[i])
       return colours[i];

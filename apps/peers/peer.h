@@ -19,7 +19,8 @@ enum class PeerKind
   explicit_rk, ///< ARKODE, explicit embedded Runge-Kutta of order 3 (Bogacki-Shampine), 4 (Zonneveld), 5
                ///< (Dormand-Prince), 6 (Verner) or 8 (Fehlberg)
   petsc_bdf,   ///< PETSc TS, BDF of fixed order 1..6 with variable step, on the equations of IDA
-  petsc_alpha  ///< PETSc TS, generalised alpha for second order, spectral radius 0.8, variable step
+  petsc_alpha  ///< PETSc TS, generalised alpha for second order, spectral radius 0.8, fixed step: its error
+               ///< control measures displacements and velocities with one tolerance
 };
 
 /// How the linear equations of Newton's iteration are solved.
@@ -53,6 +54,7 @@ struct PeerOptions
   PeerSolver  solver    = PeerSolver::condensed;
   PeerVectors vectors   = PeerVectors::library;
   double      tolerance = 1e-4;  ///< relative: error weights are tolerance (|y_i| + scale_i)
+  double      step      = 0.;    ///< [s] of petsc_alpha; the others choose theirs
   bool        events    = false; ///< located by the library's root finding, which is restarted there; else passed over
   double      cpu_limit = 60.;   ///< [s]; longer runs are given up
 };

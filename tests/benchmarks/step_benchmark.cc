@@ -20,7 +20,7 @@ void bdf2_steps(benchmark::State &state, const char *scene_file, const std::vect
   coupling::Machine    &machine  = prepared.machine;
 
   coupling::Bdf::Options options;
-  options.step = scene.run.options.step;
+  options.step = scene.run.options.method.step;
   coupling::Bdf        bdf(machine, options);
   coupling::LocalState local;
   machine.gather(0., initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);

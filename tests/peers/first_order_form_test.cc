@@ -99,6 +99,34 @@ TEST(FirstOrderForm, CondensedSolverSolvesWithTheDenseMatrix)
   }
 }
 
+TEST(FirstOrderForm, SolvesForDisplacementsOfASecondOrderMethod)
+{
+  const SmallSystem system = chain();
+  FirstOrderForm    form(system);
+  const VectorXd    y   = some_state();
+  const double      w_M = 70., w_B = 9.;
+  form.linearise(0.3, y.data());
+  ASSERT_TRUE(form.factorise_displacements(w_M, w_B));
+  const VectorXd b = VectorXd::LinSpaced(3, -1., 2.);
+  VectorXd       x = b;
+  form.solve_displacements(x.data());
+
+  // The derivative of the residual along x, with v and a moving by w_B x and w_M x; central quotient.
+  const double   d    = 1e-6;
+  const VectorXd a    = VectorXd::Constant(3, 0.4);
+  VectorXd       r[2] = {VectorXd(3), VectorXd(3)};
+  for (const int k : {0, 1})
+  {
+    const double   s       = k == 0 ? -d : d;
+    VectorXd       moved   = y;
+    const VectorXd a_moved = a + s * w_M * x;
+    moved.head(3) += s * x;
+    moved.tail(3) += s * w_B * x;
+    form.displacement_residual(0.3, moved.data(), a_moved.data(), r[k].data());
+  }
+  EXPECT_LT(((r[1] - r[0]) / (2. * d) - b).norm(), 1e-7);
+}
+
 /// The measure is held at a constant rate.
 struct HeldChain : SmallSystem
 {
