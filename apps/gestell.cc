@@ -56,9 +56,9 @@ CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptio
       ->check(CLI::IsMember({"on", "off", "both"}));
   command->add_flag("--peers,!--no-peers", chart.peers, "general-purpose integrators as well (default)");
   command->add_flag("--native-vectors", chart.native, "peers with vector arithmetic compiled for this processor");
-  command->add_flag("--quick", chart.quick, "fewer steps and tolerances");
+  command->add_flag("--quick", chart.quick, "a minute instead of ten: fewer methods, steps and tolerances");
   command->add_option("--samples", chart.samples, "instants that errors are measured at (default 2000)");
-  command->add_option("--limit", chart.limit, "CPU time of one run [s]; longer ones are given up (default 20)")
+  command->add_option("--limit", chart.limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)")
       ->check(CLI::PositiveNumber);
   return command;
 }

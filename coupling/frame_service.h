@@ -58,4 +58,4 @@ public:
 } // namespace gestell::coupling
 
 /// The one symbol of the plugin.
-extern "C" gestell::coupling::FrameService *gestell_frame_service();
+extern "C" __attribute__((visibility("default"))) gestell::coupling::FrameService *gestell_frame_service();

@@ -233,7 +233,9 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   WorkProblem problem{prepared.machine, initial};
   problem.begin     = scene.run.options.begin;
   problem.signals   = choose_signals(scene, prepared.machine, request.chart, request.file);
-  problem.cpu_limit = request.chart.limit;
+  problem.cpu_limit = request.chart.limit > 0. ? request.chart.limit : request.chart.quick ? 5. : 20.;
+  if (request.chart.quick)
+    problem.repeat_s = 0.1;
   problem.stop      = &interruption();
   if (request.file)
     problem.samples = request.file->times;
@@ -263,8 +265,11 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   const auto steps = ladder("--steps", request.chart.steps, kind::time, default_steps(scene, request.chart.quick));
   const auto tolerances =
       ladder("--tolerances", request.chart.tolerances, kind::number, default_tolerances(request.chart.quick));
-  auto methods = choose_methods(request.chart.methods, request.chart.peers ? PeerChoice::with : PeerChoice::without,
-                                prepared.machine.size());
+  const PeerChoice         peers = request.chart.peers ? PeerChoice::with : PeerChoice::without;
+  std::vector<std::string> keys  = request.chart.methods;
+  if (keys.empty() && request.chart.quick)
+    keys = quick_methods(peers);
+  std::vector<ChartMethod> methods = choose_methods(keys, peers, prepared.machine.size());
   for (ChartMethod &method : methods)
     if (method.peer && request.chart.native)
     {

@@ -35,6 +35,9 @@ enum class PeerChoice
 /// @throws std::invalid_argument naming a key that does not exist, with the nearest
 std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, PeerChoice peers, int n_coordinates);
 
+/// Keys of the few methods of a quick chart: the best of ours and of the peers, and those most in use.
+std::vector<std::string> quick_methods(PeerChoice peers);
+
 /// False for those that can only pass over events.
 bool locates_events(const ChartMethod &method);
 

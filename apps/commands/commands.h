@@ -45,9 +45,9 @@ struct ChartCommandOptions
   std::string              events  = "both"; ///< "both", "on" or "off"
   bool                     peers   = true;   ///< general-purpose libraries as well
   bool                     native  = false;  ///< vectors of peers compiled for this processor
-  bool                     quick   = false;  ///< fewer steps and tolerances
+  bool                     quick   = false;  ///< fewer methods and settings
   int                      samples = 2000;   ///< instants errors are measured at
-  double                   limit   = 20.;    ///< [s] of CPU time for one run
+  double                   limit   = 0.;     ///< [s] of CPU time for one run; 0: 20, quick 5
 };
 
 struct StabilityCommandOptions

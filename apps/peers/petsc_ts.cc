@@ -277,9 +277,9 @@ private:
 } // namespace
 } // namespace gestell::peers
 
-extern "C" gestell::peers::Stepper *gestell_petsc_stepper(gestell::peers::Callbacks         *callbacks,
-                                                          const gestell::peers::PeerProblem *problem,
-                                                          const gestell::peers::PeerOptions *options)
+extern "C" __attribute__((visibility("default"))) gestell::peers::Stepper *
+gestell_petsc_stepper(gestell::peers::Callbacks *callbacks, const gestell::peers::PeerProblem *problem,
+                      const gestell::peers::PeerOptions *options)
 {
   return new gestell::peers::PetscTs(*callbacks, *problem, *options);
 }

@@ -26,6 +26,7 @@ constexpr bool counts_allocations = GESTELL_COUNTS_ALLOCATIONS;
 } // namespace gestell::tests
 
 #if GESTELL_COUNTS_ALLOCATIONS
+#pragma GCC visibility push(default) // for the libraries too
 extern "C"
 {
   void *__libc_malloc(std::size_t);
@@ -60,4 +61,5 @@ extern "C"
     return *result ? 0 : ENOMEM;
   }
 }
+#pragma GCC visibility pop
 #endif
