@@ -189,7 +189,8 @@ public:
   /// Whether the last step balances its forces to first order: not if one acts along a free motion.
   bool held() const { return held_; }
 
-  /// Coordinate that moves most in the motion the last matrix leaves free; -1 if there is none.
+  /// The first coordinate, those of the frame before the bodies it carries, that moves at least half as much as the one
+  /// that moves most in the motion the last matrix leaves free; -1 if there is none.
   int free_coordinate() const
   {
     const Eigen::Index rank = solver_.rank(), n = static_cast<Eigen::Index>(unknown_.size());
@@ -198,9 +199,11 @@ public:
     // A x = 0 for x = P Z^T e_n: the last column of the orthogonal factor.
     Eigen::VectorXd motion = solver_.matrixZ().transpose() * Eigen::VectorXd::Unit(n, n - 1);
     motion                 = scale_.asDiagonal() * Eigen::VectorXd(solver_.colsPermutation() * motion);
-    Eigen::Index largest;
-    motion.cwiseAbs().maxCoeff(&largest);
-    return unknown_[static_cast<std::size_t>(largest)];
+    const double half = 0.5 * motion.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < unknown_.size(); ++i)
+      if (std::abs(motion[static_cast<Eigen::Index>(i)]) >= half)
+        return unknown_[i];
+    return unknown_.front();
   }
 
 private:
