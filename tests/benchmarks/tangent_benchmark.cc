@@ -6,6 +6,17 @@
 
 #ifdef GESTELL_HAVE_SACADO
 #include <Sacado_No_Kokkos.hpp>
+
+namespace Sacado::Fad::Exp
+{
+
+template <class Storage>
+double value(const GeneralFad<Storage> &x)
+{
+  return x.val();
+}
+
+} // namespace Sacado::Fad::Exp
 #endif
 
 namespace
