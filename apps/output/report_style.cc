@@ -33,6 +33,8 @@ td.peak { font-weight: 600; }
 .scroll { overflow: auto; max-height: 26rem; border: 1px solid var(--rule); padding: 0 .9rem; display: inline-block;
           max-width: 100%; }
 .wide { overflow-x: auto; }
+.wide th, .scroll th { white-space: normal; vertical-align: bottom; }
+.wide td:first-child, .scroll td:first-child { white-space: nowrap; }
 figure { margin: .9rem 0 1.5rem; }
 figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { color: var(--soft); font-size: .88rem; max-width: 44rem; }
