@@ -105,6 +105,7 @@ void Bdf::begin_from(double t)
   local_.v = first.u_rate;
   local_.a.setZero();
   system_.local_force(local_, local_.p);
+  ++work_.evaluations;
   if (!system_.held().empty())
     forces_of_held();
   first.a    = local_.a;

@@ -152,11 +152,13 @@ void BdfControlled::restart()
   fresh_   = true;
   t_begin_ = t_end_ = local_.t;
   system_.local_force(local_, local_.p);
+  ++work_.evaluations;
   if (!system_.held().empty())
     forces_of_held(z_);
   z_.tail(n_u_) = local_.p;
   now_known_    = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  ++work_.evaluations;
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 
@@ -291,6 +293,7 @@ void BdfControlled::cut(double t)
     z_cut_.tail(2 * n_u_) << local_.a, local_.p;
   }
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  ++work_.evaluations;
   stiffness_ = dp_du_.diagonal();
 }
 

@@ -99,6 +99,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
   {
     system_.local_tangent(local, 0., 0., 1., local.p, dp_);
     ++work.newton;
+    ++work.evaluations;
     for (const HeldMeasure &h : held) // the unknown of this column is p itself
     {
       dp_.row(h.measure).setZero();

@@ -74,6 +74,7 @@ void Exact::start_piece()
   stepped_ = cut_ = false;
   now_known_      = false;
   system_.local_force(local_, local_.p);
+  ++context_.work.evaluations;
   context_.accelerate(x_, local_);
   force_->begin(x_, local_);
   local_begin_ = local_;

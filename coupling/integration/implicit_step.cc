@@ -128,6 +128,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     motion(form, base, local);
     system_.local_tangent(local, form.w_u, form.w_v, form.w_a, local.p, dp_);
     ++work.newton;
+    ++work.evaluations;
     for (const HeldMeasure &h : held) // the unknown of this column is p itself
     {
       dp_.row(h.measure).setZero();

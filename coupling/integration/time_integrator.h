@@ -16,7 +16,8 @@ struct Instant
 /// What the integration cost, independent of the machine it ran on.
 struct IntegrationWork
 {
-  long steps = 0, rejected = 0, newton = 0, factorisations = 0, solves = 0, evaluations = 0;
+  long steps = 0, rejected = 0, newton = 0, factorisations = 0, solves = 0;
+  long evaluations = 0; ///< of the forces of all elements, with or without their derivatives
 };
 
 /**

@@ -60,6 +60,7 @@ void Wilson::formula_step(const Point &from, double h, Point &to)
   // Rows of held measures keep what stands there: the point at t + h of the line to t + theta h.
   end.local.p = start.local.p + (ahead_.p - start.local.p) / theta_;
   system_.local_force(end.local, end.local.p);
+  ++work_.evaluations;
 }
 
 } // namespace gestell::coupling
