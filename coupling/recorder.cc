@@ -291,7 +291,7 @@ void Recorder::finish()
     row(integrator_.time(), last);
   for (std::size_t i = 0; i < signals_.size(); ++i)
     result_.signals[i].final = last.values[i];
-  if (result_.energy.residual > 0.01 * turned_over_)
+  if (!(result_.energy.residual <= 0.01 * turned_over_))
     result_.warnings.push_back("the energy balance is open by " + percent(result_.energy.residual / turned_over_) +
                                " of the energy turned over: the step is too large for this motion");
 }

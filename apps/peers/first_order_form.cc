@@ -26,7 +26,7 @@ void condense(const coupling::LinearSolver &solver, const Eigen::SparseMatrix<do
 
 FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
     : system_(system), n_(system.size()), n_u_(int(system.directions().cols())), mass_(system.factorise(1., 0., 0.)),
-      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_), small_(n_u_, n_u_),
+      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_),
       dp_du_(Matrix::Zero(n_u_, n_u_)), dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_),
       v_(n_), f_(n_), a_(n_), product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
 {
@@ -34,6 +34,7 @@ FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
     throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
                                 " constraints; they are compared without joints only.");
   local_.resize(n_u_);
+  small_.resize(n_u_);
   condense(*mass_, system_.directions(), column_, a_, Y_M_, S_M_);
 }
 
@@ -143,13 +144,12 @@ bool FirstOrderForm::prepare(double w_M, double w_B, double w_C, double tangent_
     known_M_ = w_M, known_B_ = w_B, known_C_ = w_C;
   }
   tangent_         = tangent_v * dp_dv_ + tangent_u * dp_du_;
-  small_.noalias() = -tangent_ * S_;
-  small_.diagonal().array() += 1.;
+  Matrix &small   = small_.matrix();
+  small.noalias() = -tangent_ * S_;
+  small.diagonal().array() += 1.;
   for (const coupling::HeldMeasure &held : system_.held())
-    small_.row(held.measure) = S_.row(held.measure);
-  if (n_u_ > 0)
-    small_lu_.compute(small_);
-  return small_.allFinite();
+    small.row(held.measure) = S_.row(held.measure);
+  return small_.factorise();
 }
 
 bool FirstOrderForm::factorise(double gamma)
@@ -190,7 +190,7 @@ void FirstOrderForm::solve_velocity()
     z_.noalias()  = tangent_ * xi_;
     for (const coupling::HeldMeasure &held : system_.held())
       z_[held.measure] = held_rate_[held.measure] - xi_[held.measure];
-    z_ = small_lu_.solve(z_);
+    small_.solve_in_place(z_);
     a_.noalias() += Y_ * z_;
   }
   f_ = a_;

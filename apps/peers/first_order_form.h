@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/second_order_system.h"
+#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 #include <Eigen/LU>
@@ -90,8 +91,8 @@ private:
   Matrix                                  Y_M_, S_M_; // M^-1 W [n x n_u], W^T M^-1 W
 
   double                      gamma_ = 0., known_M_ = 0., known_B_ = 0., known_C_ = 0.; ///< of shifted_
-  Matrix                      Y_, S_, small_, dp_du_, dp_dv_, tangent_;
-  Eigen::PartialPivLU<Matrix> small_lu_;
+  Matrix                      Y_, S_, dp_du_, dp_dv_, tangent_;
+  coupling::SmallLu           small_;
   coupling::LocalState        local_;
   Vector                      q_, v_, f_, a_, product_, column_, xi_, z_, held_rate_;
   coupling::IntegrationWork   work_;

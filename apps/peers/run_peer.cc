@@ -116,6 +116,8 @@ private:
         result.failure = stepper_->failure();
         break;
       }
+      if (k % 64 == 0 && limit_reached(ready, result))
+        break;
       if (options_.events && overdue())
         continue;
       while (result.samples.size() < problem_.samples.size() &&
@@ -126,15 +128,16 @@ private:
         sample(t, y_.data(), result);
       }
       accept(outcome == Stepper::Outcome::root);
-      if (k % 64 != 0)
-        continue;
-      if (thread_seconds() - ready > options_.cpu_limit)
-        result.failure = "more than " + std::to_string(int(options_.cpu_limit)) + " s of CPU time";
-      else if (problem_.stop && problem_.stop->load(std::memory_order_relaxed))
-        result.failure = "interrupted";
-      if (!result.failure.empty())
-        break;
     }
+  }
+
+  bool limit_reached(double ready, PeerResult &result) const
+  {
+    if (thread_seconds() - ready > options_.cpu_limit)
+      result.failure = "more than " + std::to_string(int(options_.cpu_limit)) + " s of CPU time";
+    else if (problem_.stop && problem_.stop->load(std::memory_order_relaxed))
+      result.failure = "interrupted";
+    return !result.failure.empty();
   }
 
   void begin()

@@ -70,6 +70,7 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v})
     x->setZero(n_);
   dp_du_.setZero(n_u_, n_u_);
+  pivots_.setZero(n_u_, n_u_);
   dp_dv_.setZero(n_u_, n_u_);
   stiffness_.setZero(n_u_);
   moved_.setZero(n_u_);
@@ -139,6 +140,8 @@ void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::Vecto
   cut_        = false;
   barred_     = 0;
   rung_       = first_rung;
+  while (rung_ > 1 && step_of(rung_) < options_.smallest_step)
+    --rung_;
   present(z_, t);
   stiffness_.setZero();
   restart();

@@ -89,6 +89,7 @@ private:
   {
     bool   solved = false; ///< Newton converged
     double error  = 0.;    ///< in units of the tolerance
+    double h_beta = 0.;    ///< [s] of its equation
   };
 
   double             step_of(int rung) const;
@@ -98,6 +99,7 @@ private:
   void               load(double t);
   void               forces_of_held(const Eigen::VectorXd &z);
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
+  bool               is_sound(double h_beta);
   void               multistep();
   void               resolve_stiffness();
   void               improve_middle();
@@ -137,7 +139,7 @@ private:
   double                           t_begin_ = 0., t_end_ = 0.; ///< of the last step
   Eigen::VectorXd                  z_begin_, z_cut_, z_, predicted_, difference_, history_;
   Eigen::VectorXd                  chain_[2], middle_[3], end_[3];
-  Eigen::MatrixXd                  dp_du_, dp_dv_;
+  Eigen::MatrixXd                  dp_du_, dp_dv_, pivots_;
   Eigen::VectorXd                  stiffness_; ///< -dp/du by measure, before an event; then its change there [n_u]
   Eigen::VectorXd                  moved_;     ///< S_jj p_j of the last step tried [n_u]
   std::string                      reason_;    ///< of Newton's last failure

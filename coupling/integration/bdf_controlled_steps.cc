@@ -73,6 +73,7 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
     return trial;
   difference_  = z_ - predicted_;
   trial.solved = true;
+  trial.h_beta = h / bdf_gamma(order_);
   trial.error  = scale_.error(motion(difference_)) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
   return trial;
 }
@@ -115,7 +116,7 @@ void BdfControlled::multistep()
 void BdfControlled::refuse(const Trial &trial, double exponent)
 {
   int rungs = 1;
-  if (trial.solved)
+  if (trial.solved && is_sound(trial.h_beta))
     scale_.refuse();
   if (trial.solved)
     rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
@@ -207,6 +208,32 @@ void BdfControlled::change(int rung, int order)
   since_change_ = 0;
 }
 
+/// Where a force falls with the motion (dp/du > 0), the equation of a step has a pole, I - S dp singular, and near it and
+/// beyond it solutions that have nothing to do with the motion.  All pivots of I - S dp at the begin of the step being
+/// above a quarter, the solution goes at most some four times as far as it should.
+bool BdfControlled::is_sound(double h_beta)
+{
+  const double    inverse = 1. / h_beta, squared = h_beta * h_beta;
+  const StepForm  form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
+  const auto     &S = implicit_.condensed(form, work_).S;
+  dp_du_.setZero(); // what sticks writes nothing
+  dp_dv_.setZero();
+  point(z_begin_, t_end_, local_);
+  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  ++work_.evaluations;
+  pivots_.noalias() = -S.lazyProduct(dp_du_);
+  pivots_.noalias() -= inverse * S.lazyProduct(dp_dv_);
+  pivots_.diagonal().array() += 1.;
+  for (Eigen::Index k = 0; k < n_u_; ++k)
+  {
+    if (!(pivots_(k, k) > 0.25))
+      return false;
+    for (Eigen::Index i = k + 1; i < n_u_; ++i)
+      pivots_.row(i) -= pivots_(i, k) / pivots_(k, k) * pivots_.row(k);
+  }
+  return true;
+}
+
 /// n implicit Euler steps over the length, from z_begin_: where they are after half of it, and at the end.
 void BdfControlled::euler_chain(double length, int n, Eigen::VectorXd &middle, Eigen::VectorXd &end)
 {
@@ -246,6 +273,7 @@ BdfControlled::Trial BdfControlled::try_start(double h)
   if (!scale_.consider(t_end_ + length, length, motion(z_begin_), motion(end_[2]), moved_))
     return trial;
   trial.solved = true;
+  trial.h_beta = length; // of the first chain
   trial.error  = scale_.error(motion(difference_)) / options_.tolerance;
   return trial;
 }
@@ -265,6 +293,8 @@ void BdfControlled::resolve_stiffness()
     if (!(most > resolved * resolved))
       break;
     rung_ += std::max(1, static_cast<int>(std::ceil(std::log2(std::sqrt(most) / resolved))));
+    while (rung_ > 1 && step_of(rung_) < options_.smallest_step)
+      --rung_;
   }
   stiffness_.setZero();
 }

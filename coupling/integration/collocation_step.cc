@@ -56,6 +56,7 @@ public:
   {
     x_begin_  = x;
     begin_at_ = at;
+    scale_    = context_.scale;
     h_last_   = 0.;
     factors_  = nullptr;
   }
@@ -83,6 +84,7 @@ public:
   void accept() override
   {
     x_begin_.swap(x_end_);
+    scale_      = context_.scale;
     begin_at_.u = U_.col(s_ + 1);
     begin_at_.v = V_.col(s_ + 1);
     begin_at_.p = P_end_;
@@ -208,8 +210,7 @@ private:
       if (!evaluate(table, fresh))
         return false;
       lu_.solve_in_place(residual_);
-      if (iteration == 0)
-        context_.grow_scale(U_.col(1), V_.col(1), table.h);
+      grow_scale(U_.col(1), V_.col(1), table.h);
       const double size = size_of(table, residual_);
       if (!std::isfinite(size))
         return false;
@@ -223,6 +224,13 @@ private:
       before = size;
     }
     return false;
+  }
+
+  /// The excursions of accepted steps, and of this iterate: neither of those before it nor of steps refused.
+  void grow_scale(const Eigen::Ref<const VectorXd> &u, const Eigen::Ref<const VectorXd> &v, double h)
+  {
+    context_.scale = scale_;
+    context_.grow_scale(u, v, h);
   }
 
   /// What a change of the forces does to the measures, relative to their scales.
@@ -260,7 +268,7 @@ private:
     V_.col(s_ + 1) = end.v;
     defect_        = end.p - P_end_;
     P_end_         = end.p;
-    context_.grow_scale(end.u, end.v, table.h);
+    grow_scale(end.u, end.v, table.h);
     error_ = 0.;
     const Index last = s_ * n_u_;
     for (int r = 0; r < n_u_; ++r)
@@ -282,6 +290,7 @@ private:
   ForceBasis          basis_;
   HermiteNodes        nodes_;
   VectorXd            x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_;
+  VectorXd            scale_; ///< [n_u] of the steps accepted
   MatrixXd            U_, V_, dp_du_, dp_dv_, extrapolate_;
   std::vector<double> at_end_;
   LocalState          begin_at_, node_;

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/implicit_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -48,7 +49,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
   dp_.setZero(n_u, n_u);
-  jacobian_.setZero(n_u, n_u);
+  jacobian_.resize(n_u);
   Y_.setZero(n, n_u);
   try
   {
@@ -106,14 +107,16 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       dp_.col(h.measure).setZero();
       dp_(h.measure, h.measure) = 1.;
     }
-    jacobian_.noalias() = -D_.lazyProduct(dp_);
-    jacobian_.diagonal().array() += 1.;
-    for (const HeldMeasure &h : held)
-      jacobian_(h.measure, h.measure) -= 1.;
+    Eigen::MatrixXd &jacobian = jacobian_.matrix();
+    jacobian.noalias()        = -D_.lazyProduct(dp_);
+    for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
+      if (std::none_of(held.begin(), held.end(), [i](const HeldMeasure &h) { return h.measure == i; }))
+        jacobian(i, i) += 1.;
     correction_ = a_free_ - local.a;
     correction_.noalias() += D_.lazyProduct(local.p);
-    if (!solve_small(jacobian_, correction_))
-      break;
+    if (!jacobian_.factorise())
+      fail_singular(system_, local.t);
+    jacobian_.solve_in_place(correction_);
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
     {
       local.p[h.measure] += correction_[h.measure];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 namespace gestell::coupling
@@ -33,7 +34,8 @@ private:
 
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;
-  Eigen::MatrixXd               Y_, D_, dp_, jacobian_; // Y = M^-1 W [n x n_u]
+  Eigen::MatrixXd               Y_, D_, dp_; // Y = M^-1 W [n x n_u]
+  SmallLu                       jacobian_;
   Eigen::VectorXd               f_, product_, a_free_, correction_;
 };
 

@@ -28,6 +28,7 @@ namespace gestell::coupling
  * the number of times the motion goes through its range, however many steps that takes: global errors are proportional
  * to the tolerance.  A method of order k has an error of order h^k in this measure.
  *
+ * A group does not count for less than 1e-6 of the one that moves most: bodies at rest have no scale of their own.
  * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
  * and what forces that balance each other would do alone.
  */
@@ -57,7 +58,8 @@ public:
   /// The step last considered is taken: its excursions count from now on.
   void accept();
   /// It is refused.  But it tells how far the motion will have gone by its end, and until then scales are not below
-  /// that: a motion that begins from rest, like t^3, would else have no step small enough.
+  /// that: a motion that begins from rest, like t^3, would else have no step small enough.  Not to be asked for a step
+  /// whose solution is far from any motion.
   void refuse();
 
   /// Error relative to the scales of the step last considered, per chi; the largest of all groups and measures.
@@ -76,7 +78,7 @@ private:
   {
     int first, size, group;
   };
-  /// Largest excursions squared of each group, and of each measure.
+  /// Largest excursions of each group, and of each measure.
   struct Excursions
   {
     Eigen::VectorXd q, v, u, u_rate; // [groups], [groups], [n_u], [n_u]

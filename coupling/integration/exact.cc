@@ -129,7 +129,15 @@ const StepTable &Exact::table_for(const Target &target)
 bool Exact::attempt(const Target &target)
 {
   ++context_.work.solves;
-  return force_->solve(table_for(target), local_);
+  try
+  {
+    return force_->solve(table_for(target), local_);
+  }
+  catch (const ConvergenceFailure &)
+  {
+    local_ = local_begin_;
+    throw;
+  }
 }
 
 void Exact::advance()

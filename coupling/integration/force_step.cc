@@ -71,7 +71,7 @@ void ExactContext::factorise_delassus(double t)
     for (int j = 0; j < n; ++j)
       delassus_.matrix()(i, j) = mobility(held[i].measure, held[j].measure);
   if (!delassus_.factorise())
-    throw ConvergenceFailure("two measures that stick hold the same motion at t = " + std::to_string(t) + " s");
+    fail_singular(*system, t);
 }
 
 void ExactContext::project_held(Eigen::VectorXd &x, LocalState &local)

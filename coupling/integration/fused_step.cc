@@ -217,6 +217,14 @@ private:
     context_.work.evaluations += 2 * n;
   }
 
+  bool is_held(int measure) const
+  {
+    for (const HeldMeasure &h : context_.system->held())
+      if (h.measure == measure)
+        return true;
+    return false;
+  }
+
   /// After mean_of_law(1): the law at the ends of the way is not what its values and slope at the second Gauss point and
   /// the value at the first say of it, up to the second degree.
   bool kink_on_the_way()
@@ -230,6 +238,8 @@ private:
     static constexpr double distance = 0.57735026918962573, far = 0.21132486540518712; // of the points; to the near end
     for (int r = 0; r < n_u_; ++r)
     {
+      if (is_held(r)) // its force is an unknown of the step and follows no law
+        continue;
       double slope = 0.;
       for (int j = 0; j < n_u_; ++j)
         slope += dp_of_u_(r, j) * (node_.u[j] - at_begin_.u[j]) + dp_of_v_(r, j) * (node_.v[j] - at_begin_.v[j]);

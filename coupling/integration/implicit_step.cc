@@ -25,41 +25,20 @@ bool is_held(const std::vector<HeldMeasure> &held, Eigen::Index measure)
 }
 } // namespace
 
-bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x)
+void fail_singular(const SecondOrderSystem &system, double t)
 {
-  const int n = static_cast<int>(x.size());
-  for (int k = 0; k < n; ++k)
-  {
-    int pivot = k;
-    for (int i = k + 1; i < n; ++i)
-      if (std::abs(a(i, k)) > std::abs(a(pivot, k)))
-        pivot = i;
-    if (!(std::abs(a(pivot, k)) > 0.))
-      return false;
-    if (pivot != k)
+  std::ostringstream message;
+  message << "the equation of the forces is singular at t = " << t << " s";
+  const char *separator = ": the elements that stick hold the same motion, on ";
+  for (const HeldMeasure &h : system.held())
+    for (Eigen::SparseMatrix<double>::InnerIterator it(system.directions(), h.measure); it; ++it)
     {
-      for (int j = k; j < n; ++j)
-        std::swap(a(k, j), a(pivot, j));
-      std::swap(x[k], x[pivot]);
+      message << separator << system.coordinate_name(static_cast<int>(it.row()));
+      separator = ", ";
     }
-    const double inverse = 1. / a(k, k);
-    for (int i = k + 1; i < n; ++i)
-    {
-      const double factor = a(i, k) * inverse;
-      if (factor == 0.)
-        continue;
-      for (int j = k + 1; j < n; ++j)
-        a(i, j) -= factor * a(k, j);
-      x[i] -= factor * x[k];
-    }
-  }
-  for (int k = n - 1; k >= 0; --k)
-  {
-    for (int j = k + 1; j < n; ++j)
-      x[k] -= a(k, j) * x[j];
-    x[k] /= a(k, k);
-  }
-  return x.allFinite();
+  if (!system.held().empty())
+    message << "; make one of them a regularised friction, or put a spring between them";
+  throw ConvergenceFailure(message.str());
 }
 
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
@@ -74,7 +53,7 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   scale_.setZero(n_u);
   scale_before_.setZero(n_u);
   dp_.setZero(n_u, n_u);
-  jacobian_.setZero(n_u, n_u);
+  jacobian_.resize(n_u);
   begin(u_begin_);
 }
 
@@ -136,14 +115,19 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       dp_(h.measure, h.measure) = 1.;
     }
 
-    jacobian_.noalias() = -condensed.S.lazyProduct(dp_);
-    for (Eigen::Index i = 0; i < jacobian_.rows(); ++i)
+    Eigen::MatrixXd &jacobian = jacobian_.matrix();
+    jacobian.noalias()        = -condensed.S.lazyProduct(dp_);
+    for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
       if (!is_held(held, i)) // adding 1 and taking it away again would round a small S away
-        jacobian_(i, i) += 1.;
+        jacobian(i, i) += 1.;
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
-    if (!solve_small(jacobian_, correction_))
+    singular_ = !jacobian_.factorise();
+    if (singular_)
+      return false;
+    jacobian_.solve_in_place(correction_);
+    if (!correction_.allFinite())
       return false;
 
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
@@ -187,7 +171,11 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
   ++work.solves;
   local.t = base.t;
   if (W.cols() == 0)
+  {
+    if (!x.allFinite()) // with elements Newton sees it
+      throw ConvergenceFailure("the motion grew beyond all numbers at t = " + std::to_string(base.t) + " s");
     return;
+  }
   xi_free_.noalias() = W.transpose() * x;
   if (condensed.form.w_u != 0.)
     xi_ = (local.u - base.u) / condensed.form.w_u;
@@ -205,6 +193,8 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
 
 void ImplicitStep::fail(double t) const
 {
+  if (singular_)
+    fail_singular(system_, t);
   int worst = 0;
   for (int i = 1; i < residual_.size(); ++i)
     if (std::abs(residual_[i]) * scale_[worst] > std::abs(residual_[worst]) * scale_[i])

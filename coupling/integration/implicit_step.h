@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/second_order_system.h"
+#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 #include <array>
@@ -74,11 +75,14 @@ private:
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
   Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
-  Eigen::MatrixXd                            dp_, jacobian_;
+  Eigen::MatrixXd                            dp_;
+  SmallLu                                    jacobian_;
+  bool                                       singular_ = false;
   double                                     contraction_; ///< of Newton's corrections, as seen last
 };
 
-/// Gaussian elimination with partial pivoting in place, for a few unknowns; no allocation.  False: singular.
-bool solve_small(Eigen::MatrixXd &a, Eigen::VectorXd &x);
+/// Tells which measures that stick leave their forces undetermined.
+/// @throws ConvergenceFailure always
+[[noreturn]] void fail_singular(const SecondOrderSystem &system, double t);
 
 } // namespace gestell::coupling

@@ -17,6 +17,8 @@ namespace gestell::coupling
 namespace
 {
 
+constexpr double finest = 1e-13; ///< tolerances below are rounding
+
 template <typename Value>
 void require(bool valid, const std::string &method, const char *parameter, Value value, const char *needed)
 {
@@ -73,9 +75,11 @@ void check_method(const MethodOptions &o)
   require(o.tolerance >= 0. && o.tolerance < 1., name, "tolerance", o.tolerance, "between 0 and 1");
   require(o.tolerance == 0. || controllable, name, "tolerance", o.tolerance,
           "left out: only bdf and exact control their step; give a step");
-  require(o.tolerance == 0. || o.tolerance >= 1e-13, name, "tolerance", o.tolerance,
+  require(o.tolerance == 0. || o.tolerance >= finest, name, "tolerance", o.tolerance,
           "1e-13 or more: what lies below is rounding");
   require(o.tolerance > 0. || o.step > 0., name, "step [s]", o.step, "positive, or a tolerance be given");
+  require(o.newton.tolerance >= finest && o.newton.tolerance < 1., name, "newton_tolerance", o.newton.tolerance,
+          "1e-13 or more, below 1");
   switch (o.method)
   {
   case Method::bdf:
@@ -83,7 +87,7 @@ void check_method(const MethodOptions &o)
     break;
   case Method::newmark:
     require(o.beta >= 0., name, "beta", o.beta, "zero or positive");
-    require(o.gamma >= 0., name, "gamma", o.gamma, "zero or positive");
+    require(o.gamma > 0., name, "gamma", o.gamma, "positive");
     break;
   case Method::wilson:
     require(o.theta >= 1., name, "theta", o.theta, "1 or more");
@@ -137,7 +141,7 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
     options.tolerance = o.tolerance;
     options.newton    = o.newton;
     if (o.tolerance > 0.)
-      options.newton.tolerance = std::clamp(1e-3 * o.tolerance, 1e-13, o.newton.tolerance);
+      options.newton.tolerance = std::clamp(1e-3 * o.tolerance, finest, o.newton.tolerance);
     else
       options.max_halvings = o.max_halvings;
     return std::make_unique<Exact>(system, options);

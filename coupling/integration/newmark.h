@@ -8,8 +8,8 @@ namespace gestell::coupling
 /**
  * Newmark's family with fixed step: Newmark, HHT-alpha, generalised alpha, central differences.
  *
- *     q_1 = q_0 + h v_0 + h^2 (1/2 - beta) a_0 + beta x,     v_1 = v_0 + h (1 - gamma) a_0 + gamma x / h,     x = h^2
- * a_1
+ *     q_1 = q_0 + h v_0 + h^2 (1/2 - beta) a_0 + beta x,     v_1 = v_0 + h (1 - gamma) a_0 + gamma x / h,
+ *     x = h^2 a_1
  *
  *     M [(1 - alpha_m) a_1 + alpha_m a_0] + B [(1 - alpha_f) v_1 + alpha_f v_0] + C [(1 - alpha_f) q_1 + alpha_f q_0]
  *       = (1 - alpha_f) (f_1 + W p_1) + alpha_f (f_0 + W p_0)

@@ -186,7 +186,33 @@ Eigen::MatrixXd amplification_matrix(const MethodOptions &options, const TestOsc
   return (A * lift).topRows<2>();
 }
 
-Overshoot overshoot(const MethodOptions &options, const TestOscillator &o, OscillatorStart start)
+namespace
+{
+
+/// A step of the start of BDF p on (x, h x'): implicit Euler in 1, 2, ... parts, extrapolated to order p (3 for p = 2).
+Eigen::Matrix2d extrapolated_start(int p, const TestOscillator &o)
+{
+  const int                    order = p == 2 ? 3 : p;
+  std::vector<Eigen::Matrix2d> table(static_cast<std::size_t>(order));
+  for (int j = 0; j < order; ++j)
+  {
+    const double          parts = j + 1.;
+    const Eigen::Matrix2d part  = bdf_matrix(1, {o.zeta, o.omega_h / parts, o.spring});
+    Eigen::Matrix2d       chain = Eigen::Matrix2d::Identity();
+    for (int i = 0; i <= j; ++i)
+      chain = part * chain;
+    chain(0, 1) /= parts; // of (x, h x'/parts) to (x, h x')
+    chain(1, 0) *= parts;
+    table[j] = chain;
+    for (int k = j - 1; k >= 0; --k)
+      table[k] = table[k + 1] + (table[k + 1] - table[k]) / ((j + 1.) / (k + 1.) - 1.);
+  }
+  return table[0];
+}
+
+} // namespace
+
+Overshoot overshoot(const MethodOptions &options, const TestOscillator &o, OscillatorStart start, BdfStart first_steps)
 {
   const double Omega = o.omega_h;
   const double x = start == OscillatorStart::displaced ? 1. : 0., v = start == OscillatorStart::moving ? Omega : 0.;
@@ -221,8 +247,9 @@ Overshoot overshoot(const MethodOptions &options, const TestOscillator &o, Oscil
   state[p]              = v;
   for (int step = 1; step <= n_steps; ++step)
   {
-    const int             order = std::min(step, p);
-    const Eigen::MatrixXd A     = bdf_matrix(order, o);
+    const bool            starts = step < p && first_steps == BdfStart::extrapolated;
+    const int             order  = starts ? 1 : std::min(step, p);
+    const Eigen::MatrixXd A      = starts ? Eigen::MatrixXd(extrapolated_start(p, o)) : bdf_matrix(order, o);
     Eigen::VectorXd       past(2 * order);
     past << state.head(order), state.segment(p, order);
     const double now = A.row(0).dot(past), rate = A.row(order).dot(past);

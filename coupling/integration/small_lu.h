@@ -9,23 +9,28 @@
 namespace gestell::coupling
 {
 
-/// LU factors of a few unknowns with partial pivoting; nothing allocates as long as resize() does not grow.  Zeros below the pivot, as rows
-/// of idle elements have, are skipped.
+/// LU factors of a few unknowns with partial pivoting; nothing allocates as long as resize() does not grow.  Zeros, as
+/// rows of idle elements have, are skipped.
 class SmallLu
 {
 public:
   void resize(int n)
   {
     a_.setZero(n, n);
+    row_size_.setZero(n);
     pivot_.assign(n, 0);
   }
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
 
-  /// False: singular.
+  /// False: singular, which is when a pivot is rounding of the row it stands in.
   bool factorise()
   {
-    const int n = static_cast<int>(pivot_.size());
+    constexpr double rounding = 1e-14;
+    const int        n        = static_cast<int>(pivot_.size());
+    row_size_.setZero();
+    for (int j = 0; j < n; ++j)
+      row_size_ = row_size_.cwiseMax(a_.col(j).cwiseAbs());
     for (int k = 0; k < n; ++k)
     {
       int pivot = k;
@@ -33,8 +38,10 @@ public:
         if (std::abs(a_(i, k)) > std::abs(a_(pivot, k)))
           pivot = i;
       pivot_[k] = pivot;
-      if (!(std::abs(a_(pivot, k)) > 0.) || !std::isfinite(a_(pivot, k)))
+      if (!(std::abs(a_(pivot, k)) > rounding * row_size_[pivot]) || !std::isfinite(a_(pivot, k)))
         return false;
+      if (pivot != k)
+        std::swap(row_size_[k], row_size_[pivot]);
       if (pivot != k)
         for (int j = 0; j < n; ++j)
           std::swap(a_(k, j), a_(pivot, j));
@@ -67,6 +74,7 @@ public:
 
 private:
   Eigen::MatrixXd  a_;
+  Eigen::VectorXd  row_size_; ///< largest entry of each row before elimination
   std::vector<int> pivot_;
 };
 

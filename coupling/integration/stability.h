@@ -69,8 +69,16 @@ enum class OscillatorStart
   moving     ///< x = 0, x' = omega
 };
 
-/// In the first 20 steps, from consistent accelerations.  BDF takes its first steps with orders 1, 2, ... p.
-Overshoot overshoot(const MethodOptions &options, const TestOscillator &oscillator, OscillatorStart start);
+/// The first steps of BDF.
+enum class BdfStart
+{
+  extrapolated, ///< chains of implicit Euler steps, as the integrator begins
+  order_ramp    ///< orders 1, 2, ... p, as tables of the literature have it
+};
+
+/// In the first 20 steps, from consistent accelerations.
+Overshoot overshoot(const MethodOptions &options, const TestOscillator &oscillator, OscillatorStart start,
+                    BdfStart first_steps = BdfStart::extrapolated);
 
 /// omega h in (from, to), where the method grows.
 struct UnstableInterval

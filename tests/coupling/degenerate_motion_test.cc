@@ -1,0 +1,105 @@
+// Runs that cannot go on say why: forces that nothing determines, motions beyond all numbers.
+
+#include "coupling/simulation.h"
+#include "mechanism/elements/coulomb_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Vector = Eigen::VectorXd;
+
+/// One mass on a spring, shaken, with dry friction of 6 N in all; the second element rubs on `weight` times its motion.
+Machine rubbed(int n_elements, double weight)
+{
+  Machine   machine;
+  const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
+  machine.add_linear("spring", {{x, 1.}}, 100., 0., 0., 0., "N");
+  machine.add_load("shaker", {{x, 1.}}, 0., {{4., 10., M_PI / 2.}}, "N");
+  for (int i = 0; i < n_elements; ++i)
+    machine.attach("pad" + std::to_string(i),
+                   std::make_shared<mechanism::CoulombFriction>(
+                       mechanism::CoulombFriction::Parameters{6. / n_elements, 6. / n_elements, 0.}),
+                   {{{x, i == 0 ? 1. : weight}}});
+  machine.finish();
+  return machine;
+}
+
+RunOptions options(Method method, double step, ForceRule force = ForceRule::collocation)
+{
+  RunOptions run;
+  run.method.method = method;
+  run.method.force  = force;
+  run.method.step   = step;
+  run.end           = 2.;
+  return run;
+}
+
+const InitialState rest{0., Vector::Zero(1), Vector::Zero(1)};
+
+class Redundant : public ::testing::TestWithParam<RunOptions>
+{
+};
+
+TEST_P(Redundant, StickingOfOneMotionIsNamed)
+{
+  for (const double weight : {1., 0.3, -1.})
+  {
+    Machine     machine = rubbed(2, weight);
+    std::string failure;
+    try
+    {
+      failure = simulate(machine, rest, GetParam(), {}).failure;
+    }
+    catch (const ConvergenceFailure &at_start)
+    {
+      failure = at_start.what();
+    }
+    EXPECT_NE(failure.find("hold the same motion, on mass"), std::string::npos) << weight << ": " << failure;
+  }
+  Machine one = rubbed(1, 1.);
+  EXPECT_EQ(simulate(one, rest, GetParam(), {}).failure, "");
+}
+INSTANTIATE_TEST_SUITE_P(Methods, Redundant,
+                         ::testing::Values(options(Method::bdf, 1e-3), options(Method::newmark, 1e-3),
+                                           options(Method::exact, 1e-3),
+                                           options(Method::exact, 1e-3, ForceRule::average)),
+                         [](const auto &info)
+                         {
+                           std::string name;
+                           for (const char c : method_name(info.param.method))
+                             if (std::isalnum(static_cast<unsigned char>(c)))
+                               name += c;
+                           return name;
+                         });
+
+TEST(Simulation, ThatGrowsBeyondAllNumbersStopsAndSaysSo)
+{
+  Machine   machine;
+  const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
+  machine.add_linear("spring", {{x, 1.}}, 100., 0., 0., 0., "N");
+  machine.finish();
+  RunOptions run     = options(Method::central_difference, 0.3); // omega h = 3
+  run.end            = 500.;
+  run.force_unstable = true;
+  const RunResult result = simulate(machine, {0., Vector::Ones(1), Vector::Zero(1)}, run, {});
+  EXPECT_NE(result.failure.find("beyond all numbers"), std::string::npos) << result.failure;
+}
+
+TEST(Simulation, AMassThatSticksCostsNoSearchForKinks)
+{
+  Machine    machine = rubbed(1, 1.);
+  RunOptions run     = options(Method::exact, 1e-3, ForceRule::average);
+  run.end            = 0.1; // 10 N sin(4 t) stays below 6 N
+  const RunResult result = simulate(machine, rest, run, {});
+  EXPECT_LT(result.work.evaluations, 10 * result.work.steps);
+}
+
+} // namespace
+} // namespace gestell::tests
