@@ -6,11 +6,27 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 
 namespace
 {
+
+/// CLI11's own check prints the largest number there is, with all its digits.
+CLI::Validator above_zero()
+{
+  return CLI::Validator(
+      [](const std::string &text)
+      {
+        char        *end   = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return *end == '\0' && !text.empty() && value > 0. && std::isfinite(value)
+                   ? std::string()
+                   : "needs a plain number above zero, got " + text;
+      },
+      "NUMBER");
+}
 
 using namespace gestell::apps;
 
@@ -22,7 +38,7 @@ CLI::App *add_command(CLI::App &program, const std::string &name, const std::str
   command->add_option(input, options.input, input == "SCENE" ? "scene file (TOML)" : "STEP, BREP, .geo or .msh file")
       ->required();
   command->add_option("--jobs", options.jobs, "threads of the linear algebra that makes a frame (default 1)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_flag("--quiet", options.quiet, "no progress on standard error");
   if (input == "SCENE")
   {
@@ -49,7 +65,7 @@ CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptio
       ->delimiter(',');
   command->add_option("--modes", chart.modes, "numbers of modes of the reduced frame, such as 10,20,50")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--reference", chart.reference, "table of the true motion (CSV) instead of an own fine run")
       ->check(CLI::ExistingFile);
   command->add_option("--events", chart.events, "on: located, off: passed over, both (default)")
@@ -59,7 +75,7 @@ CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptio
   command->add_flag("--quick", chart.quick, "a minute instead of ten: fewer methods, steps and tolerances");
   command->add_option("--samples", chart.samples, "instants that errors are measured at (default 2000)");
   command->add_option("--limit", chart.limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   return command;
 }
 
@@ -72,7 +88,7 @@ CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityComm
   command->get_option("SCENE")->required(false);
   command->add_option("--zeta", stability.zetas, "damping ratios of the maps (default 0,0.01,0.05)")->delimiter(',');
   command->add_option("--step", stability.step, "step [s] at which the scene's modes are shown (default run.step)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--atlas", stability.atlas, "write the failure atlas into this file (Markdown) instead");
   return command;
 }
@@ -102,7 +118,7 @@ int main(int argc, char **argv)
                                  "gestell mesh meshes/press_frame.step --size '80 mm'", "CAD", options);
   mesher->add_option("--size", mesh.size, "element size, such as \"80 mm\"");
   mesher->add_option("--unit", mesh.unit, "length unit of a file without one, such as \"1 mm\"");
-  mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(CLI::PositiveNumber);
+  mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(above_zero());
 
   StabilityCommandOptions stability_options;
   CLI::App               *stability = add_stability(program, options, stability_options);

@@ -38,16 +38,13 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine)
   return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.stiffness_times(x, y); });
 }
 
-void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
-                      Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping)
+namespace
 {
-  std::vector<std::string> names;
-  for (const ElementPlacement &placement : machine.elements())
-    names.push_back(placement.name);
-  for (const std::string &name : open)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
 
+template <typename Matrices>
+void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping,
+            const Matrices &of_element)
+{
   const int             n = machine.size();
   const auto           &W = machine.directions();
   const Eigen::VectorXd u = W.transpose() * q;
@@ -57,16 +54,40 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
   for (const ElementPlacement &placement : machine.elements())
   {
     const int       k = placement.element->n_measures();
-    Eigen::MatrixXd K(k, k), D(k, k);
-    placement.element->engaged(u.data() + first, K.data(), D.data());
-    if (std::find(open.begin(), open.end(), placement.name) == open.end())
-    {
-      const Eigen::MatrixXd own = W.middleCols(first, k);
-      stiffness += own * K * own.transpose();
-      damping += own * D * own.transpose();
-    }
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+    of_element(placement, u.data() + first, K, D);
+    const Eigen::MatrixXd own = W.middleCols(first, k);
+    stiffness += own * K * own.transpose();
+    damping += own * D * own.transpose();
     first += k;
   }
+}
+
+} // namespace
+
+void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
+                      Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping)
+{
+  std::vector<std::string> names;
+  for (const ElementPlacement &placement : machine.elements())
+    names.push_back(placement.name);
+  for (const std::string &name : open)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
+  add_up(machine, q, stiffness, damping,
+         [&open](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         {
+           if (std::find(open.begin(), open.end(), placement.name) == open.end())
+             placement.element->engaged(u, K.data(), D.data());
+         });
+}
+
+void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                       Eigen::MatrixXd &damping)
+{
+  add_up(machine, q, stiffness, damping,
+         [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         { placement.element->stiffest(u, K.data(), D.data()); });
 }
 
 } // namespace gestell::coupling

@@ -15,4 +15,8 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine);
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
 
+/// The same of all elements in the stiffest branch of their laws.
+void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                       Eigen::MatrixXd &damping);
+
 } // namespace gestell::coupling

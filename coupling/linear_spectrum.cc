@@ -110,7 +110,7 @@ std::vector<LinearMode> linear_modes(const Machine &machine, const Eigen::Vector
     return modes_of_large(machine);
   std::vector<LinearMode> result;
   add_modes(M, B, C, {}, ModeOrigin::base, rule, result);
-  engaged_matrices(machine, q, {}, K, D);
+  stiffest_matrices(machine, q, K, D);
   if (!K.isZero(0.) || !D.isZero(0.))
     add_modes(M, B + D, C + K, K, ModeOrigin::closed, rule, result);
   return result;

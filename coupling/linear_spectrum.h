@@ -9,7 +9,7 @@ namespace gestell::coupling
 enum class ModeOrigin
 {
   base,  ///< the base system: frame and bodies, elements open
-  closed ///< with the elements engaged at the start configuration
+  closed ///< with every element in the stiffest branch of its law, at the start configuration
 };
 
 /// A vibrating mode of the machine, for an integrator.

@@ -281,7 +281,8 @@ void Recorder::balance()
   const EnergyState energy = energy_.state(integrator_.instant());
   result_.energy           = {energy.input, energy.stored, energy.dissipated,
                               std::max(result_.energy.residual, std::abs(energy.residual()))};
-  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated});
+  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated,
+                           std::abs(energy.kinetic)});
 }
 
 void Recorder::finish()
@@ -291,9 +292,14 @@ void Recorder::finish()
     row(integrator_.time(), last);
   for (std::size_t i = 0; i < signals_.size(); ++i)
     result_.signals[i].final = last.values[i];
-  if (!(result_.energy.residual <= 0.01 * turned_over_))
-    result_.warnings.push_back("the energy balance is open by " + percent(result_.energy.residual / turned_over_) +
-                               " of the energy turned over: the step is too large for this motion");
+  const double residual = result_.energy.residual, rounding = 1e-9 * std::abs(energy_.at_begin());
+  if (residual <= std::max(0.01 * turned_over_, rounding))
+    return;
+  const std::string open = "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";
+  if (residual <= 0.5 * turned_over_ || options_.force_unstable || !result_.failure.empty())
+    result_.warnings.push_back(open + "the step is too large for this motion");
+  else
+    result_.failure = open + "this is no motion of the machine; take a smaller step or a method with a tolerance";
 }
 
 } // namespace gestell::coupling

@@ -51,6 +51,11 @@ void check_load_period(const Machine &machine, const RunOptions &options)
 
 void check_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
+  constexpr double most_pictures = 2e4;
+  const double     count         = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
+  if (!options.allow_large && count > most_pictures)
+    refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
+           options.picture_step, " s, or say output.allow_large = true if that is what you want");
   const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.);
   const double history  = 8. * columns * (length / output_step(options) + 1.),
                pictures = options.picture_step > 0. ? 8. * machine.size() * (length / options.picture_step + 1.) : 0.;

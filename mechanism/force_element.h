@@ -109,6 +109,10 @@ public:
   /// frequencies.  Technological forces and drives are no structure: zero, the default.
   virtual void engaged(const double *u, double *K, double *D) const;
 
+  /// Stiffness and damping as above of the stiffest branch of the law near u, technological forces included: what the
+  /// step of an integrator has to stand.  Default: engaged().
+  virtual void stiffest(const double *u, double *K, double *D) const { engaged(u, K, D); }
+
   /// Position function the element closes when it is engaged, g(u) = 0 (compression of a rod, twist of a coupling):
   /// returns false if there is none; else g, its gradient [k] and its second derivative along v, v^T g'' v.
   virtual bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const;

@@ -97,6 +97,8 @@ int run_command(const CommonOptions &options)
   write_results(folder, result);
 
   print_answer(*result.run);
+  for (const std::string &warning : result.run->warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << "report: " << (folder / "report.html").string() << '\n';
   if (!result.run->failure.empty())
   {

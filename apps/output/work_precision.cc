@@ -81,6 +81,8 @@ std::string choice_text(const WorkPrecision &chart, const std::vector<WorkSeries
   const WorkPoint &point = chart.points[best->at.point];
   text += point.method + ", " + setting_text(point) + ", events " + (point.events ? "located" : "passed over") + ", " +
           (best->at.bound ? "at most " : "") + short_text(1e3 * best->at.cpu_s, 3) + " ms";
+  if (!best->at.bound && point.cpu_s > 1.1 * best->at.cpu_s)
+    text += " on its line (this run " + short_text(1e3 * point.cpu_s, 3) + " ms for " + power_text(point.error) + ")";
   if (const auto peer = best_at_error(chart, series, model, false, target))
     text += "; " + peer->series->method + (peer->series->events ? " with events " : " ") +
             (peer->at.bound ? "at most " : "") + short_text(1e3 * peer->at.cpu_s, 3) +
@@ -116,22 +118,28 @@ std::vector<WorkSeries> work_series(const WorkPrecision &chart)
 
 std::vector<std::size_t> pareto_front(const WorkPrecision &chart, int model)
 {
+  // A run that the reference does not resolve is at least as accurate as what it does resolve: it beats others, but its
+  // own place is not known.
+  const double             resolved = 10. * chart.models[std::size_t(model)].reference_error;
+  const auto               error_of = [&](std::size_t i)
+  { return usable(chart.points[i]) ? chart.points[i].error : std::max(chart.points[i].error, resolved); };
   std::vector<std::size_t> candidates, front;
   for (std::size_t i = 0; i < chart.points.size(); ++i)
-    if (chart.points[i].model == model && usable(chart.points[i]))
+    if (chart.points[i].model == model && chart.points[i].failure.empty() && std::isfinite(chart.points[i].error))
       candidates.push_back(i);
   std::sort(candidates.begin(), candidates.end(),
             [&](std::size_t a, std::size_t b)
             {
-              const WorkPoint &x = chart.points[a], &y = chart.points[b];
-              return x.cpu_s != y.cpu_s ? x.cpu_s < y.cpu_s : x.error != y.error ? x.error < y.error : a < b;
+              const double x = chart.points[a].cpu_s, y = chart.points[b].cpu_s;
+              return x != y ? x < y : error_of(a) != error_of(b) ? error_of(a) < error_of(b) : a < b;
             });
   double best = std::numeric_limits<double>::infinity();
   for (const std::size_t i : candidates)
-    if (chart.points[i].error < best)
+    if (error_of(i) < best)
     {
-      best = chart.points[i].error;
-      front.push_back(i);
+      best = error_of(i);
+      if (usable(chart.points[i]))
+        front.push_back(i);
     }
   return front;
 }

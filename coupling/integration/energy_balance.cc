@@ -40,7 +40,8 @@ EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 double EnergyBalance::stored(const Instant &instant)
 {
   system_.mass_times(instant.v, product_);
-  double energy = 0.5 * instant.v.dot(product_);
+  kinetic_      = 0.5 * instant.v.dot(product_);
+  double energy = kinetic_;
   system_.stiffness_times(instant.q, product_);
   energy += 0.5 * instant.q.dot(product_);
   if (system_.excitation().is_constant())
@@ -56,6 +57,7 @@ void EnergyBalance::begin(const Instant &instant)
   first_ = last_  = power(instant);
   elements_begin_ = system_.local_stored_energy(instant.local);
   stored_begin_   = stored(instant);
+  kinetic_begin_  = kinetic_;
 }
 
 void EnergyBalance::step(const Instant &instant)
@@ -94,7 +96,8 @@ EnergyState EnergyBalance::state(const Instant &instant)
                sum(h * s * r * r, first_, -h * s * s * r, last_));
   }
   const double in_elements = system_.local_stored_energy(instant.local) - elements_begin_;
-  return {work.input, stored(instant) - stored_begin_, work.damping - work.elements - in_elements};
+  const double change      = stored(instant) - stored_begin_;
+  return {work.input, change, work.damping - work.elements - in_elements, kinetic_ - kinetic_begin_};
 }
 
 } // namespace gestell::coupling

@@ -10,6 +10,7 @@ namespace gestell::coupling
 struct EnergyState
 {
   double input = 0., stored = 0., dissipated = 0.;
+  double kinetic = 0.; ///< change of q'^T M q'/2, part of what is stored
   double residual() const { return input - stored - dissipated; }
 };
 
@@ -38,6 +39,7 @@ public:
   void step(const TimeIntegrator &integrator, PowerRule rule);
   /// Forces have changed their branch at the instant of the last step.
   void jump(const Instant &instant) { last_ = power(instant); }
+  double at_begin() const { return stored_begin_; } ///< [J], what stored counts from
   /// At an instant inside the last step (integrals by the cubic through both ends and their powers) or at its end.
   EnergyState state(const Instant &instant);
 
@@ -58,7 +60,8 @@ private:
   Power                    first_, last_;      // at both ends of the last step
   Power                    work_begin_, work_; // integrals, likewise
   double                   t_begin_ = 0., t_ = 0.;
-  double                   stored_begin_ = 0., elements_begin_ = 0.;
+  double                   stored_begin_ = 0., elements_begin_ = 0., kinetic_begin_ = 0.;
+  double                   kinetic_ = 0.; // at the instant of the last call of stored()
 };
 
 } // namespace gestell::coupling

@@ -30,6 +30,12 @@ BlankingForce::BlankingForce(const Parameters &parameters) : parameters_(paramet
           "above the initial slope of the virgin curve, " + std::to_string(slope) + " N/m");
 }
 
+void BlankingForce::stiffest(const double *, double *K, double *D) const
+{
+  *K = parameters_.elastic_stiffness;
+  *D = 0.;
+}
+
 double BlankingForce::lift_off(double z_max) const
 {
   return z_max - virgin(virgin_branch(z_max), z_max) / parameters_.elastic_stiffness;

@@ -54,6 +54,9 @@ public:
       p[0] = -virgin(branch, z);
   }
 
+  /// c_el, that of unloading and reloading.
+  void stiffest(const double *u, double *K, double *D) const override;
+
   /// history: z_max [m], active branch.
   int  n_history() const override { return 2; }
   void start(const LocalMotion &motion, double *history) const override;

@@ -2,6 +2,8 @@
 
 #include "mechanism/require.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -12,6 +14,12 @@ CuttingForce::CuttingForce(const Parameters &parameters) : parameters_(parameter
   require(F >= 0., name, "peak_force [N]", F, "zero or positive");
   require(z_p > 0., name, "peak_penetration [m]", z_p, "positive");
   require(v0 > 0., name, "speed [m/s]", v0, "positive");
+}
+
+void CuttingForce::stiffest(const double *, double *K, double *D) const
+{
+  *K = parameters_.peak_force * std::exp(1.) / parameters_.peak_penetration;
+  *D = 0.;
 }
 
 void CuttingForce::start(const LocalMotion &motion, double *history) const

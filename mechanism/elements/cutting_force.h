@@ -44,6 +44,9 @@ public:
     p[0]              = -F * shape(x) * gate;
   }
 
+  /// F e / z_p, the slope with which the force sets in.
+  void stiffest(const double *u, double *K, double *D) const override;
+
   /// history: 1 in contact, 0 apart.
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
