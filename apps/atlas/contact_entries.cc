@@ -154,7 +154,7 @@ AtlasEntry hard_contact()
         const std::vector<double> energy = flight_energy(methods[m], x, locate);
         const double              most   = *std::max_element(energy.begin(), energy.end());
         largest                          = std::max(largest, most);
-        row.push_back(short_text(most, 2) + " / " + short_text(energy.back(), 2));
+        row.push_back(short_text(most, 1) + " / " + short_text(energy.back(), 1));
         // Over a kink each of the 128 pieces misses its mean by up to 128^-2, some hundred times in the run.
         if (methods[m].options.method == Method::exact)
           entry.comparisons.push_back({"exact, average force, events " + std::string(locate ? "located" : "gone over") +

@@ -218,7 +218,7 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
     chart.y_end   = to;
   };
   logarithmic(period, "Period error (dashed: too fast)", "relative", 1e-10, 10.);
-  logarithmic(damping, "Numerical damping (dashed: growth)", "damping ratio", 1e-10, 1.);
+  logarithmic(damping, "Numerical damping (dashed: negative)", "damping ratio", 1e-10, 1.);
   logarithmic(overshoot, "Overshoot from a displacement, 20 steps", "times the start", 1., 1e6);
 
   period.x_end = damping.x_end = 10.;
