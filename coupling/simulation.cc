@@ -115,10 +115,10 @@ void guard(const Machine &machine, const InitialState &initial, const RunOptions
            RunResult &result)
 {
   result.accuracy = mode_accuracy(machine, initial, method);
-  result.warnings = stability_warnings(machine, initial, method);
+  result.warnings = stability_warnings(result.accuracy, method);
   try
   {
-    check_stability(machine, initial, method);
+    check_stability(result.accuracy, method);
   }
   catch (const std::invalid_argument &unstable)
   {

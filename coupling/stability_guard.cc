@@ -195,10 +195,9 @@ double largest_stable_step(const std::vector<ModeAccuracy> &modes, const MethodO
   return bad(step / options.step) ? 0. : step;
 }
 
-void check_stability(const Machine &machine, const InitialState &initial, const MethodOptions &options)
+void check_stability(const std::vector<ModeAccuracy> &modes, const MethodOptions &options)
 {
-  const std::vector<ModeAccuracy> modes = mode_accuracy(machine, initial, options);
-  const ModeAccuracy             *worst = fastest(modes);
+  const ModeAccuracy *worst = fastest(modes);
   if (!worst || options.method == Method::exact)
     return;
   const double      step = largest_stable_step(modes, options);
@@ -210,13 +209,11 @@ void check_stability(const Machine &machine, const InitialState &initial, const 
                               "run.force_unstable = true runs it as it is");
 }
 
-std::vector<std::string> stability_warnings(const Machine &machine, const InitialState &initial,
-                                            const MethodOptions &options)
+std::vector<std::string> stability_warnings(const std::vector<ModeAccuracy> &modes, const MethodOptions &options)
 {
   if (options.method != Method::exact || options.force == ForceRule::average)
     return {};
-  const std::vector<ModeAccuracy> modes = mode_accuracy(machine, initial, options);
-  const ModeAccuracy             *worst = fastest(modes);
+  const ModeAccuracy *worst = fastest(modes);
   if (!worst)
     return {};
   const double step = largest_stable_step(modes, options);

@@ -41,7 +41,7 @@ std::vector<ModeAccuracy> mode_accuracy(const Machine &machine, const InitialSta
                                         const MethodOptions &options);
 
 /**
- * Lays the modes over the unstable intervals of the method and refuses the run if one of them grows.
+ * Lays `modes` (of mode_accuracy()) over the unstable intervals of the method and refuses the run if one of them grows.
  *
  * Modes without stiffness do not vibrate and are left out.  Modes of the machine with closed contacts stop a run as
  * well, except with exact propagation: there the base system never grows, and a contact that is left because its force
@@ -51,12 +51,11 @@ std::vector<ModeAccuracy> mode_accuracy(const Machine &machine, const InitialSta
  * ratio, the unstable interval of omega h, its growth per step, and the way out: a step or a method that works, and
  * run.force_unstable.
  */
-void check_stability(const Machine &machine, const InitialState &initial, const MethodOptions &options);
+void check_stability(const std::vector<ModeAccuracy> &modes, const MethodOptions &options);
 
 /// What a run should tell although it is not refused: modes of closed contacts that exact propagation makes grow as
 /// long as the contact stays closed.
-std::vector<std::string> stability_warnings(const Machine &machine, const InitialState &initial,
-                                            const MethodOptions &options);
+std::vector<std::string> stability_warnings(const std::vector<ModeAccuracy> &modes, const MethodOptions &options);
 
 /// The largest step below options.step, to three digits, at which no mode of `modes` grows; 0 if there is none down to
 /// a thousandth of it.

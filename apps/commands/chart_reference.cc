@@ -3,6 +3,7 @@
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -108,7 +109,9 @@ ReferenceFile::ReferenceFile(const std::string &file_path) : path(file_path)
     {
       char        *end   = nullptr;
       const double value = std::strtod(cell.c_str(), &end);
-      if (i >= names_.size() || end == cell.c_str() || !std::isfinite(value))
+      while (end != cell.c_str() && std::isspace(static_cast<unsigned char>(*end)))
+        ++end;
+      if (i >= names_.size() || end == cell.c_str() || *end != '\0' || !std::isfinite(value))
         refuse(row, "\"" + cell + "\" is no number of one of the " + std::to_string(names_.size()) + " columns");
       columns_[i].push_back(value);
     }

@@ -84,13 +84,13 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
       study.verdicts.push_back(verdict(machine, start, other, method.step));
   try
   {
-    coupling::check_stability(machine, start, method);
+    coupling::check_stability(study.modes, method);
   }
   catch (const std::invalid_argument &unstable)
   {
     study.notes.push_back(unstable.what());
   }
-  for (const std::string &warning : coupling::stability_warnings(machine, start, method))
+  for (const std::string &warning : coupling::stability_warnings(study.modes, method))
     study.notes.push_back(warning);
 }
 

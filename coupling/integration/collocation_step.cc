@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -56,13 +57,23 @@ public:
   {
     x_begin_  = x;
     begin_at_ = at;
-    scale_    = context_.scale;
+    context_.grow_scale(context_.scale, at.u, at.v, 0.);
+    tried_    = false;
+    expected_until_ = -std::numeric_limits<double>::infinity();
     h_last_   = 0.;
     factors_  = nullptr;
   }
 
   bool solve(const StepTable &table, LocalState &end) override
   {
+    // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then scales
+    // are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
+    if (tried_ && lu_.least_pivot() > 0.25 && begin_at_.t + h_ > expected_until_)
+    {
+      expected_       = reached_;
+      expected_until_ = begin_at_.t + h_;
+    }
+    tried_          = false;
     free_.noalias() = table.rows.transpose() * x_begin_;
     free_ += table.row_constant;
     predict(table.h);
@@ -78,13 +89,17 @@ public:
     if (!context_.system->held().empty())
       context_.project_held(x_end_, end);
     finish(table, end);
+    reached_ = context_.scale;
+    context_.grow_scale(reached_, end.u, end.v, table.h);
+    tried_ = true;
     return true;
   }
 
   void accept() override
   {
     x_begin_.swap(x_end_);
-    scale_      = context_.scale;
+    context_.scale = reached_;
+    tried_         = false;
     begin_at_.u = U_.col(s_ + 1);
     begin_at_.v = V_.col(s_ + 1);
     begin_at_.p = P_end_;
@@ -226,11 +241,13 @@ private:
     return false;
   }
 
-  /// The excursions of accepted steps, and of this iterate: neither of those before it nor of steps refused.
+  /// The excursions of accepted steps, of this iterate, and those to be expected.
   void grow_scale(const Eigen::Ref<const VectorXd> &u, const Eigen::Ref<const VectorXd> &v, double h)
   {
-    context_.scale = scale_;
-    context_.grow_scale(u, v, h);
+    scale_ = context_.scale;
+    if (begin_at_.t + h <= expected_until_)
+      scale_ = scale_.cwiseMax(expected_);
+    context_.grow_scale(scale_, u, v, h);
   }
 
   /// What a change of the forces does to the measures, relative to their scales.
@@ -244,7 +261,7 @@ private:
         const double du =
             std::max(std::abs(table.S_u(row, row)), table.h * std::abs(table.S_v(row, row))) * std::abs(change[row]);
         if (du != 0.)
-          size = std::max(size, du / std::max(context_.scale[r], du));
+          size = std::max(size, du / std::max(scale_[r], du));
       }
     return size;
   }
@@ -281,7 +298,7 @@ private:
       }
       const double du = std::max(std::abs(S_u), table.h * std::abs(S_v)) * std::abs(defect_[r]) / error_share;
       if (du != 0.)
-        error_ = std::max(error_, du / std::max(context_.scale[r], du));
+        error_ = std::max(error_, du / std::max(scale_[r], du));
     }
   }
 
@@ -290,7 +307,9 @@ private:
   ForceBasis          basis_;
   HermiteNodes        nodes_;
   VectorXd            x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_;
-  VectorXd            scale_; ///< [n_u] of the steps accepted
+  VectorXd            scale_, reached_, expected_; ///< [n_u] of the step in work; by its end; by the end of one refused
+  double              expected_until_ = 0.;
+  bool                tried_          = false; ///< a step from the present begin
   MatrixXd            U_, V_, dp_du_, dp_dv_, extrapolate_;
   std::vector<double> at_end_;
   LocalState          begin_at_, node_;

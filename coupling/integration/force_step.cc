@@ -88,12 +88,12 @@ void ExactContext::project_held(Eigen::VectorXd &x, LocalState &local)
   }
 }
 
-void ExactContext::grow_scale(const Eigen::Ref<const Eigen::VectorXd> &u, const Eigen::Ref<const Eigen::VectorXd> &v,
-                              double h)
+void ExactContext::grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
+                              const Eigen::Ref<const Eigen::VectorXd> &v, double h) const
 {
   constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < u.size(); ++i)
-    scale[i] = std::max({scale[i], std::abs(u[i] - u_begin[i]), h * std::abs(v[i]),
+    grown[i] = std::max({grown[i], std::abs(u[i] - u_begin[i]), h * std::abs(v[i]),
                          rounding / newton.tolerance * std::abs(u[i])});
 }
 

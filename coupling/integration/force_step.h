@@ -23,7 +23,8 @@ struct ExactContext
   ExactContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
 
   /// Counts an excursion; floors: the way of one step, and what rounding in u leaves.
-  void grow_scale(const Eigen::Ref<const Eigen::VectorXd> &u, const Eigen::Ref<const Eigen::VectorXd> &v, double h);
+  void grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
+                  const Eigen::Ref<const Eigen::VectorXd> &v, double h) const;
 
   /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps their
   /// u'' zero.

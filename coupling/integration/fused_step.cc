@@ -92,7 +92,7 @@ public:
     at_end_.u = end.u;
     at_end_.v = end.v;
     at_end_.p = end.p;
-    context_.grow_scale(end.u, end.v, h_);
+    context_.grow_scale(context_.scale, end.u, end.v, h_);
     return true;
   }
 

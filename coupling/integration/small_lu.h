@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -28,24 +29,32 @@ public:
   {
     constexpr double rounding = 1e-14;
     const int        n        = static_cast<int>(pivot_.size());
+    least_ = n > 0 ? a_(0, 0) : 1.;
     row_size_.setZero();
     for (int j = 0; j < n; ++j)
       row_size_ = row_size_.cwiseMax(a_.col(j).cwiseAbs());
     for (int k = 0; k < n; ++k)
     {
-      int pivot = k;
+      int    pivot = k;
+      double below = 0.;
       for (int i = k + 1; i < n; ++i)
+      {
+        below = std::max(below, std::abs(a_(i, k)));
         if (std::abs(a_(i, k)) > std::abs(a_(pivot, k)))
           pivot = i;
+      }
       pivot_[k] = pivot;
       if (!(std::abs(a_(pivot, k)) > rounding * row_size_[pivot]) || !std::isfinite(a_(pivot, k)))
         return false;
+      least_ = std::min(least_, pivot == k ? a_(k, k) : -1.);
       if (pivot != k)
         std::swap(row_size_[k], row_size_[pivot]);
       if (pivot != k)
         for (int j = 0; j < n; ++j)
           std::swap(a_(k, j), a_(pivot, j));
       a_(k, k) = 1. / a_(k, k);
+      if (below == 0.) // nothing to eliminate, and nothing to solve with
+        continue;
       for (int i = k + 1; i < n; ++i)
         a_(i, k) *= a_(k, k);
       for (int j = k + 1; j < n; ++j)
@@ -55,6 +64,10 @@ public:
     }
     return true;
   }
+
+  /// Of the matrix factorised last; negative where rows were interchanged.  For I - S dp above 1/4: its solution goes at
+  /// most some four times as far as the motion, as it may near the pole that a force has that falls with the motion.
+  double least_pivot() const { return least_; }
 
   void solve_in_place(Eigen::VectorXd &x) const
   {
@@ -76,6 +89,7 @@ private:
   Eigen::MatrixXd  a_;
   Eigen::VectorXd  row_size_; ///< largest entry of each row before elimination
   std::vector<int> pivot_;
+  double           least_ = 1.;
 };
 
 } // namespace gestell::coupling

@@ -72,7 +72,7 @@ std::string refusal(const Machine &machine, const MethodOptions &options)
 {
   try
   {
-    check_stability(machine, at_rest(machine), options);
+    check_stability(mode_accuracy(machine, at_rest(machine), options), options);
   }
   catch (const std::invalid_argument &error)
   {
@@ -181,7 +181,7 @@ TEST(StabilityGuard, ClosedContactsCountToo)
   // Exact propagation: a warning only, and only for a force that is not the mean one.  The contact alone counts.
   MethodOptions exact = of(Method::exact, 3.47 / std::sqrt(5e7));
   exact.force         = ForceRule::linear;
-  const auto warnings = [&] { return stability_warnings(machine, at_rest(machine), exact); };
+  const auto warnings = [&] { return stability_warnings(mode_accuracy(machine, at_rest(machine), exact), exact); };
   EXPECT_EQ(refusal(machine, exact), "");
   ASSERT_EQ(warnings().size(), 1u);
   EXPECT_TRUE(says(warnings()[0], "omega h > 3.46")) << warnings()[0];
