@@ -6,9 +6,11 @@ namespace gestell::mechanism
 {
 
 /**
- * Play between two stops along one direction, with an elastic contact that loses energy and never pulls.
+ * Play between two stops along one direction, or a single stop, with an elastic contact that loses energy and never
+ * pulls.
  *
- * Measure u [m or rad]: displacement from the middle of the play; s = sign(u), d = |u| - gap:
+ * Measure u [m or rad]: displacement from the middle of the play, or from where a single stop is counted; s = sign(u)
+ * of a play, s = 1 of a stop above, s = -1 of one below; d = s u - gap:
  *
  *     d > 0 and 1 + chi s u' > 0:   p = -s c d (1 + chi s u'),        otherwise p = 0.
  *
@@ -20,20 +22,33 @@ namespace gestell::mechanism
 class Clearance : public DifferentiableElement<Clearance, 1>
 {
 public:
+  enum class Stops
+  {
+    both,
+    above, ///< contact where u > gap
+    below  ///< contact where -u > gap
+  };
+
   struct Parameters
   {
-    double gap         = 0.; ///< [m], half of the total play, >= 0
+    double gap         = 0.; ///< [m], half of the total play, >= 0; of a single stop any
     double stiffness   = 0.; ///< c [N/m], > 0
     double dissipation = 0.; ///< chi [s/m], >= 0
+    Stops  stops       = Stops::both;
   };
+
+  /// chi [s/m] with which two bodies that meet at the speed v [m/s], and that nothing but the contact moves meanwhile,
+  /// part at e v:  (1 + e) chi v = ln[(1 + chi v) / (1 - chi e v)], whatever masses and stiffness are
+  /// (docs/theory/elements.md, 11).  Needs 0 < e <= 1 and v > 0, else throws std::invalid_argument.
+  static double dissipation_for(double restitution, double speed);
 
   explicit Clearance(const Parameters &parameters);
 
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    const auto &[gap, c, chi] = parameters_;
-    const Branch branch       = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+    const auto &[gap, c, chi, stops] = parameters_;
+    const Branch branch              = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
     if (branch != contact_negative && branch != contact_positive)
     {
       p[0] = Number(0.);
@@ -50,7 +65,7 @@ public:
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
-  int                   n_guards(const double *) const override { return 2; }
+  int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void                  transition(int i, const LocalMotion &motion, double *history) const override;
@@ -73,8 +88,8 @@ private:
 
   Branch branch_at(double u, double v) const
   {
-    const auto &[gap, c, chi] = parameters_;
-    const double s            = u < 0. ? -1. : 1.;
+    const auto &[gap, c, chi, stops] = parameters_;
+    const double s                   = stops == Stops::both ? (u < 0. ? -1. : 1.) : stops == Stops::above ? 1. : -1.;
     if (!(s * u - gap > 0.))
       return open;
     const bool pressed = 1. + (chi * s) * v > 0.;
