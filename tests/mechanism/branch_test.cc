@@ -5,6 +5,7 @@
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/cutting_force.h"
+#include "mechanism/elements/table_force.h"
 #include "tests/mechanism/element_probe.h"
 
 #include <gtest/gtest.h>
@@ -28,6 +29,12 @@ const CuttingForce::Parameters  tool{5e3, 6e-4, 4e-4, 0.02};
 BlankingForce::Parameters sheet(double exponent)
 {
   return {0.004, 0.8, 3.2e8, 0.35, exponent, 0.25, 0.08, 9e9, 0.152};
+}
+
+/// Corners at 0.3 and 0.5 without a jump, beside the rows at the ends.
+TableForce::Parameters table(TableForce::Against against)
+{
+  return {against, {{0.1, 0.}, {0.3, 80.}, {0.5, -40.}, {0.9, 0.}}};
 }
 
 double rod_position(double phi)
@@ -98,6 +105,24 @@ std::vector<Switch> switches()
     all.push_back({"regain_" + side, contact, inside(-0.3), probe1(s * 6e-5, s * -0.25, s * 1e3), 1, "contact_grip"});
     all.push_back({"drop_" + side, contact, inside(-0.3), probe1(s * 5e-5, s * -0.4), 0, "separation"});
   }
+  for (const double s : {-1., 1.})
+  {
+    const auto stop = std::make_shared<Clearance>(
+        Clearance::Parameters{-2e-5, 1e9, 4., s > 0. ? Clearance::Stops::above : Clearance::Stops::below});
+    const std::string     side = s < 0. ? "_below" : "_above";
+    const Eigen::VectorXd in   = loaded(*stop, probe1(s * 1e-5, 0.));
+    all.push_back({"stop_met" + side, stop, numbers(0.), probe1(s * -2e-5, s * 0.1), 0, "contact"});
+    all.push_back({"stop_left" + side, stop, in, probe1(s * -2e-5, s * -0.1), 0, "separation"});
+    all.push_back({"stop_lost" + side, stop, in, probe1(s * -1e-5, s * -0.25, s * -1e3), 1, "contact_slack"});
+  }
+  const auto over_u = std::make_shared<TableForce>(table(TableForce::Against::displacement));
+  const auto over_v = std::make_shared<TableForce>(table(TableForce::Against::rate));
+  const auto over_t = std::make_shared<TableForce>(table(TableForce::Against::time));
+  all.push_back({"table_u_on", over_u, numbers(1.), probe1(0.3, 2.), 0, "next_segment"});
+  all.push_back({"table_u_back", over_u, numbers(2.), probe1(0.3, -2.), 1, "previous_segment"});
+  all.push_back({"table_v_on", over_v, numbers(2.), probe1(0., 0.5, 2.), 0, "next_segment"});
+  all.push_back({"table_v_back", over_v, numbers(3.), probe1(0., 0.5, -2.), 1, "previous_segment"});
+  all.push_back({"table_t_on", over_t, numbers(1.), probe1(0., 2.), 0, "next_segment"});
   for (const double n : {1., 2., 7.5, 8.})
   {
     const auto            blanking = std::make_shared<BlankingForce>(sheet(n));
@@ -254,6 +279,30 @@ std::vector<Drive> drives()
            },
            0.05,
            {"contact_positive", "contact_negative", "separation", "contact_slack", "contact_grip"}},
+          {"stop",
+           std::make_shared<Clearance>(Clearance::Parameters{1e-5, 1e9, 4., Clearance::Stops::below}),
+           [](double t)
+           {
+             const Probe slow = swinging(t, 1e-6, 0., 8e-5, 600.), fast = swinging(t, 0., 0., 4e-5, 9000.);
+             return Probe{t, slow.u + fast.u, slow.v + fast.v, slow.a};
+           },
+           0.05,
+           {"contact", "separation", "contact_slack", "contact_grip"}},
+          {"table_over_time",
+           std::make_shared<TableForce>(table(TableForce::Against::time)),
+           [](double t) { return swinging(t, 0., 0., 1., 7.); },
+           1.23,
+           {"next_segment"}},
+          {"table_over_displacement",
+           std::make_shared<TableForce>(table(TableForce::Against::displacement)),
+           [](double t) { return swinging(t, 0.4, 0., 0.7, 7.); },
+           3.,
+           {"next_segment", "previous_segment"}},
+          {"table_over_rate",
+           std::make_shared<TableForce>(table(TableForce::Against::rate)),
+           [](double t) { return swinging(t, 0., 0.4, 0.1, 7.); },
+           3.,
+           {"next_segment", "previous_segment"}},
           {"rod",
            std::make_shared<ConnectingRod>(rod),
            [](double t)

@@ -8,6 +8,7 @@
 #include "mechanism/elements/cutting_force.h"
 #include "mechanism/elements/kloss_motor.h"
 #include "mechanism/elements/regularised_friction.h"
+#include "mechanism/elements/table_force.h"
 #include "tests/mechanism/element_probe.h"
 
 #include <gtest/gtest.h>
@@ -59,6 +60,14 @@ std::vector<Case> cases()
   const auto clearance      = std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e9, 4.});
   const auto cutting        = std::make_shared<CuttingForce>(CuttingForce::Parameters{5e3, 6e-4, 4e-4, 0.02});
   const auto coulomb        = std::make_shared<CoulombFriction>(CoulombFriction::Parameters{300., 350., 0.});
+  const auto stop           = [](Clearance::Stops stops) {
+    return std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e9, 4., stops});
+  };
+  const auto table = [](TableForce::Against against)
+  {
+    return std::make_shared<TableForce>(
+        TableForce::Parameters{against, {{0., 0.}, {0.2, -50.}, {0.2, 100.}, {0.5, 40.}}});
+  };
   return {{"rod_compressed", connecting_rod, rod_probe(3e-4, 0.1)},
           {"rod_in_gap", connecting_rod, rod_probe(-2e-4, -0.1)},
           {"rod_pulled", connecting_rod, rod_probe(-7e-4, 0.2)},
@@ -68,6 +77,13 @@ std::vector<Case> cases()
           {"clearance_open", clearance, probe1(2e-5, 0.1)},
           {"clearance_positive", clearance, probe1(7e-5, 0.1)},
           {"clearance_negative", clearance, probe1(-7e-5, 0.1)},
+          {"stop_above", stop(Clearance::Stops::above), probe1(7e-5, 0.1)},
+          {"stop_above_open", stop(Clearance::Stops::above), probe1(-7e-5, 0.1)},
+          {"stop_below", stop(Clearance::Stops::below), probe1(-7e-5, 0.1)},
+          {"stop_below_open", stop(Clearance::Stops::below), probe1(7e-5, 0.1)},
+          {"table_time", table(TableForce::Against::time), probe1(0., 0.1)},
+          {"table_displacement", table(TableForce::Against::displacement), probe1(0.35, 0.1)},
+          {"table_rate", table(TableForce::Against::rate), probe1(0., 0.35)},
           {"cutting", cutting, probe1(9e-4, 0.01)},
           {"cubic_spring", std::make_shared<CubicSpring>(CubicSpring::Parameters{1e6, 5e12}), probe1(3e-4, 0.)},
           {"friction", std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3}),
