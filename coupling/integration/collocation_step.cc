@@ -181,6 +181,7 @@ private:
     for (int i = 0; i < s_; ++i)
     {
       motion(table, i, node_);
+      node_.t = begin_at_.t + basis_.points[i] * table.h;
       node_.p = P_.segment(i * n_u_, n_u_);
       if (jacobian)
       {

@@ -73,6 +73,7 @@ public:
   {
     if (&table != table_ || table.h != h_)
       take_table(table);
+    node_.t = end_.t = at_end_.t = end.t = at_begin_.t + h_;
     const FusedPass pass{&table.E, &F_, &read_, &table.constant};
     run_pass(pass, y_begin_.data(), p_begin_.data());
     p_ = 2. * at_begin_.p - p_before_;
@@ -104,6 +105,7 @@ public:
     at_begin_.u.swap(at_end_.u);
     at_begin_.v.swap(at_end_.v);
     at_begin_.p.swap(at_end_.p);
+    at_begin_.t = at_end_.t;
   }
 
   void begin_state(VectorXd &x) const override
@@ -204,6 +206,7 @@ private:
       for (const double point : {0.5 - half, 0.5 + half})
       {
         const double sigma = (k + point) / n;
+        way_.t             = (1. - sigma) * at_begin_.t + sigma * node_.t;
         way_.u             = (1. - sigma) * at_begin_.u + sigma * node_.u;
         way_.v             = (1. - sigma) * at_begin_.v + sigma * node_.v;
         way_.p             = p_;
