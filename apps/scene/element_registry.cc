@@ -10,18 +10,29 @@ void read_blanking_force(const SceneTable &, const Names &, Scene &);
 void read_cutting_force(const SceneTable &, const Names &, Scene &);
 void read_asynchronous_motor(const SceneTable &, const Names &, Scene &);
 void read_clearance(const SceneTable &, const Names &, Scene &);
+void read_stop(const SceneTable &, const Names &, Scene &);
 void read_friction(const SceneTable &, const Names &, Scene &);
+void read_dry_friction(const SceneTable &, const Names &, Scene &);
 void read_cubic_spring(const SceneTable &, const Names &, Scene &);
 void read_force(const SceneTable &, const Names &, Scene &);
+void read_table_force(const SceneTable &, const Names &, Scene &);
 
 const std::vector<ElementType> &element_types()
 {
   static const std::vector<ElementType> types = {
-      {"spring-damper", read_spring_damper},   {"point mass", read_point_mass},
-      {"connecting rod", read_connecting_rod}, {"blanking force", read_blanking_force},
-      {"cutting force", read_cutting_force},   {"asynchronous motor", read_asynchronous_motor},
-      {"clearance", read_clearance},           {"friction", read_friction},
-      {"cubic spring", read_cubic_spring},     {"force", read_force},
+      {"spring-damper", read_spring_damper},
+      {"point mass", read_point_mass},
+      {"connecting rod", read_connecting_rod},
+      {"blanking force", read_blanking_force},
+      {"cutting force", read_cutting_force},
+      {"asynchronous motor", read_asynchronous_motor},
+      {"clearance", read_clearance},
+      {"stop", read_stop},
+      {"friction", read_friction},
+      {"dry friction", read_dry_friction},
+      {"cubic spring", read_cubic_spring},
+      {"force", read_force},
+      {"table force", read_table_force},
   };
   return types;
 }

@@ -233,6 +233,25 @@ std::vector<std::vector<double>> SceneTable::matrix(const std::string &key, cons
   return rows;
 }
 
+std::vector<std::array<double, 2>> SceneTable::pairs(const std::string &key, const Kind &first,
+                                                     const Kind &second) const
+{
+  const std::string wanted = "rows of two values [[\"" + first.example + "\", \"" + second.example + "\"], [..]]";
+  const SceneNode  &value  = demand(key, wanted);
+  if (value.type != Type::array || value.elements.empty())
+    throw error(key, "needs " + wanted + ", got " + described(value));
+  std::vector<std::array<double, 2>> rows;
+  for (const auto &row : value.elements)
+  {
+    if (row.type != Type::array || row.elements.size() != 2)
+      throw error(key, "needs " + wanted + "; row " + std::to_string(rows.size() + 1) + " is " +
+                           (row.type == Type::array ? "of " + std::to_string(row.elements.size()) + " values"
+                                                    : described(row)));
+    rows.push_back({evaluate(key, row.elements[0], first), evaluate(key, row.elements[1], second)});
+  }
+  return rows;
+}
+
 Vector3 SceneTable::vector(const std::string &key, const Kind &kind) const
 {
   const auto x = numbers(key, kind);

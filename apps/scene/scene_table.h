@@ -55,6 +55,8 @@ public:
   Vector3                          direction(const std::string &key, const Vector3 &fallback) const;
   std::vector<double>              numbers(const std::string &key, const Kind &kind) const;
   std::vector<std::vector<double>> matrix(const std::string &key, const Kind &kind) const; ///< rows of equal length
+  /// Rows of two values of different kinds, [["0 s", "3 kN"], ["1 s", 0]].
+  std::vector<std::array<double, 2>> pairs(const std::string &key, const Kind &first, const Kind &second) const;
 
   SceneTable                table(const std::string &key) const;
   std::optional<SceneTable> optional_table(const std::string &key) const;
