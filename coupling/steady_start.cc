@@ -95,7 +95,7 @@ void check_driver(const SteadyStart &start, const Kinematics &kinematics)
 Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
 {
   const int  n = machine.size();
-  Kinematics result{std::vector<bool>(n, false), -1, {0., Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
+  Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
   auto &[t, q, v] = result.state;
   for (const Body &body : machine.bodies()) // other rotors stand in line with the first one given
     if (body.kind == BodyKind::rotor && !start.angles.empty())
@@ -131,8 +131,8 @@ class Equilibrium
 {
 public:
   Equilibrium(Machine &machine, const Kinematics &kinematics)
-      : machine_(machine), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
-        stiffness_(dense_stiffness(machine)), p_(machine.directions().cols())
+      : machine_(machine), t_(kinematics.state.t), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
+        stiffness_(dense_stiffness(machine)), p_(Eigen::VectorXd::Zero(machine.directions().cols()))
   {
     const int n = machine.size();
     for (int i = 0; i < n; ++i)
@@ -153,7 +153,7 @@ public:
   /// Unbalanced forces [equations] at q.
   Eigen::VectorXd residual(const Eigen::VectorXd &q)
   {
-    machine_.gather(0., q, v_, acceleration_, local_);
+    machine_.gather(t_, q, v_, acceleration_, local_);
     machine_.start(local_);
     machine_.local_force(local_, p_);
     const Eigen::VectorXd local = machine_.directions() * p_, elastic = stiffness_ * q;
@@ -225,6 +225,7 @@ private:
   }
 
   Machine         &machine_;
+  double           t_;
   Eigen::VectorXd  v_, acceleration_, constant_;
   Eigen::MatrixXd  stiffness_, matrix_;
   std::vector<int> unknown_, equations_;

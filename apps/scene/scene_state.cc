@@ -44,7 +44,9 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   {
     try
     {
-      state = coupling::steady_start(machine, scene.start.steady);
+      coupling::SteadyStart steady = scene.start.steady;
+      steady.t                     = scene.run.options.begin;
+      state                        = coupling::steady_start(machine, steady);
     }
     catch (const std::invalid_argument &e)
     {

@@ -293,6 +293,31 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableForces,
                                            Settings{"run.method=exact", "run.force=average", "run.step=0.1 ms"},
                                            Settings{"run.method=newmark", "run.step=0.1 ms"}));
 
+TEST(TableForce, IsTakenAtTheBeginOfTheRunByASteadyStart)
+{
+  // 5 N at 0.5 s stretch the spring by 25 mm; there the joint sticks and carries nothing yet, 1 N at the end.
+  const SceneRun motion = run(slider + R"([element.spring]
+type      = "spring-damper"
+from      = "slide"
+stiffness = "200 N/m"
+[element.joint]
+type          = "dry friction"
+from          = "slide"
+static_force  = "2 N"
+kinetic_force = "1 N"
+[element.ramp]
+type    = "table force"
+from    = "slide"
+against = "time"
+table   = [["0 s", 0], ["1 s", "10 N"]]
+[start]
+rule = "steady"
+)",
+                              {"run.step=1 ms", "run.begin=0.5 s", "run.end=0.6 s"});
+  EXPECT_NEAR(motion.signal("x").min, 0.025, 1e-9);
+  EXPECT_NEAR(motion.signal("x").max, 0.025, 1e-9);
+}
+
 TEST(TableForce, RefusesWhatMakesNoSense)
 {
   const std::string scene = with(slider, "end = ", "step = \"1 ms\"\nend = ") + pulse;
