@@ -213,7 +213,7 @@ private:
     ++context_.work.newton;
     factors_ = &table;
     factors_h_ = table.h;
-    return lu_.factorise();
+    return lu_.factorise(!context_.system->held().empty());
   }
 
   bool iterate(const StepTable &table)

@@ -295,7 +295,7 @@ private:
       motion();
       evaluate();
       ++context_.work.newton;
-      if (!lu_.factorise())
+      if (!lu_.factorise(!context_.system->held().empty()))
         return false;
       lu_.solve_in_place(change_);
       double size = 0.;

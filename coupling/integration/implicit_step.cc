@@ -123,7 +123,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
-    singular_ = !jacobian_.factorise();
+    singular_ = !jacobian_.factorise(!held.empty());
     if (singular_)
       return false;
     jacobian_.solve_in_place(correction_);

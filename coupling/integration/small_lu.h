@@ -20,40 +20,45 @@ public:
     a_.setZero(n, n);
     row_size_.setZero(n);
     pivot_.assign(n, 0);
+    idle_.assign(n, 0);
   }
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
 
-  /// False: singular, which is when a pivot is rounding of the row it stands in.
-  bool factorise()
+  /// False: singular, which is when a pivot is rounding of the row it stands in; or, where nothing sticks and `redundant`
+  /// rows cannot be, only when it is zero.
+  bool factorise(bool redundant = true)
   {
     constexpr double rounding = 1e-14;
     const int        n        = static_cast<int>(pivot_.size());
     least_ = n > 0 ? a_(0, 0) : 1.;
     row_size_.setZero();
-    for (int j = 0; j < n; ++j)
+    for (int j = 0; redundant && j < n; ++j)
       row_size_ = row_size_.cwiseMax(a_.col(j).cwiseAbs());
     for (int k = 0; k < n; ++k)
     {
-      int    pivot = k;
-      double below = 0.;
+      int    pivot   = k;
+      double largest = std::abs(a_(k, k)), below = 0.;
       for (int i = k + 1; i < n; ++i)
       {
-        below = std::max(below, std::abs(a_(i, k)));
-        if (std::abs(a_(i, k)) > std::abs(a_(pivot, k)))
-          pivot = i;
+        const double size = std::abs(a_(i, k));
+        below             = std::max(below, size);
+        if (size > largest)
+          largest = size, pivot = i;
       }
       pivot_[k] = pivot;
-      if (!(std::abs(a_(pivot, k)) > rounding * row_size_[pivot]) || !std::isfinite(a_(pivot, k)))
+      idle_[k]  = below == 0.;
+      if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
         return false;
       least_ = std::min(least_, pivot == k ? a_(k, k) : -1.);
       if (pivot != k)
+      {
         std::swap(row_size_[k], row_size_[pivot]);
-      if (pivot != k)
         for (int j = 0; j < n; ++j)
           std::swap(a_(k, j), a_(pivot, j));
+      }
       a_(k, k) = 1. / a_(k, k);
-      if (below == 0.) // nothing to eliminate, and nothing to solve with
+      if (idle_[k])
         continue;
       for (int i = k + 1; i < n; ++i)
         a_(i, k) *= a_(k, k);
@@ -75,7 +80,7 @@ public:
     for (int k = 0; k < n; ++k)
       std::swap(x[k], x[pivot_[k]]);
     for (int k = 0; k < n; ++k)
-      for (int i = k + 1; i < n; ++i)
+      for (int i = k + 1; !idle_[k] && i < n; ++i)
         x[i] -= a_(i, k) * x[k];
     for (int k = n - 1; k >= 0; --k)
     {
@@ -86,10 +91,11 @@ public:
   }
 
 private:
-  Eigen::MatrixXd  a_;
-  Eigen::VectorXd  row_size_; ///< largest entry of each row before elimination
-  std::vector<int> pivot_;
-  double           least_ = 1.;
+  Eigen::MatrixXd   a_;
+  Eigen::VectorXd   row_size_; ///< largest entry of each row before elimination
+  std::vector<int>  pivot_;
+  std::vector<char> idle_; ///< columns with nothing below the pivot
+  double            least_ = 1.;
 };
 
 } // namespace gestell::coupling
