@@ -48,6 +48,8 @@ PowerRule power_rule(const MethodOptions &method)
   return high_order ? PowerRule::gauss : PowerRule::trapezoidal;
 }
 
+} // namespace
+
 std::vector<int> coordinates_of(const std::vector<Signal> &signals)
 {
   std::set<int> coordinates;
@@ -58,8 +60,6 @@ std::vector<int> coordinates_of(const std::vector<Signal> &signals)
           coordinates.insert(coordinate);
   return {coordinates.begin(), coordinates.end()};
 }
-
-} // namespace
 
 Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                    const std::vector<Signal> &signals, int samples, RunResult &result)

@@ -8,6 +8,9 @@
 namespace gestell::coupling
 {
 
+/// Coordinates that signals read by their positions or rates, ascending.
+std::vector<int> coordinates_of(const std::vector<Signal> &signals);
+
 /**
  * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
  *

@@ -357,8 +357,9 @@ AtlasEntry chatter()
         ++i;
       most = std::max(most, j - i);
     }
-    // Within one step's length: the end of one count of 20 events, the step that goes over, 20 of the next.
-    entry.comparisons.push_back({std::to_string(n) + " masses, parts of a step, 0 to 42", 21., double(most), 21.});
+    // Within one step's length at most: the end of one count of 20 events, the step that goes over, 20 of the next.
+    entry.comparisons.push_back(
+        {std::to_string(n) + " masses, at most 42 parts of a step (1: yes)", 1., most <= 42 ? 1. : 0., 0.});
     entry.table.push_back({std::to_string(n), short_text(double(driver.events().size()) / n_steps),
                            std::to_string(driver.chattering_steps()), std::to_string(most)});
   }

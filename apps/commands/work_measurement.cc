@@ -1,11 +1,11 @@
 #include "apps/commands/work_measurement.h"
 
 #include "coupling/integration/event_driver.h"
+#include "coupling/recorder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace gestell::apps
 {
@@ -17,22 +17,12 @@ constexpr double rounding = 1e-12;
 
 constexpr int most_repeats = 7;
 
-std::vector<int> coordinates_of(const std::vector<coupling::Signal> &signals)
-{
-  std::set<int> coordinates;
-  for (const coupling::Signal &signal : signals)
-    for (const coupling::Measure *measure : {&signal.on_q, &signal.on_v})
-      for (const auto &entry : *measure)
-        coordinates.insert(entry.first);
-  return {coordinates.begin(), coordinates.end()};
-}
-
 /// Takes the samples of a run from the dense output of each step.
 class Sampler
 {
 public:
   Sampler(const WorkProblem &problem, const coupling::TimeIntegrator &integrator)
-      : problem_(problem), integrator_(integrator), coordinates_(coordinates_of(problem.signals)),
+      : problem_(problem), integrator_(integrator), coordinates_(coupling::coordinates_of(problem.signals)),
         q_(Eigen::VectorXd::Zero(problem.machine.size())), v_(q_),
         values_(problem.signals.size(), problem.samples.size())
   {

@@ -27,9 +27,6 @@ struct ModalMeasures
 
   ModalMeasures() = default;
   ModalMeasures(const ModalBlocks &modes, const SecondOrderSystem &system);
-
-  /// Row or column index in x of state `part` (0, 1) of block b.
-  int index(int b, int part) const { return b + part * n_p; }
 };
 
 /// Matrix [2 n_b columns] in the order of ModalBlocks, by columns in the order of ModalMeasures: [rows x 2 n_p].

@@ -1,6 +1,7 @@
 #include "coupling/integration/oscillator_step.h"
 
 #include "coupling/integration/bdf_formula.h"
+#include "coupling/integration/newmark.h"
 
 #include <Eigen/LU>
 
@@ -9,20 +10,24 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+NewmarkFamily family_of(const Newmark::Options &o)
+{
+  return {o.alpha_m, o.alpha_f, o.beta, o.gamma};
+}
+} // namespace
+
 NewmarkFamily newmark_family(const MethodOptions &o)
 {
   switch (o.method)
   {
   case Method::hht:
-    return {0., -o.alpha, 0.25 * (1. - o.alpha) * (1. - o.alpha), 0.5 - o.alpha};
+    return family_of(Newmark::hht(o.alpha));
   case Method::generalised_alpha:
-  {
-    const double alpha_m = (2. * o.rho_inf - 1.) / (o.rho_inf + 1.), alpha_f = o.rho_inf / (o.rho_inf + 1.);
-    const double spread = 1. - alpha_m + alpha_f;
-    return {alpha_m, alpha_f, 0.25 * spread * spread, 0.5 - alpha_m + alpha_f};
-  }
+    return family_of(Newmark::generalised_alpha(o.rho_inf));
   case Method::central_difference:
-    return {0., 0., 0., 0.5};
+    return family_of(Newmark::central_difference());
   case Method::exact:
     return {0., 0., o.force == ForceRule::average ? 0.25 : 1. / 6., 0.5};
   default:
