@@ -18,6 +18,7 @@ namespace
 {
 
 constexpr double finest = 1e-13; ///< tolerances below are rounding
+constexpr double newton_part = 1e-2; ///< Newton's tolerance in units of that of the error
 
 template <typename Value>
 void require(bool valid, const std::string &method, const char *parameter, Value value, const char *needed)
@@ -141,7 +142,7 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
     options.tolerance = o.tolerance;
     options.newton    = o.newton;
     if (o.tolerance > 0.)
-      options.newton.tolerance = std::clamp(1e-3 * o.tolerance, finest, o.newton.tolerance);
+      options.newton.tolerance = std::max(newton_part * o.tolerance, finest);
     else
       options.max_halvings = o.max_halvings;
     return std::make_unique<Exact>(system, options);
