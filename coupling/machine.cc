@@ -11,32 +11,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-Vector3 unit(const Vector3 &a, const std::string &place)
-{
-  const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  if (!(length > 0.))
-    throw std::invalid_argument(place + ": the axis has length zero; give a direction such as [0, 0, -1]");
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
-
-/// The part of a motion across the axis a.
-std::array<Measure, 3> across(const std::array<Measure, 3> &motion, const Vector3 &a)
-{
-  Measure along;
-  for (int d = 0; d < 3; ++d)
-    along = along + a[d] * motion[d];
-  return {motion[0] - a[0] * along, motion[1] - a[1] * along, motion[2] - a[2] * along};
-}
-
-void check_mass(double mass, const std::string &what)
-{
-  if (!(mass >= 0.) || !std::isfinite(mass))
-    throw std::invalid_argument(what + " is " + std::to_string(mass) + "; it must be zero or positive");
-}
-} // namespace
-
 Machine::Machine() : parts_(std::make_unique<Parts>())
 {
   Marker ground;
@@ -67,87 +41,6 @@ void Machine::set_frame(fem::FrameMatrices frame)
 void Machine::set_gravity(const Vector3 &g)
 {
   parts_->gravity = g;
-}
-
-int Machine::add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass,
-                       const std::string &carrier)
-{
-  if (!(inertia > 0.))
-    throw std::invalid_argument("rotor \"" + name + "\": inertia " + std::to_string(inertia) +
-                                " kg m^2 must be positive");
-  check_mass(mass, "rotor \"" + name + "\": mass [kg]");
-  const Vector3 a    = unit(axis, "rotor \"" + name + "\"");
-  const Marker &base = marker(carrier);
-  Marker        own  = base;
-  own.name           = name;
-  const int phi      = parts_->add_coordinate(name);
-  own.rotation       = across(base.rotation, a);
-  for (int d = 0; d < 3; ++d)
-    own.rotation[d] = own.rotation[d] + a[d] * Measure{{phi, 1.}};
-  parts_->add_dyad(parts_->M, inertia, {{phi, 1.}});
-  parts_->add_mass(mass, base.translation);
-  parts_->add_body({name, BodyKind::rotor, phi, a, parts_->position_of(carrier), 0., {}, own});
-  return phi;
-}
-
-int Machine::add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide)
-{
-  check_mass(mass, "slider \"" + name + "\": mass [kg]");
-  if (mass == 0.)
-    throw std::invalid_argument("slider \"" + name + "\": mass 0 kg; a slider needs a positive mass");
-  const Vector3 a    = unit(axis, "slider \"" + name + "\"");
-  const Marker &base = marker(guide);
-  Marker        own;
-  own.name            = name;
-  own.rotation        = base.rotation;
-  const int  x        = parts_->add_coordinate(name);
-  const auto sideways = across(base.translation, a);
-  for (int d = 0; d < 3; ++d)
-    own.translation[d] = sideways[d] + a[d] * Measure{{x, 1.}};
-  // Along a and across it do not couple: added apart, so that no rounding does it either.
-  parts_->add_dyad(parts_->M, mass, {{x, 1.}});
-  for (int d = 0; d < 3; ++d)
-    parts_->add_dyad(parts_->M, mass, sideways[d]);
-  parts_->add_loads(mass, own.translation);
-  parts_->add_body({name, BodyKind::slider, x, a, parts_->position_of(guide), 0., {}, own});
-  return x;
-}
-
-void Machine::add_point_mass(const std::string &name, const std::string &marker_name, double mass,
-                             const Vector3 &inertia, const Vector3 &offset)
-{
-  check_mass(mass, "point mass \"" + name + "\": mass [kg]");
-  const Marker          &at = marker(marker_name);
-  std::array<Measure, 3> moved;
-  for (int d = 0; d < 3; ++d)
-  {
-    const int e = (d + 1) % 3, f = (d + 2) % 3; // (theta x r)_d = theta_e r_f - theta_f r_e
-    moved[d] = at.translation[d] + offset[f] * at.rotation[e] - offset[e] * at.rotation[f];
-  }
-  parts_->add_mass(mass, moved);
-  for (int d = 0; d < 3; ++d)
-  {
-    check_mass(inertia[d], "point mass \"" + name + "\": inertia [kg m^2]");
-    parts_->add_dyad(parts_->M, inertia[d], at.rotation[d]);
-  }
-}
-
-void Machine::draw(const std::string &body_name, const Vector3 &position, double radius, const Vector3 &size)
-{
-  for (Body &body : parts_->bodies)
-    if (body.name == body_name)
-    {
-      body.position = position;
-      body.radius   = radius;
-      body.size     = size;
-      return;
-    }
-  body(body_name); // throws with the nearest name
-}
-
-void Machine::draw_rod(const DrawnRod &rod)
-{
-  parts_->rods.push_back(rod);
 }
 
 void Machine::add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
@@ -238,6 +131,10 @@ int Machine::n_frame() const
 {
   return parts_->n_frame;
 }
+int Machine::n_mechanism() const
+{
+  return static_cast<int>(parts_->coordinate_names.size());
+}
 int Machine::n_interface() const
 {
   return parts_->n_interface;
@@ -251,7 +148,7 @@ Eigen::MatrixXd Machine::translation_loads() const
 
 int Machine::size() const
 {
-  return parts_->n_frame + static_cast<int>(parts_->bodies.size());
+  return parts_->size();
 }
 void Machine::mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const
 {
@@ -299,6 +196,8 @@ void Machine::gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &
 {
   if (local.p.size() != parts_->W.cols())
     local.p.setZero(parts_->W.cols());
+  if (local.lambda.size() != n_constraints())
+    local.lambda.setZero(n_constraints());
   local.t           = t;
   local.u.noalias() = parts_->W.transpose() * q;
   local.v.noalias() = parts_->W.transpose() * v;
@@ -308,7 +207,7 @@ void Machine::gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &
 void Machine::local_force(const LocalState &state, Eigen::VectorXd &p) const
 {
   for (const auto &part : parts_->placed)
-    if (!part.holds)
+    if (!part.implied())
       part.element->force(part.motion(state, parts_->by_history), parts_->history_of(part),
                           p.data() + part.first_measure);
 }
@@ -320,7 +219,7 @@ void Machine::local_tangent(const LocalState &state, double w_u, double w_v, dou
   double block[Parts::max_measures * Parts::max_measures];
   for (const auto &part : parts_->placed)
   {
-    if (part.holds)
+    if (part.implied())
       continue;
     part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a},
                           p.data() + part.first_measure, block);
@@ -336,7 +235,7 @@ void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   double of_u[Parts::max_measures * Parts::max_measures], of_v[Parts::max_measures * Parts::max_measures];
   for (const auto &part : parts_->placed)
   {
-    if (part.holds)
+    if (part.implied())
       continue;
     part.element->derivatives(part.motion(state, parts_->by_history), parts_->history_of(part),
                               p.data() + part.first_measure, of_u, of_v);
@@ -352,6 +251,43 @@ void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
 const std::vector<HeldMeasure> &Machine::held() const
 {
   return parts_->held;
+}
+
+const std::vector<ConstraintBlock> &Machine::constraint_blocks() const
+{
+  return parts_->joint_blocks;
+}
+
+void Machine::constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const
+{
+  for (std::size_t i = 0; i < parts_->joint_blocks.size(); ++i)
+  {
+    const auto &part = parts_->placed[parts_->joints[i]];
+    part.element->constraint(part.motion(state, parts_->by_history), parts_->history_of(part),
+                             g.data() + part.first_constraint, G[i].data());
+  }
+}
+
+void Machine::constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
+{
+  for (const int joint : parts_->joints)
+  {
+    const auto &part = parts_->placed[joint];
+    part.element->constraint_rates(part.motion(state, parts_->by_history), parts_->history_of(part),
+                                   rate.data() + part.first_constraint, bias.data() + part.first_constraint);
+  }
+}
+
+std::string Machine::constraint_name(int i) const
+{
+  for (const int joint : parts_->joints)
+  {
+    const auto &part = parts_->placed[joint];
+    const int   row  = i - part.first_constraint;
+    if (row >= 0 && row < part.element->n_constraints())
+      return "\"" + parts_->elements[joint].name + "\" (" + part.element->constraint_name(row) + ")";
+  }
+  return SecondOrderSystem::constraint_name(i);
 }
 
 void Machine::follow_history(bool follow)

@@ -4,6 +4,7 @@
 #include "coupling/marker.h"
 #include "coupling/reduced_frame.h"
 #include "mechanism/force_element.h"
+#include "mechanism/relative_measure.h"
 
 #include <map>
 #include <memory>
@@ -27,25 +28,38 @@ struct Signal
   double      scale    = 1.;
   double      offset   = 0.;
   int         load     = -1; ///< external load
+  int         sensor   = -1; ///< of add_measure(), whose value (quantity 0) or rate (1) it is
 };
 
 enum class BodyKind
 {
-  rotor, ///< one angle [rad] about `axis`
-  slider ///< one displacement [m] along `axis`
+  rotor,  ///< one angle [rad] about `axis`
+  slider, ///< one displacement [m] along `axis`
+  point,  ///< three displacements [m]
+  planar  ///< two displacements [m] across `axis` and the angle [rad] about it
 };
 
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`.
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`.  Its
+/// coordinates are zero in the position the scene describes.
 struct Body
 {
   std::string name;
   BodyKind    kind       = BodyKind::rotor;
-  int         coordinate = -1;
+  int         coordinate = -1; ///< the first one
   Vector3     axis{};
   Vector3     position{}; ///< [m] at zero displacement
   double      radius = 0.;
   Vector3     size{};
   Marker      marker;
+  Vector3     centre{};    ///< [m] about which it turns: that of a rotor, the centre of mass of the others
+  Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
+};
+
+/// A point on a body, the frame or the ground, and the measures its motion depends on.
+struct PlacedPoint
+{
+  mechanism::Placement placement;
+  std::vector<Measure> measures;
 };
 
 /// Bar drawn between the pin of a rotor and a slider.
@@ -72,7 +86,7 @@ struct ElementPlacement
  * The coupled machine: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
  * couplings that join the base system, and nonlinear elements.
  *
- * Coordinates: those of the frame first (q1, then modes), then one per rotor or slider in the order they were added.
+ * Coordinates: those of the frame first (q1, then modes), then those of the bodies in the order they were added.
  * Call set_frame() first, finish() last; then it is a SecondOrderSystem.
  */
 class Machine : public SecondOrderSystem
@@ -93,9 +107,20 @@ public:
   int add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass, const std::string &carrier);
   /// A slider of mass m [kg] that moves along `axis`; sideways it moves with `guide`, where its mass counts.
   int add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide);
+  /// A point mass m [kg] that moves freely in space.
+  int add_point(const std::string &name, double mass, const Vector3 &position);
+  /// A body of mass m [kg] and inertia J [kg m^2] about its centre of mass at `position`, that moves in the plane across
+  /// `normal` and turns about it by any angle.
+  int add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia, const Vector3 &position);
   /// Point mass m [kg] with inertia about x, y, z [kg m^2] on a marker, at `offset` [m] from it.
   void add_point_mass(const std::string &name, const std::string &marker, double mass, const Vector3 &inertia,
                       const Vector3 &offset);
+  /// The point `at` [m] of a body, an interface or the ground, in the position the scene describes.
+  PlacedPoint place(const std::string &marker, const Vector3 &at) const;
+  /// A scalar of the motion of two points: signals "value" and "rate".
+  /// @param unit of the value: "m", "rad"
+  void add_measure(const std::string &name, const mechanism::PlacedMeasure &measure, std::vector<Measure> measures,
+                   const std::string &unit);
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
   void draw_rod(const DrawnRod &rod);
@@ -133,6 +158,7 @@ public:
   const LinearBase                    &base() const;
   int                                  n_frame() const; ///< coordinates of the frame
   int                                  n_interface() const;
+  int                                  n_mechanism() const; ///< coordinates of the bodies
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
   Eigen::MatrixXd translation_loads() const;
 
@@ -157,7 +183,11 @@ public:
                      Eigen::MatrixXd &dp) const override;
   void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                          Eigen::MatrixXd &dp_dv) const override;
-  const std::vector<HeldMeasure> &held() const override;
+  const std::vector<HeldMeasure>     &held() const override;
+  const std::vector<ConstraintBlock> &constraint_blocks() const override;
+  void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
+  void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
+  std::string                     constraint_name(int i) const override;
   void                            follow_history(bool follow) override;
   Eigen::VectorXd                 save_history() const override;
   void                            restore_history(const Eigen::VectorXd &saved) override;

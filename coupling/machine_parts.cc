@@ -32,11 +32,13 @@ Eigen::SparseMatrix<double> enlarged(const Eigen::SparseMatrix<double> &a, int n
 }
 } // namespace
 
-int Machine::Parts::add_coordinate(const std::string &body)
+int Machine::Parts::add_coordinates(const std::string &body, const std::vector<std::string> &names)
 {
   if (markers.count(body))
     throw std::invalid_argument("the name \"" + body + "\" is used twice; give every body its own");
-  return n_frame + static_cast<int>(bodies.size());
+  const int first = size();
+  coordinate_names.insert(coordinate_names.end(), names.begin(), names.end());
+  return first;
 }
 
 void Machine::Parts::add_body(const Body &body)
@@ -89,7 +91,7 @@ Vector3 Machine::Parts::position_of(const std::string &marker) const
 
 void Machine::Parts::finish()
 {
-  const int n       = n_frame + static_cast<int>(bodies.size());
+  const int n       = size();
   translation_loads = Eigen::MatrixXd::Zero(n, 3);
   if (full)
     assemble_sparse(n);
@@ -151,9 +153,11 @@ void Machine::Parts::assemble_sparse(int n)
 
 void Machine::Parts::place_elements(int n)
 {
-  int      n_measures = 0, n_history = 0;
+  int      n_measures = 0, n_history = 0, n_constraints = 0;
   Triplets columns;
   placed.clear();
+  joints.clear();
+  joint_blocks.clear();
   for (const ElementPlacement &placement : elements)
   {
     const int k = placement.element->n_measures();
@@ -161,6 +165,13 @@ void Machine::Parts::place_elements(int n)
       throw std::invalid_argument("element \"" + placement.name + "\" has " + std::to_string(k) +
                                   " measures; at most " + std::to_string(max_measures) + " are provided for");
     placed.push_back({placement.element.get(), n_measures, k, n_history});
+    if (const int n_c = placement.element->n_constraints(); n_c > 0)
+    {
+      placed.back().first_constraint = n_constraints;
+      joints.push_back(int(placed.size()) - 1);
+      joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->constraint_size()});
+      n_constraints += n_c;
+    }
     for (int j = 0; j < k; ++j)
       for (const auto &[coordinate, weight] : placement.measures[j])
         columns.emplace_back(coordinate, n_measures + j, weight);
@@ -197,7 +208,7 @@ void Machine::Parts::refresh_guards()
 std::string Machine::Parts::coordinate_name(int i) const
 {
   if (i >= n_frame)
-    return bodies[i - n_frame].name;
+    return coordinate_names[i - n_frame];
   const std::vector<fem::Interface> &interfaces = reduced ? reduced->interfaces : full->interfaces;
   for (const fem::Interface &interface : interfaces)
     for (int m = 0; m < 6; ++m)

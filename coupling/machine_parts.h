@@ -12,7 +12,7 @@ namespace gestell::coupling
 struct Machine::Parts
 {
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
-  static constexpr int max_measures = 8; ///< per element
+  static constexpr int max_measures = 16; ///< per element
 
   /// Spring, damper and constant force on one measure, part of the base system.
   struct LinearElement
@@ -29,6 +29,10 @@ struct Machine::Parts
     const mechanism::ForceElement *element;
     int                            first_measure, n_measures, first_history;
     bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
+    int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
+
+    /// Its force is no law's value, but follows from the equations of the step.
+    bool implied() const { return holds || first_constraint >= 0; }
 
     mechanism::LocalMotion motion(const LocalState &state, bool by_history) const
     {
@@ -37,7 +41,8 @@ struct Machine::Parts
               state.v.data() + first_measure,
               state.a.data() + first_measure,
               state.p.data() + first_measure,
-              by_history};
+              by_history,
+              first_constraint >= 0 ? state.lambda.data() + first_constraint : nullptr};
     }
   };
 
@@ -50,6 +55,15 @@ struct Machine::Parts
     std::vector<Oscillation> oscillations;
 
     double at(double t) const;
+  };
+
+  struct Sensor
+  {
+    std::string              name, unit;
+    mechanism::PlacedMeasure measure;
+    std::vector<Measure>     measures;
+
+    double evaluate(int quantity, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const;
   };
 
   struct PlacedGuard
@@ -70,6 +84,8 @@ struct Machine::Parts
   std::vector<DrawnRod>               rods;
   std::vector<LinearElement>          linear;
   std::vector<ElementPlacement>       elements;
+  std::vector<Sensor>                 sensors;
+  std::vector<std::string>            coordinate_names; ///< of the bodies
   Triplets                            M, B, C;
   std::vector<std::pair<int, double>> constant_load;
   std::vector<Load>                   loads;
@@ -81,12 +97,15 @@ struct Machine::Parts
   Excitation                  excitation; // f_t
   Eigen::MatrixXd             translation_loads;
   std::vector<PlacedElement>  placed;
+  std::vector<int>             joints; ///< ideal ones, as indices of `placed`
+  std::vector<ConstraintBlock> joint_blocks;
   Eigen::VectorXd             history;
   std::vector<PlacedGuard>    guards;
   std::vector<HeldMeasure>    held;
   bool                        by_history = false;
 
-  int     add_coordinate(const std::string &body);
+  int     size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
+  int     add_coordinates(const std::string &body, const std::vector<std::string> &names);
   void    add_body(const Body &body);
   void    add_interfaces(const std::vector<fem::Interface> &interfaces);
   void    add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T

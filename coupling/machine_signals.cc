@@ -58,6 +58,20 @@ std::map<std::string, Signal> Machine::Parts::signals() const
   for (const Body &body : bodies)
     if (body.kind == BodyKind::rotor)
       add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate, 1.}});
+    else if (body.kind != BodyKind::slider)
+    {
+      for (int d = 0; d < 3; ++d)
+        if (const Measure &u = body.marker.translation[d]; !u.empty())
+        {
+          const std::string axis(1, "xyz"[d]), position = body.name + "." + axis;
+          add_motion(body.name + ".u" + axis, body.name + ".v" + axis, "m", u);
+          signals[position]        = signals[body.name + ".u" + axis];
+          signals[position].name   = position;
+          signals[position].offset = body.centre[d];
+        }
+      if (body.kind == BodyKind::planar)
+        add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate + 2, 1.}});
+    }
     else
       add_motion(body.name + ".displacement", body.name + ".velocity", "m", {{body.coordinate, 1.}});
 
@@ -92,6 +106,20 @@ std::map<std::string, Signal> Machine::Parts::signals() const
     if (load.unit == "N m")
       signals[load.name + ".torque"] = force;
   }
+
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    for (const int rate : {0, 1})
+    {
+      Signal signal;
+      signal.name     = sensors[i].name + (rate ? ".rate" : ".value");
+      signal.unit     = sensors[i].unit + (rate ? "/s" : "");
+      signal.sensor   = static_cast<int>(i);
+      signal.quantity = rate;
+      for (const Measure &u : sensors[i].measures) // so that whoever reads the signal provides their motion
+        for (const auto &[coordinate, weight] : u)
+          signal.on_q.emplace_back(coordinate, 0.);
+      signals[signal.name] = signal;
+    }
 
   for (std::size_t e = 0; e < elements.size(); ++e)
   {
@@ -132,9 +160,6 @@ Signal Machine::signal(const std::string &name, const std::string &path) const
 
 int Machine::coordinate(const std::string &name) const
 {
-  for (const Body &body : parts_->bodies)
-    if (body.name == name)
-      return body.coordinate;
   std::vector<std::string> names;
   for (int i = 0; i < size(); ++i)
   {
@@ -153,6 +178,8 @@ double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const E
     value += weight * q[i];
   for (const auto &[i, weight] : signal.on_v)
     value += weight * v[i];
+  if (signal.sensor >= 0)
+    value += parts_->sensors[signal.sensor].evaluate(signal.quantity, q, v);
   if (signal.load >= 0)
     value += parts_->loads[signal.load].at(local.t);
   if (signal.element >= 0)

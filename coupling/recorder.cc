@@ -55,9 +55,8 @@ std::vector<int> coordinates_of(const std::vector<Signal> &signals)
   std::set<int> coordinates;
   for (const Signal &signal : signals)
     for (const Measure *measure : {&signal.on_q, &signal.on_v})
-      for (const auto &[coordinate, weight] : *measure)
-        if (weight != 0.)
-          coordinates.insert(coordinate);
+      for (const auto &term : *measure) // a weight of zero: the signal reads the coordinate otherwise
+        coordinates.insert(term.first);
   return {coordinates.begin(), coordinates.end()};
 }
 
@@ -69,7 +68,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
 {
   between_.q.setZero(machine.size());
   between_.v.setZero(machine.size());
-  between_.local.resize(machine.directions().cols());
+  between_.local.resize(machine);
   probe_   = {0., std::vector<double>(signals.size())};
   earlier_ = probe_;
   samples_.assign(samples + 1, probe_);

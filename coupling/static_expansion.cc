@@ -29,7 +29,7 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
   InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size())};
   const int    n_frame      = full.n_frame();
   const auto  &C            = full.full_frame()->C;
-  const int    n_bodies     = static_cast<int>(full.bodies().size());
+  const int    n_bodies     = full.n_mechanism();
   expanded.q.tail(n_bodies) = state.q.tail(n_bodies);
   expanded.v.tail(n_bodies) = state.v.tail(n_bodies);
 

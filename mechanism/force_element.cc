@@ -52,4 +52,13 @@ double ForceElement::resistance(const LocalMotion &motion, const double *history
   return -p;
 }
 
+void ForceElement::constraint(const LocalMotion &, const double *, double *, double *) const {}
+
+void ForceElement::constraint_rates(const LocalMotion &, const double *, double *, double *) const {}
+
+bool ForceElement::command(const std::string &, const LocalMotion &, double *) const
+{
+  return false;
+}
+
 } // namespace gestell::mechanism

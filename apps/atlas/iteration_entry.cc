@@ -40,7 +40,7 @@ double measured_contraction(const coupling::Machine &machine)
   const coupling::StepForm  form{1., h_b, h_b * h_b, h_b * h_b, 1., 1. / h_b, 1. / (h_b * h_b), step};
   const auto               &condensed = implicit.condensed(form, work);
   coupling::LocalState      local;
-  local.resize(1);
+  local.resize(machine);
   const double u_free = 1e-3;
   double       before = 0., ratio = 0.;
   for (int k = 0; k < 3; ++k) // later corrections of a good contraction are rounding

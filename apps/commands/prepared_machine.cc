@@ -96,7 +96,7 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
 Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 {
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(companion->size());
-  const auto      n_bodies  = static_cast<Eigen::Index>(machine.bodies().size());
+  const auto      n_bodies  = machine.n_mechanism();
   projected.tail(n_bodies)  = state.tail(n_bodies);
   for (const fem::Interface &interface : machine.full_frame()->interfaces)
     for (const fem::Interface &other : companion->reduced_frame()->interfaces)

@@ -26,7 +26,7 @@ public:
         q_(Eigen::VectorXd::Zero(problem.machine.size())), v_(q_),
         values_(problem.signals.size(), problem.samples.size())
   {
-    local_.resize(problem.machine.directions().cols());
+    local_.resize(problem.machine);
   }
 
   void step()
@@ -144,7 +144,7 @@ SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &re
   const Eigen::VectorXd kept    = machine.save_history();
   coupling::LocalState  local;
   SignalSamples         values(problem.signals.size(), result.samples.size());
-  local.resize(W.cols());
+  local.resize(machine);
   machine.follow_history(events);
   for (std::size_t k = 0; k < result.samples.size(); ++k)
   {

@@ -33,7 +33,7 @@ FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
   if (system.n_constraints() > 0)
     throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
                                 " constraints; they are compared without joints only.");
-  local_.resize(n_u_);
+  local_.resize(system);
   small_.resize(n_u_);
   condense(*mass_, system_.directions(), column_, a_, Y_M_, S_M_);
 }

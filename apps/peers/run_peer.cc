@@ -83,7 +83,7 @@ public:
         n_(system.size()), y_(2 * n_), restart_y_(2 * n_)
   {
     for (coupling::LocalState *local : {&before_, &now_, &between_})
-      local->resize(system.directions().cols());
+      local->resize(system);
     y_ << problem.q, problem.v;
     if (options.solver == PeerSolver::dense && options.kind != PeerKind::explicit_rk)
       form_.know_dense();

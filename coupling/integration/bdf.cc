@@ -26,18 +26,15 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
     throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
   if (!(options.step > 0.))
     throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
-  if (system.n_constraints() > 0)
-    throw std::invalid_argument("BDF: the system has " + std::to_string(system.n_constraints()) +
-                                " constraints, which are not integrated in this version; use compliant joints");
   const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v})
     x->setZero(n);
   g_.setZero(n_u);
   g_rate_.setZero(n_u);
   for (LocalState *state : {&local_, &base_, &now_.local})
-    state->resize(n_u);
+    state->resize(system);
   for (Point &point : points_)
-    point = {0., f_, f_, f_, g_, g_, g_, g_};
+    point = {0., f_, f_, f_, g_, g_, g_, g_, local_.lambda};
   cut_point_ = points_[0];
 }
 
@@ -106,16 +103,30 @@ void Bdf::begin_from(double t)
   local_.a.setZero();
   system_.local_force(local_, local_.p);
   ++work_.evaluations;
-  if (!system_.held().empty())
-    forces_of_held();
-  first.a    = local_.a;
-  first.p    = local_.p;
+  first.a      = local_.a;
+  first.p      = local_.p;
+  first.lambda = local_.lambda;
+  if (is_implied())
+  {
+    if (system_.n_constraints() > 0 && has_consistent())
+      consistent_->project(first.q, first.v, local_);
+    first.u      = local_.u;
+    first.u_rate = local_.v;
+    system_.mass_times(first.v, first.w);
+    system_.damping_times(first.q, product_);
+    first.w += product_;
+    find_implied(first);
+  }
   now_known_ = false;
 }
 
-/// What holds a measure in the first instant is no law's value, but follows from the equation of motion.  Where M is
-/// singular, the first step finds it.
-void Bdf::forces_of_held()
+bool Bdf::is_implied() const
+{
+  return system_.n_constraints() > 0 || !system_.held().empty();
+}
+
+/// Where M is singular there is no acceleration, and the first step finds the forces.
+bool Bdf::has_consistent()
 {
   if (!consistent_ && !massless_)
     try
@@ -126,8 +137,19 @@ void Bdf::forces_of_held()
     {
       massless_ = true;
     }
-  if (consistent_)
-    consistent_->solve(past(0).q, past(0).v, product_, local_, work_);
+  return consistent_ != nullptr;
+}
+
+/// Forces that hold a measure or close a joint, from the equation of motion at a point.
+void Bdf::find_implied(Point &point)
+{
+  if (!has_consistent())
+    return;
+  present(point);
+  consistent_->solve(point.q, point.v, product_, local_, work_);
+  point.a      = local_.a;
+  point.p      = local_.p;
+  point.lambda = local_.lambda;
 }
 
 void Bdf::restart()
@@ -147,8 +169,9 @@ void Bdf::present(const Point &point)
   local_.u   = point.u;
   local_.v   = point.u_rate;
   local_.a   = point.a;
-  local_.p   = point.p;
-  now_known_ = false;
+  local_.p      = point.p;
+  local_.lambda = point.lambda;
+  now_known_    = false;
 }
 
 const Instant &Bdf::instant() const
@@ -215,8 +238,10 @@ void Bdf::interpolate(double t, LocalState &state) const
   state.v.setZero();
   state.a.setZero();
   state.p.setZero();
+  state.lambda.setZero();
   for (int i = 0; i < n; ++i)
   {
+    state.lambda += weights.lagrange[i] * points[i]->lambda;
     state.u += weights.value[i] * points[i]->u + weights.slope[i] * points[i]->u_rate;
     state.v += weights.rate_value[i] * points[i]->u + weights.rate_slope[i] * points[i]->u_rate;
     state.a += weights.lagrange[i] * points[i]->a;
@@ -248,6 +273,7 @@ void Bdf::cut(double t)
   cut_point_.u_rate = base_.v;
   cut_point_.a      = base_.a;
   cut_point_.p      = base_.p;
+  cut_point_.lambda = base_.lambda;
   cut_              = true;
   present(cut_point_);
 }
@@ -275,6 +301,8 @@ void Bdf::multistep(double t)
     divided_step(past(0), options_.step, 1, to);
   }
   push();
+  if (index_ + 1 < 2 * options_.order && system_.n_constraints() > 0)
+    find_implied(past(0));
 }
 
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
@@ -308,6 +336,7 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   to.u_rate = local_.v;
   to.a      = local_.a;
   to.p      = local_.p;
+  to.lambda = local_.lambda;
   system_.stiffness_times(to.q, product_);
   to.w          = h_w_ + h_beta * (f_t_ - product_);
   const auto &W = system_.directions();
@@ -379,13 +408,15 @@ void Bdf::start_value(double t)
       const double weight = 1. / (static_cast<double>(j + 1) / (k + 1) - 1.);
       const auto   refine = [&](Eigen::VectorXd Point::*x)
       { table[k].*x = table[k + 1].*x + weight * (table[k + 1].*x - table[k].*x); };
-      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate, &Point::a, &Point::p})
+      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate, &Point::a, &Point::p, &Point::lambda})
         refine(x);
     }
   }
   push();
   past(0)   = table[0];
   past(0).t = t;
+  if (system_.n_constraints() > 0)
+    find_implied(past(0));
   present(past(0));
 }
 

@@ -22,6 +22,9 @@ namespace gestell::coupling
  *
  * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
  * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not.
+ * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as many
+ * points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
+ *
  * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
  * max_halvings times; the grid stays as it was.
  */
@@ -60,7 +63,7 @@ private:
   struct Point
   {
     double          t = 0.;
-    Eigen::VectorXd q, v, w, u, u_rate, a, p;
+    Eigen::VectorXd q, v, w, u, u_rate, a, p, lambda;
   };
 
   Point       &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
@@ -68,7 +71,9 @@ private:
   void         push();
   void         set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
   void         begin_from(double t);
-  void         forces_of_held();
+  bool         has_consistent();
+  bool         is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
+  void         find_implied(Point &point);
   void         multistep(double t);
   void         start_value(double t);
   void         euler_chain(const Point &from, double length, int n, Point &to);
@@ -96,7 +101,7 @@ private:
   Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
   bool                        load_known_ = false;
 
-  std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first
+  std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first, or for joints
   bool                             massless_ = false; ///< M is singular: there is none
 };
 

@@ -75,7 +75,7 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
   stiffness_.setZero(n_u_);
   moved_.setZero(n_u_);
   for (LocalState *state : {&local_, &base_, &now_.local})
-    state->resize(n_u_);
+    state->resize(system_);
 }
 
 double BdfControlled::step_of(int rung) const

@@ -44,7 +44,7 @@ public:
     dp_dv_.setZero(n_u_, n_u_);
     P_end_.setZero(n_u_);
     defect_.setZero(n_u_);
-    node_.resize(n_u_);
+    node_.resize(*context.system);
     lu_.resize(s_ * n_u_);
     extrapolate_.setZero(s_, s_);
     for (int j = 0; j < s_; ++j)

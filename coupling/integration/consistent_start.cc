@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace gestell::coupling
@@ -14,6 +15,7 @@ namespace
 
 constexpr double converged      = 1e-12; ///< correction of u'', relative to the terms it is the sum of
 constexpr int    max_iterations = 25;
+constexpr double closed         = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
 
 /// A coordinate without mass, or how the solver puts it.
 [[noreturn]] void refuse_singular(const SecondOrderSystem &system, const std::string &method, const std::string &why)
@@ -38,9 +40,20 @@ constexpr int    max_iterations = 25;
   throw std::invalid_argument(message.str());
 }
 
+[[noreturn]] void fail_open(const SecondOrderSystem &system, const Eigen::VectorXd &g, double t)
+{
+  int worst = 0;
+  g.cwiseAbs().maxCoeff(&worst);
+  std::ostringstream message;
+  message << "the joints cannot be closed at t = " << t << " s: " << system.constraint_name(worst)
+          << " stays open by " << g[worst] << " (m or rad); check positions and lengths";
+  throw ConvergenceFailure(message.str());
+}
+
 } // namespace
 
-ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method) : system_(system)
+ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method)
+    : system_(system), G_(system.constraint_blocks())
 {
   const auto &W = system.directions();
   const auto  n = system.size(), n_u = static_cast<int>(W.cols());
@@ -48,8 +61,13 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
     x->setZero(n);
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
+  scale_.setZero(n_u);
   dp_.setZero(n_u, n_u);
   jacobian_.resize(n_u);
+  D_G_.setZero(n_u, G_.n_rows());
+  schur_.resize(G_.n_rows());
+  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_})
+    x->setZero(G_.n_rows());
   Y_.setZero(n, n_u);
   try
   {
@@ -90,10 +108,71 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
   a.noalias() += Y_.lazyProduct(local.p);
 }
 
+/// Adds to the correction of u'' what keeps g'' = 0, and its multipliers.
+void ConsistentStart::take_up_joints(LocalState &local)
+{
+  G_.times_transposed(D_, D_G_);
+  for (Eigen::Index j = 0; j < D_G_.cols(); ++j)
+    jacobian_.solve_in_place(D_G_.col(j));
+  G_.times(D_G_, schur_.matrix());
+  if (!schur_.factorise())
+    fail_dependent(system_, schur_.failed(), local.t);
+  g_ = -bias_;
+  G_.add_product(-1., local.a, g_);
+  G_.add_product(-1., correction_, g_);
+  schur_.solve_in_place(g_);
+  local.lambda += g_;
+  correction_.noalias() += D_G_.lazyProduct(g_);
+}
+
+/// correction_ = G^T (G D G^T)^-1 g_, which moves the joints by g_.
+void ConsistentStart::impulse_against(const LocalState &local)
+{
+  G_.times_transposed(D_, D_G_);
+  G_.times(D_G_, schur_.matrix());
+  if (!schur_.factorise())
+    fail_dependent(system_, schur_.failed(), local.t);
+  schur_.solve_in_place(g_);
+  correction_.setZero();
+  G_.set_forces(g_, correction_);
+}
+
+void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local)
+{
+  if (G_.n_rows() == 0)
+    return;
+  double open = std::numeric_limits<double>::infinity();
+  for (int iteration = 0;; ++iteration)
+  {
+    system_.constraints(local, g_, G_);
+    const double before = open;
+    open                = g_.cwiseAbs().maxCoeff();
+    if (open == 0. || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
+      break;
+    if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)
+      fail_open(system_, g_, local.t);
+    impulse_against(local);
+    q.noalias() -= Y_.lazyProduct(correction_);
+    local.u.noalias() -= D_.lazyProduct(correction_);
+  }
+  system_.constraint_rates(local, rate_, bias_);
+  g_ = rate_;
+  G_.add_product(1., local.v, g_);
+  impulse_against(local);
+  v.noalias() -= Y_.lazyProduct(correction_);
+  local.v.noalias() -= D_.lazyProduct(correction_);
+}
+
 void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
 {
-  const auto &held = system_.held();
-  local.a          = a_free_;
+  const auto &held   = system_.held();
+  const bool  joints = G_.n_rows() > 0;
+  if (joints)
+  {
+    system_.constraints(local, g_, G_);
+    system_.constraint_rates(local, rate_, bias_);
+  }
+  local.a = a_free_;
   for (const HeldMeasure &h : held)
     local.a[h.measure] = 0.;
   for (int iteration = 0; iteration < max_iterations; ++iteration)
@@ -107,6 +186,8 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       dp_.col(h.measure).setZero();
       dp_(h.measure, h.measure) = 1.;
     }
+    if (joints)
+      G_.set_forces(local.lambda, local.p);
     Eigen::MatrixXd &jacobian = jacobian_.matrix();
     jacobian.noalias()        = -D_.lazyProduct(dp_);
     for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
@@ -117,22 +198,32 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     if (!jacobian_.factorise())
       fail_singular(system_, local.t);
     jacobian_.solve_in_place(correction_);
+    if (joints)
+      take_up_joints(local);
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
     {
       local.p[h.measure] += correction_[h.measure];
       correction_[h.measure] = 0.;
     }
     local.a += correction_;
-    bool small = true;
+    // Measures of joints may be held by them: rounding of the others is what is left of their acceleration.
+    double largest = 0.;
     for (int i = 0; i < correction_.size(); ++i)
     {
-      double scale = std::abs(a_free_[i]);
+      scale_[i] = std::abs(a_free_[i]);
       for (int j = 0; j < correction_.size(); ++j)
-        scale += std::abs(D_(i, j) * local.p[j]);
-      small = small && std::abs(correction_[i]) <= converged * scale;
+        scale_[i] += std::abs(D_(i, j) * local.p[j]);
+      largest = std::max(largest, scale_[i]);
     }
+    for (const ConstraintBlock &block : G_.blocks())
+      scale_.segment(block.first_measure, block.n_measures).setConstant(largest);
+    const bool small = (correction_.array().abs() <= converged * scale_.array()).all();
     if (small)
+    {
+      if (joints)
+        G_.set_forces(local.lambda, local.p);
       return;
+    }
   }
   std::ostringstream message;
   message << "the acceleration that belongs to the state at t = " << local.t << " s was not found in " << max_iterations

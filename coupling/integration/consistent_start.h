@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/constraint_jacobian.h"
 #include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
@@ -12,7 +13,12 @@ namespace gestell::coupling
  *     M a = f_t + W p(t, u, u', u'') - B q' - C q.
  *
  * Condensed to the measures, with D = W^T M^-1 W [n_u x n_u]:  u'' = u''_free + D p, which Newton solves where forces
- * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1).
+ * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1); so do the
+ * multipliers of ideal joints from g'' = G u'' + bias = 0,
+ *
+ *     G D G^T lambda = -bias - G (u''_free + D p),
+ *
+ * whose accuracy is that of q and q', whatever integrator they came from.
  *
  * Methods that carry the acceleration from step to step begin with it; M has to be regular for them.
  */
@@ -24,19 +30,30 @@ public:
   /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
   ConsistentStart(const SecondOrderSystem &system, const std::string &method);
 
-  /// a [n] at local.t, for which local.u and local.v belong to q, v [n]; fills local.a and local.p.
-  /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge
+  /// a [n] at local.t, for which local.u and local.v belong to q, v [n]; fills local.a, local.p and local.lambda.
+  /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge, or if joints depend on each other
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
+  /// The position nearest to q with g(t, u) = 0, then the velocity nearest to v with G u' + rate = 0, both measured by
+  /// their kinetic energy; local.u and local.v with them.
+  /// @throws ConvergenceFailure if joints depend on each other or g cannot be closed
+  void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
+
 private:
+  void take_up_joints(LocalState &local);
+  void impulse_against(const LocalState &local);
   void iterate(LocalState &local, IntegrationWork &work);
 
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;
   Eigen::MatrixXd               Y_, D_, dp_; // Y = M^-1 W [n x n_u]
   SmallLu                       jacobian_;
-  Eigen::VectorXd               f_, product_, a_free_, correction_;
+  Eigen::VectorXd               f_, product_, a_free_, correction_, scale_;
+  ConstraintJacobian            G_;
+  Eigen::MatrixXd               D_G_;  // D G^T [n_u x n_c]
+  SmallLu                       schur_; // G D G^T
+  Eigen::VectorXd               g_, rate_, bias_; // [n_c]
 };
 
 } // namespace gestell::coupling

@@ -14,7 +14,7 @@ EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 {
   for (Eigen::VectorXd *x : {&product_, &load_, &between_.q, &between_.v})
     x->setZero(system.size());
-  between_.local.resize(system.directions().cols());
+  between_.local.resize(system);
 }
 
 EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double weight_b, const Power &b)

@@ -19,8 +19,8 @@ double resolution(double t, double h)
 EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
     : system_(system), integrator_(integrator), options_(options), detection_(system)
 {
-  before_.resize(system.directions().cols());
-  between_.resize(system.directions().cols());
+  before_.resize(system);
+  between_.resize(system);
   make_room();
 }
 

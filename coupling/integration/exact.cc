@@ -32,12 +32,12 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
   Q_     = reordered(modes_.Q, context_.measures.n_p);
   V_     = reordered(modes_.V, context_.measures.n_p);
   step_  = options.step > 0. ? options.step : natural_step(modes_);
-  local_.resize(n_u);
-  local_begin_.resize(n_u);
+  local_.resize(system);
+  local_begin_.resize(system);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
     x->setZero(2 * context_.measures.n_p);
   forces_.setZero(force_->basis().size() * n_u);
-  now_.local.resize(n_u);
+  now_.local.resize(system);
 }
 
 void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)

@@ -44,7 +44,7 @@ public:
     for (VectorXd *x : {&p_begin_, &p_, &change_, &p_before_})
       x->setZero(n_u_);
     for (LocalState *state : {&at_begin_, &at_end_, &node_, &way_, &first_, &end_})
-      state->resize(n_u_);
+      state->resize(*context.system);
     free_.setZero(2 * n_u_);
     dp_du_.setZero(n_u_, n_u_);
     dp_dv_.setZero(n_u_, n_u_);

@@ -11,6 +11,8 @@ namespace gestell::coupling
 namespace
 {
 constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon();
+constexpr double joint_rounding      = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double weak_lever          = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
 } // namespace
 
@@ -41,8 +43,17 @@ void fail_singular(const SecondOrderSystem &system, double t)
   throw ConvergenceFailure(message.str());
 }
 
+void fail_dependent(const SecondOrderSystem &system, int row, double t)
+{
+  std::ostringstream message;
+  message << "the joints do not hold the mechanism at t = " << t << " s: " << system.constraint_name(row)
+          << " follows from the others here, as in a stretched linkage, or says what they say; change the position, or "
+             "make that joint compliant";
+  throw ConvergenceFailure(message.str());
+}
+
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
-    : system_(system), options_(options)
+    : system_(system), options_(options), G_(system.constraint_blocks())
 {
   const int n_u = static_cast<int>(system.directions().cols());
   xi_.setZero(n_u);
@@ -54,6 +65,9 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   scale_before_.setZero(n_u);
   dp_.setZero(n_u, n_u);
   jacobian_.resize(n_u);
+  S_G_.setZero(n_u, G_.n_rows());
+  schur_.resize(G_.n_rows());
+  g_.setZero(G_.n_rows());
   begin(u_begin_);
 }
 
@@ -95,11 +109,59 @@ void ImplicitStep::motion(const StepForm &form, const LocalState &base, LocalSta
   local.a = base.a + form.w_a * xi_;
 }
 
+/// From the residual of the forces alone in correction_ to that of forces and joints: g_ becomes d_lambda.
+bool ImplicitStep::take_up_joints(const Condensed &condensed, const LocalState &local)
+{
+  const double w_u = condensed.form.w_u;
+  G_.times_transposed(condensed.S, S_G_);
+  for (Eigen::Index j = 0; j < S_G_.cols(); ++j)
+    jacobian_.solve_in_place(S_G_.col(j));
+  G_.times(S_G_, schur_.matrix());
+  schur_.matrix() *= w_u;
+  joints_singular_ = !schur_.factorise();
+  if (joints_singular_)
+    return false;
+  G_.add_product(w_u, correction_, g_);
+  g_ = -g_;
+  schur_.solve_in_place(g_);
+  correction_.noalias() += S_G_.lazyProduct(g_);
+  return g_.allFinite() && local.lambda.size() == g_.size();
+}
+
+/// Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves; of the
+/// measures of joints, what rounding in g = G u leaves, the difference of numbers as large as the block tells; other
+/// elements act on bodies that joints carry, and get their share.
+void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local)
+{
+  const double left = rounding / options_.tolerance;
+  for (Eigen::Index i = 0; i < scale_.size(); ++i)
+    scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]),
+                          left * std::abs(local.u[i])});
+  double of_joints = 0.;
+  for (std::size_t b = 0; b < G_.blocks().size(); ++b)
+  {
+    const ConstraintBlock &block = G_.blocks()[b];
+    const auto             G     = static_cast<const ConstraintJacobian &>(G_)[b];
+    const double           least = weak_lever * G.cwiseAbs().maxCoeff();
+    if (least > 0.)
+      of_joints = std::max(of_joints, joint_rounding * left * block.size * weak_lever / least);
+    for (int k = 0; least > 0. && k < block.n_measures; ++k)
+    {
+      const double lever = std::max(least, G.col(k).cwiseAbs().maxCoeff());
+      double      &scale = scale_[block.first_measure + k];
+      scale              = std::max(scale, joint_rounding * left * block.size / lever);
+    }
+  }
+  scale_ = scale_.cwiseMax(of_joints);
+}
+
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
 {
   const StepForm &form        = condensed.form;
   const auto     &held        = system_.held();
+  const bool      joints      = G_.n_rows() > 0;
   double          size_before = 0.;
+  joints_singular_            = false;
   for (const HeldMeasure &h : held)
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
@@ -115,11 +177,23 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       dp_(h.measure, h.measure) = 1.;
     }
 
+    if (joints)
+    {
+      system_.constraints(local, g_, G_);
+      G_.set_forces(local.lambda, local.p);
+    }
+
     Eigen::MatrixXd &jacobian = jacobian_.matrix();
-    jacobian.noalias()        = -condensed.S.lazyProduct(dp_);
-    for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
-      if (!is_held(held, i)) // adding 1 and taking it away again would round a small S away
-        jacobian(i, i) += 1.;
+    for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
+    {
+      auto column = jacobian.col(j);
+      column.setZero();
+      for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
+        if (dp_(i, j) != 0.)
+          column.noalias() -= dp_(i, j) * condensed.S.col(i);
+      if (!is_held(held, j)) // adding 1 and taking it away again would round a small S away
+        column[j] += 1.;
+    }
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
@@ -127,7 +201,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     if (singular_)
       return false;
     jacobian_.solve_in_place(correction_);
-    if (!correction_.allFinite())
+    if ((joints && !take_up_joints(condensed, local)) || !correction_.allFinite())
       return false;
 
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
@@ -135,18 +209,18 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       local.p[h.measure] += correction_[h.measure];
       correction_[h.measure] = 0.;
     }
+    grow_scale(form, local);
     double size = 0.;
     for (int i = 0; i < correction_.size(); ++i)
     {
-      // Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves.
-      scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]),
-                            rounding / options_.tolerance * std::abs(local.u[i])});
       if (correction_[i] != 0.)
         size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
     }
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
     xi_.noalias() += damping * correction_;
+    if (joints)
+      local.lambda += damping * g_;
     if (iteration > 0 && size_before > 0.)
       contraction_ = std::clamp(size / size_before, 1e-4, 1.);
     const double remaining = contraction_ < 1. ? size * contraction_ / (1. - contraction_) : size;
@@ -154,6 +228,8 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     {
       // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
       local.p.noalias() += dp_.lazyProduct(correction_);
+      if (joints)
+        G_.set_forces(local.lambda, local.p);
       motion(form, base, local);
       contraction_ = std::max(contraction_, unknown_contraction);
       return true;
@@ -195,6 +271,8 @@ void ImplicitStep::fail(double t) const
 {
   if (singular_)
     fail_singular(system_, t);
+  if (joints_singular_)
+    fail_dependent(system_, schur_.failed(), t);
   int worst = 0;
   for (int i = 1; i < residual_.size(); ++i)
     if (std::abs(residual_[i]) * scale_[worst] > std::abs(residual_[worst]) * scale_[i])

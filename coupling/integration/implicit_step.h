@@ -40,7 +40,15 @@ struct StepForm
  *     xi = W^T x_free + S p(xi),
  *
  * which is (5.5.3/7) in the measures; x = x_free + Y p follows.  A measure that is held has xi given by its rate and p
- * as unknown.  One factorisation of A and n_u solves per StepForm, kept for later use.
+ * as unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their measures: Newton's
+ * matrix is bordered,
+ *
+ *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g,
+ *
+ * and solved by its Schur complement w_u G (I - S p')^-1 S G^T [n_c x n_c], which scales with the step by itself.  How G
+ * turns within an iteration (lambda g'') is left out of it: that is of the order of h^2 lambda/m against 1.
+ *
+ * One factorisation of A and n_u solves per StepForm, kept for later use.
  */
 class ImplicitStep
 {
@@ -57,7 +65,8 @@ public:
   };
   const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
-  /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures; base holds u_0, v_0, a_0
+  /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures, local.lambda that of joints;
+  /// base holds u_0, v_0, a_0
   /// and the time t.  local is the solution on return.
   /// @throws ConvergenceFailure
   void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
@@ -67,6 +76,8 @@ public:
   void begin(const Eigen::VectorXd &u);
 
 private:
+  bool take_up_joints(const Condensed &condensed, const LocalState &local);
+  void grow_scale(const StepForm &form, const LocalState &local);
   bool iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
   void motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
@@ -77,12 +88,19 @@ private:
   Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
   Eigen::MatrixXd                            dp_;
   SmallLu                                    jacobian_;
-  bool                                       singular_ = false;
+  ConstraintJacobian                         G_;
+  Eigen::MatrixXd                            S_G_;   ///< S G^T, then (I - S p')^-1 S G^T [n_u x n_c]
+  SmallLu                                    schur_; ///< [n_c x n_c]
+  Eigen::VectorXd                            g_;     ///< [n_c] g, then d_lambda
+  bool                                       singular_ = false, joints_singular_ = false;
   double                                     contraction_; ///< of Newton's corrections, as seen last
 };
 
 /// Tells which measures that stick leave their forces undetermined.
 /// @throws ConvergenceFailure always
 [[noreturn]] void fail_singular(const SecondOrderSystem &system, double t);
+/// Tells that equation `row` of the joints depends on those before it here.
+/// @throws ConvergenceFailure always
+[[noreturn]] void fail_dependent(const SecondOrderSystem &system, int row, double t);
 
 } // namespace gestell::coupling

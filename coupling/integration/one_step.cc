@@ -28,9 +28,6 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
     : system_(system), implicit_(system, newton), step_(require_step(name, step)), max_halvings_(max_halvings),
       start_(system, name), middle_(std::max(max_halvings, 0) + 1)
 {
-  if (system.n_constraints() > 0)
-    throw std::invalid_argument(name + ": the system has " + std::to_string(system.n_constraints()) +
-                                " constraints, which are not integrated in this version; use compliant joints");
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);
 }
@@ -40,7 +37,7 @@ void OneStep::resize(Point &point) const
   const auto n = system_.size();
   for (Eigen::VectorXd *x : {&point.motion.q, &point.motion.v, &point.a, &point.f})
     x->setZero(n);
-  point.motion.local.resize(system_.directions().cols());
+  point.motion.local.resize(system_);
 }
 
 /// The present point becomes t, q, v with its measures; no step lies behind it.
@@ -64,7 +61,9 @@ void OneStep::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v
   place(t, q, v);
   Instant &here = end_.motion;
   here.local.p.setZero();
+  here.local.lambda.setZero();
   implicit_.begin(here.local.u);
+  start_.project(here.q, here.v, here.local);
   start_.solve(here.q, here.v, end_.a, here.local, work_);
 }
 
@@ -84,6 +83,7 @@ void OneStep::restart()
   index_        = 0;
   stepped_ = cut_ = false;
   system_.excitation().at(here.t, end_.f);
+  start_.project(here.q, here.v, here.local);
   start_.solve(here.q, here.v, end_.a, here.local, work_);
 }
 
@@ -113,7 +113,8 @@ void OneStep::step_or_divide(const Point &from, double length, int halvings, Poi
 {
   try
   {
-    to.motion.local.p = from.motion.local.p;
+    to.motion.local.p      = from.motion.local.p;
+    to.motion.local.lambda = from.motion.local.lambda;
     formula_step(from, length, to);
   }
   catch (const ConvergenceFailure &failure)
@@ -150,6 +151,7 @@ void OneStep::interpolate(double t, LocalState &state) const
   state.v                   = dH[0] * a.u + dH[1] * b.u + dD[0] * a.v + dD[1] * b.v;
   state.a                   = L[0] * a.a + L[1] * b.a;
   state.p                   = L[0] * a.p + L[1] * b.p;
+  state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
 }
 
 void OneStep::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const

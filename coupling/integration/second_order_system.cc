@@ -3,6 +3,13 @@
 namespace gestell::coupling
 {
 
+void LocalState::resize(const SecondOrderSystem &system)
+{
+  for (Eigen::VectorXd *x : {&u, &v, &a, &p})
+    x->setZero(system.directions().cols());
+  lambda.setZero(system.n_constraints());
+}
+
 bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
 {
   return false;
@@ -14,14 +21,26 @@ const std::vector<HeldMeasure> &SecondOrderSystem::held() const
   return none;
 }
 
-void SecondOrderSystem::constraints(double, const Eigen::VectorXd &, Eigen::VectorXd &g) const
+const std::vector<ConstraintBlock> &SecondOrderSystem::constraint_blocks() const
 {
-  g.resize(0);
+  static const std::vector<ConstraintBlock> none;
+  return none;
 }
 
-void SecondOrderSystem::constraint_jacobian(double, const Eigen::VectorXd &, Eigen::MatrixXd &G) const
+void SecondOrderSystem::constraints(const LocalState &, Eigen::VectorXd &g, ConstraintJacobian &) const
 {
-  G.resize(0, size());
+  g.setZero();
+}
+
+void SecondOrderSystem::constraint_rates(const LocalState &, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
+{
+  rate.setZero();
+  bias.setZero();
+}
+
+std::string SecondOrderSystem::constraint_name(int i) const
+{
+  return "constraint " + std::to_string(i + 1);
 }
 
 } // namespace gestell::coupling

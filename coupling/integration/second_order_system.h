@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/constraint_jacobian.h"
 #include "coupling/integration/excitation.h"
 
 #include <Eigen/Core>
@@ -22,18 +23,17 @@ public:
   virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
 };
 
+class SecondOrderSystem;
+
 /// Motion of all local measures u = W^T q at one instant, and the forces conjugate to them.
 struct LocalState
 {
   double          t = 0.;
   Eigen::VectorXd u, v, a; // [n_u]
   Eigen::VectorXd p;       // [n_u]
+  Eigen::VectorXd lambda;  // [n_c] multipliers of ideal joints, p = G^T lambda on their measures
 
-  void resize(Eigen::Index n_u)
-  {
-    for (Eigen::VectorXd *x : {&u, &v, &a, &p})
-      x->setZero(n_u);
-  }
+  void resize(const SecondOrderSystem &system); ///< to zero
 };
 
 /// A measure that sticks: its rate is u' = rate, and its force p is the unknown.
@@ -66,9 +66,11 @@ struct SpectrumLine
 /**
  * The machine as every integrator and every search for steady states sees it (5.5.2/1):
  *
- *     M q'' + B q' + C q + G(q)^T lambda = f_t(t) + W p(t, u, u', u'', history),     u = W^T q,     g(t, q) = 0.
+ *     M q'' + B q' + C q = f_t(t) + W p,     u = W^T q,     g(t, u) = 0,     G = dg/du,
+ *     p = p(t, u, u', u'', history) of the elements,     p = G^T lambda of the ideal joints.
  *
- * M, B, C [n x n] and W [n x n_u] are constant; p is nonlinear and block diagonal, a few measures per element.  The
+ * M, B, C [n x n] and W [n x n_u] are constant; p is nonlinear and block diagonal, a few measures per element, and G
+ * [n_c x n_u] is so too, a few rows per joint.  The
  * system alone knows how its matrices are stored and solved with: dense, reduced or sparse.
  */
 class SecondOrderSystem
@@ -119,9 +121,15 @@ public:
   virtual void          transition(int i, const LocalState &state)                      = 0;
 
   // --- ideal joints; most machines have none
-  virtual int  n_constraints() const { return 0; }
-  virtual void constraints(double t, const Eigen::VectorXd &q, Eigen::VectorXd &g) const;
-  virtual void constraint_jacobian(double t, const Eigen::VectorXd &q, Eigen::MatrixXd &G) const;
+  int n_constraints() const { return constraint_rows(constraint_blocks()); }
+  /// Rows of g and measures of each joint; local_force() and its derivatives leave these measures alone.
+  virtual const std::vector<ConstraintBlock> &constraint_blocks() const;
+  /// g [n_c] and G at state.t, state.u.
+  virtual void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const;
+  /// What g' = G u' + rate and g'' = G u'' + bias have beyond the first terms, [n_c] each.
+  virtual void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const;
+  /// Joint and direction of row i, for messages: "crank pin, along x".
+  virtual std::string constraint_name(int i) const;
 
   // --- energy
   /// Energy [J] stored in the elements.

@@ -48,6 +48,7 @@ public:
       }
       pivot_[k] = pivot;
       idle_[k]  = below == 0.;
+      failed_ = k;
       if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
         return false;
       least_ = std::min(least_, pivot == k ? a_(k, k) : -1.);
@@ -74,7 +75,11 @@ public:
   /// most some four times as far as the motion, as it may near the pole that a force has that falls with the motion.
   double least_pivot() const { return least_; }
 
-  void solve_in_place(Eigen::VectorXd &x) const
+  /// Where factorise() found the matrix singular: a column that depends on those before it.
+  int failed() const { return failed_; }
+
+  template <typename Vector>
+  void solve_in_place(Vector &&x) const
   {
     const int n = static_cast<int>(pivot_.size());
     for (int k = 0; k < n; ++k)
@@ -95,7 +100,8 @@ private:
   Eigen::VectorXd   row_size_; ///< largest entry of each row before elimination
   std::vector<int>  pivot_;
   std::vector<char> idle_; ///< columns with nothing below the pivot
-  double            least_ = 1.;
+  double            least_  = 1.;
+  int               failed_ = 0;
 };
 
 } // namespace gestell::coupling

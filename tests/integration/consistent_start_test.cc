@@ -83,7 +83,7 @@ public:
 LocalState measures(const SecondOrderSystem &system, double t, const Vector &q, const Vector &v)
 {
   LocalState local;
-  local.resize(system.directions().cols());
+  local.resize(system);
   local.t = t;
   local.u = system.directions().transpose() * q;
   local.v = system.directions().transpose() * v;

@@ -1,0 +1,260 @@
+#include "coupling/machine_parts.h"
+
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+Vector3 unit(const Vector3 &a, const std::string &place)
+{
+  const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  if (!(length > 0.))
+    throw std::invalid_argument(place + ": the axis has length zero; give a direction such as [0, 0, -1]");
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// The part of a motion across the axis a.
+std::array<Measure, 3> across(const std::array<Measure, 3> &motion, const Vector3 &a)
+{
+  Measure along;
+  for (int d = 0; d < 3; ++d)
+    along = along + a[d] * motion[d];
+  return {motion[0] - a[0] * along, motion[1] - a[1] * along, motion[2] - a[2] * along};
+}
+
+void check_mass(double mass, const std::string &what)
+{
+  if (!(mass >= 0.) || !std::isfinite(mass))
+    throw std::invalid_argument(what + " is " + std::to_string(mass) + "; it must be zero or positive");
+}
+
+void require_mass(double mass, const std::string &what)
+{
+  if (!(mass > 0.) || !std::isfinite(mass))
+    throw std::invalid_argument(what + " is " + std::to_string(mass) + "; it must be positive");
+}
+} // namespace
+
+int Machine::add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass,
+                       const std::string &carrier)
+{
+  if (!(inertia > 0.))
+    throw std::invalid_argument("rotor \"" + name + "\": inertia " + std::to_string(inertia) +
+                                " kg m^2 must be positive");
+  check_mass(mass, "rotor \"" + name + "\": mass [kg]");
+  const Vector3 a    = unit(axis, "rotor \"" + name + "\"");
+  const Marker &base = marker(carrier);
+  Marker        own  = base;
+  own.name           = name;
+  const int phi      = parts_->add_coordinates(name, {name});
+  own.rotation       = across(base.rotation, a);
+  for (int d = 0; d < 3; ++d)
+    own.rotation[d] = own.rotation[d] + a[d] * Measure{{phi, 1.}};
+  parts_->add_dyad(parts_->M, inertia, {{phi, 1.}});
+  parts_->add_mass(mass, base.translation);
+  parts_->add_body({name, BodyKind::rotor, phi, a, parts_->position_of(carrier), 0., {}, own,
+                    parts_->position_of(carrier)});
+  return phi;
+}
+
+int Machine::add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide)
+{
+  check_mass(mass, "slider \"" + name + "\": mass [kg]");
+  if (mass == 0.)
+    throw std::invalid_argument("slider \"" + name + "\": mass 0 kg; a slider needs a positive mass");
+  const Vector3 a    = unit(axis, "slider \"" + name + "\"");
+  const Marker &base = marker(guide);
+  Marker        own;
+  own.name            = name;
+  own.rotation        = base.rotation;
+  const int  x        = parts_->add_coordinates(name, {name});
+  const auto sideways = across(base.translation, a);
+  for (int d = 0; d < 3; ++d)
+    own.translation[d] = sideways[d] + a[d] * Measure{{x, 1.}};
+  // Along a and across it do not couple: added apart, so that no rounding does it either.
+  parts_->add_dyad(parts_->M, mass, {{x, 1.}});
+  for (int d = 0; d < 3; ++d)
+    parts_->add_dyad(parts_->M, mass, sideways[d]);
+  parts_->add_loads(mass, own.translation);
+  parts_->add_body({name, BodyKind::slider, x, a, parts_->position_of(guide), 0., {}, own,
+                    parts_->position_of(guide)});
+  return x;
+}
+
+int Machine::add_point(const std::string &name, double mass, const Vector3 &position)
+{
+  require_mass(mass, "point \"" + name + "\": mass [kg]");
+  const int first = parts_->add_coordinates(name, {name + ".ux", name + ".uy", name + ".uz"});
+  Marker    own;
+  own.name = name;
+  for (int d = 0; d < 3; ++d)
+    own.translation[d] = {{first + d, 1.}};
+  parts_->add_mass(mass, own.translation);
+  parts_->add_body({name, BodyKind::point, first, {}, position, 0., {}, own, position});
+  return first;
+}
+
+int Machine::add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia,
+                        const Vector3 &position)
+{
+  require_mass(mass, "planar body \"" + name + "\": mass [kg]");
+  require_mass(inertia, "planar body \"" + name + "\": inertia [kg m^2]");
+  const Vector3 n = unit(normal, "planar body \"" + name + "\"");
+  // Across a global axis the other two, in their order; else any two.
+  int main = -1;
+  for (int d = 0; d < 3; ++d)
+    if (std::abs(std::abs(n[d]) - 1.) < 1e-12)
+      main = d;
+  Vector3                  e_1{}, e_2{};
+  std::vector<std::string> names{name + ".s1", name + ".s2", name + ".angle"};
+  if (main >= 0)
+  {
+    const int first = main == 0 ? 1 : 0, second = main == 2 ? 1 : 2;
+    e_1[first] = e_2[second] = 1.;
+    names[0] = name + ".u" + "xyz"[first];
+    names[1] = name + ".u" + "xyz"[second];
+  }
+  else
+  {
+    const int least = std::abs(n[0]) <= std::abs(n[1]) && std::abs(n[0]) <= std::abs(n[2]) ? 0
+                      : std::abs(n[1]) <= std::abs(n[2])                                   ? 1
+                                                                                           : 2;
+    Vector3 e{};
+    e[least] = 1.;
+    for (int d = 0; d < 3; ++d)
+      e_1[d] = e[d] - n[least] * n[d];
+    e_1 = unit(e_1, name);
+    for (int d = 0; d < 3; ++d)
+      e_2[d] = n[(d + 1) % 3] * e_1[(d + 2) % 3] - n[(d + 2) % 3] * e_1[(d + 1) % 3];
+  }
+  const int first = parts_->add_coordinates(name, names);
+  Marker    own;
+  own.name = name;
+  for (int d = 0; d < 3; ++d)
+  {
+    own.translation[d] = e_1[d] * Measure{{first, 1.}} + e_2[d] * Measure{{first + 1, 1.}};
+    own.rotation[d]    = n[d] * Measure{{first + 2, 1.}};
+  }
+  parts_->add_mass(mass, own.translation);
+  parts_->add_dyad(parts_->M, inertia, {{first + 2, 1.}});
+  parts_->add_body({name, BodyKind::planar, first, n, position, 0., {}, own, position, e_1, e_2});
+  return first;
+}
+
+PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
+{
+  using mechanism::Placement, mechanism::Vector3d;
+  const auto vector = [](const Vector3 &a) { return Vector3d(a[0], a[1], a[2]); };
+  const Marker &own = marker(name);
+  const Body   *on  = nullptr;
+  for (const Body &body : parts_->bodies)
+    if (body.name == name)
+      on = &body;
+  PlacedPoint                           placed;
+  std::vector<Placement::LinearMeasure> linear;
+  const auto                            add = [&](const Measure &u, const Vector3d &translation, const Vector3d &rotation)
+  {
+    if (u.empty())
+      return;
+    placed.measures.push_back(u);
+    linear.push_back({translation, rotation});
+  };
+  const Vector3d centre = vector(on ? on->centre : parts_->position_of(name)), zero = Vector3d::Zero();
+  if (on && (on->kind == BodyKind::planar || on->kind == BodyKind::point))
+  {
+    const int n = on->kind == BodyKind::planar ? 2 : 3;
+    for (int i = 0; i < n; ++i)
+      add({{on->coordinate + i, 1.}},
+          n == 3 ? Vector3d(Vector3d::Unit(i)) : vector(i == 0 ? on->e_1 : on->e_2), zero);
+    if (n == 3)
+      placed.placement = Placement(vector(at), centre, linear);
+    else
+    {
+      placed.placement = Placement(vector(at), centre, linear, vector(on->axis));
+      placed.measures.push_back({{on->coordinate + 2, 1.}});
+    }
+    return placed;
+  }
+  const bool turns  = on && on->kind == BodyKind::rotor;
+  const bool slides = on && on->kind == BodyKind::slider;
+  if (slides && own.translation[0].size() <= 1 && own.translation[1].size() <= 1 && own.translation[2].size() <= 1)
+    add({{on->coordinate, 1.}}, vector(on->axis), zero); // guided by the ground
+  else
+    for (int d = 0; d < 3; ++d)
+      add(own.translation[d], Vector3d::Unit(d), zero);
+  const auto rotation = turns ? across(own.rotation, on->axis) : own.rotation;
+  for (int d = 0; d < 3; ++d)
+    add(rotation[d], zero, Vector3d::Unit(d));
+  if (turns)
+  {
+    placed.placement = Placement(vector(at), centre, linear, vector(on->axis));
+    placed.measures.push_back({{on->coordinate, 1.}});
+  }
+  else
+    placed.placement = Placement(vector(at), centre, linear);
+  return placed;
+}
+
+void Machine::add_measure(const std::string &name, const mechanism::PlacedMeasure &measure,
+                          std::vector<Measure> measures, const std::string &unit)
+{
+  parts_->sensors.push_back({name, unit, measure, std::move(measures)});
+}
+
+double Machine::Parts::Sensor::evaluate(int quantity, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const
+{
+  double u[mechanism::PlacedMeasure::max_measures] = {}, rate[mechanism::PlacedMeasure::max_measures] = {};
+  double gradient[mechanism::PlacedMeasure::max_measures];
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    for (const auto &[coordinate, weight] : measures[i])
+    {
+      u[i] += weight * q[coordinate];
+      rate[i] += weight * v[coordinate];
+    }
+  const auto value = measure.evaluate(u, rate, gradient);
+  return quantity == 0 ? value.s : value.rate;
+}
+
+void Machine::add_point_mass(const std::string &name, const std::string &marker_name, double mass,
+                             const Vector3 &inertia, const Vector3 &offset)
+{
+  check_mass(mass, "point mass \"" + name + "\": mass [kg]");
+  const Marker          &at = marker(marker_name);
+  std::array<Measure, 3> moved;
+  for (int d = 0; d < 3; ++d)
+  {
+    const int e = (d + 1) % 3, f = (d + 2) % 3; // (theta x r)_d = theta_e r_f - theta_f r_e
+    moved[d] = at.translation[d] + offset[f] * at.rotation[e] - offset[e] * at.rotation[f];
+  }
+  parts_->add_mass(mass, moved);
+  for (int d = 0; d < 3; ++d)
+  {
+    check_mass(inertia[d], "point mass \"" + name + "\": inertia [kg m^2]");
+    parts_->add_dyad(parts_->M, inertia[d], at.rotation[d]);
+  }
+}
+
+void Machine::draw(const std::string &body_name, const Vector3 &position, double radius, const Vector3 &size)
+{
+  for (Body &body : parts_->bodies)
+    if (body.name == body_name)
+    {
+      body.position = position;
+      if (body.kind == BodyKind::rotor && body.marker.translation[0].empty() && body.marker.translation[1].empty() &&
+          body.marker.translation[2].empty())
+        body.centre = position; // on the ground nothing else tells where it turns
+      body.radius   = radius;
+      body.size     = size;
+      return;
+    }
+  body(body_name); // throws with the nearest name
+}
+
+void Machine::draw_rod(const DrawnRod &rod)
+{
+  parts_->rods.push_back(rod);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,150 @@
+#include "mechanism/joints/ideal_joint.h"
+
+#include "mechanism/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gestell::mechanism
+{
+
+using MovedVector = Placement::MovedVector;
+
+IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
+                       std::shared_ptr<const MotionLaw> law)
+    : first_(first), second_(second), equations_(std::move(equations)), law_(std::move(law))
+{
+  require(!equations_.empty(), "joint", "number of equations", 0., "one or more");
+  bool driven = false;
+  for (const Equation &equation : equations_)
+  {
+    driven = driven || equation.driven;
+    if (equation.measure.form == RelativeMeasure::Form::ratio)
+      require(int(equation.measure.ratios.size()) == n_measures(), "joint " + equation.name, "number of ratios",
+              double(equation.measure.ratios.size()), "that of the measures, " + std::to_string(n_measures()));
+    if (equation.measure.form == RelativeMeasure::Form::distance)
+      require(equation.offset >= 0., "joint " + equation.name, "distance [m]", equation.offset, "zero or positive");
+  }
+  require(driven == (law_ != nullptr), "joint", "number of motion laws", law_ ? 1. : 0.,
+          "one if an equation is driven, else none");
+}
+
+void IdealJoint::constraint(const LocalMotion &motion, const double *history, double *g, double *G) const
+{
+  const int   n_c = n_constraints();
+  MovedVector x_1, x_2;
+  first_.position(motion.u, motion.v, x_1);
+  second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
+  const double f = law_ ? law_->at(motion.t, history).value : 0.;
+  for (int i = 0; i < n_c; ++i)
+  {
+    const Equation &equation = equations_[i];
+    const auto      s = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G + i, n_c).s;
+    g[i]              = s - equation.offset - (equation.driven ? f : 0.);
+  }
+}
+
+void IdealJoint::constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const
+{
+  MovedVector x_1, x_2;
+  first_.position(motion.u, motion.v, x_1);
+  second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
+  const PrescribedMotion f = law_ ? law_->at(motion.t, history) : PrescribedMotion{};
+  double                 G[PlacedMeasure::max_measures];
+  for (int i = 0; i < n_constraints(); ++i)
+  {
+    const Equation &equation = equations_[i];
+    bias[i] = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G).bias;
+    rate[i] = 0.;
+    if (!equation.driven)
+      continue;
+    rate[i] = -f.rate;
+    bias[i] -= f.acceleration;
+  }
+}
+
+double IdealJoint::constraint_size() const
+{
+  double size = first_.size() + second_.size();
+  for (const Equation &equation : equations_)
+    size = std::max(size, std::abs(equation.offset));
+  return size > 0. ? size : 1.;
+}
+
+/// The force p = G^T lambda is the system's.
+void IdealJoint::force(const LocalMotion &, const double *, double *p) const
+{
+  std::fill(p, p + n_measures(), 0.);
+}
+
+void IdealJoint::tangent(const LocalMotion &motion, const double *history, const TangentWeights &, double *p,
+                         double *dp) const
+{
+  force(motion, history, p);
+  std::fill(dp, dp + n_measures() * n_measures(), 0.);
+}
+
+void IdealJoint::start(const LocalMotion &motion, double *history) const
+{
+  if (law_)
+    law_->start(motion.t, history);
+}
+
+int IdealJoint::n_guards(const double *history) const
+{
+  double      t;
+  std::string name;
+  return law_ && law_->next_corner(history, t, name) ? 1 : 0;
+}
+
+std::vector<Guard> IdealJoint::guards(const double *history) const
+{
+  double      t;
+  std::string name;
+  if (!law_ || !law_->next_corner(history, t, name))
+    return {};
+  return {{name, Crossing::rising}};
+}
+
+void IdealJoint::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  double      t;
+  std::string name;
+  if (law_ && law_->next_corner(history, t, name))
+    g[0] = motion.t - t;
+}
+
+void IdealJoint::transition(int, const LocalMotion &motion, double *history) const
+{
+  law_->pass_corner(motion.t, history);
+}
+
+bool IdealJoint::command(const std::string &order, const LocalMotion &motion, double *history) const
+{
+  return law_ && law_->command(order, motion.t, history);
+}
+
+std::vector<Quantity> IdealJoint::quantities() const
+{
+  std::vector<Quantity> quantities;
+  for (const Equation &equation : equations_)
+    quantities.push_back({equation.name, equation.unit});
+  quantities.push_back({"resultant", "N"});
+  return quantities;
+}
+
+double IdealJoint::quantity(int i, const LocalMotion &motion, const double *) const
+{
+  if (!motion.lambda)
+    return std::nan("");
+  if (i < n_constraints())
+    return motion.lambda[i];
+  double sum = 0.;
+  for (int j = 0; j < n_constraints(); ++j)
+    if (equations_[j].unit == "N")
+      sum += motion.lambda[j] * motion.lambda[j];
+  return std::sqrt(sum);
+}
+
+} // namespace gestell::mechanism

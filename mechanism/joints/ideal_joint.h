@@ -1,0 +1,74 @@
+#pragma once
+
+#include "mechanism/force_element.h"
+#include "mechanism/joints/motion_law.h"
+#include "mechanism/relative_measure.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/**
+ * An ideal joint between two places on two bodies: equations g(t, u) = s(u) - f(t) = 0 of their measures u = (u_1, u_2),
+ * in relative measures s such as a . (x_2 - x_1) or |x_2 - x_1|.
+ *
+ * f is constant, or follows a MotionLaw: then the joint is a drive, whose work is an input.  The multiplier lambda_i is
+ * the force [N] (torque [N m]) that drives s up: of `along` the force on body 2 along a, of `distance` the push of the
+ * rod, of `ratio` what acts on a measure with c_i = 1.
+ *
+ * Source: docs/theory/joints.md (3).
+ */
+class IdealJoint : public ForceElement
+{
+public:
+  struct Equation
+  {
+    std::string     name;            ///< for messages and signals: "fx"
+    std::string     unit = "N";      ///< of its multiplier
+    RelativeMeasure measure;         ///< s
+    double          offset = 0.;     ///< f(t) = offset, + law(t) if driven
+    bool            driven = false;
+  };
+
+  /// @throws std::invalid_argument without equations, for ratios of a wrong number, or driven ones without a law
+  IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
+             std::shared_ptr<const MotionLaw> law = nullptr);
+
+  int  n_measures() const override { return first_.n_measures() + second_.n_measures(); }
+  int  n_constraints() const override { return int(equations_.size()); }
+  void force(const LocalMotion &motion, const double *history, double *p) const override;
+  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
+               double *dp) const override;
+
+  void        constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
+  void        constraint_rates(const LocalMotion &motion, const double *history, double *rate,
+                               double *bias) const override;
+  double      constraint_size() const override;
+  std::string constraint_name(int i) const override { return equations_[i].name; }
+
+  Work work() const override { return law_ ? Work::input : Work::dissipated; }
+
+  /// History, corners and commands are those of the law.
+  int                n_history() const override { return law_ ? law_->n_history() : 0; }
+  void               start(const LocalMotion &motion, double *history) const override;
+  int                n_guards(const double *history) const override;
+  std::vector<Guard> guards(const double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  bool               command(const std::string &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
+
+  /// Signals: every multiplier by the name of its equation, then "resultant": of all that are forces.
+  std::vector<Quantity> quantities() const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+private:
+  Placement                        first_, second_;
+  std::vector<Equation>            equations_;
+  std::shared_ptr<const MotionLaw> law_;
+};
+
+} // namespace gestell::mechanism

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/// A prescribed motion f(t) with its first two derivatives, [m] or [rad].
+struct PrescribedMotion
+{
+  double value = 0., rate = 0., acceleration = 0.;
+};
+
+/**
+ * A prescribed motion, smooth between corners.  Where it stands (which stage, since when, from where) is history, as that
+ * of a ForceElement: corners and commands lead from one stage to the next.
+ */
+class MotionLaw
+{
+public:
+  virtual ~MotionLaw() = default;
+
+  virtual int              n_history() const { return 0; }
+  virtual void             start(double t, double *history) const { (void)t, (void)history; }
+  virtual PrescribedMotion at(double t, const double *history) const = 0;
+
+  /// Time [s] of the next corner and its name; false: none is to come.
+  virtual bool next_corner(const double *history, double &t, std::string &name) const;
+  /// Goes on behind the corner at t.
+  virtual void pass_corner(double t, double *history) const { (void)t, (void)history; }
+  /// Obeys an order of a switch ("brake") at t; false: the law knows no such order.
+  virtual bool                     command(const std::string &order, double t, double *history) const;
+  virtual std::vector<std::string> commands() const { return {}; }
+};
+
+/// f(t) = speed t
+class ConstantSpeed : public MotionLaw
+{
+public:
+  explicit ConstantSpeed(double speed) : speed_(speed) {}
+  PrescribedMotion at(double t, const double *) const override { return {speed_ * t, speed_, 0.}; }
+
+private:
+  double speed_;
+};
+
+/**
+ * Constant speed until the order "brake", then a given fall of the speed v_0 to zero, then rest:
+ *
+ *     f' = v_0 w(tau/T),     f'' = v_0 w'(tau/T)/T,     tau = t - t_brake
+ *
+ * with w(s) = 1 - s (linear), (1 + cos pi s)/2 (cosine), or ramps of length T each that begin at delays t_i and take
+ * shares A_i of the speed (shaped; sum A_i = 1), whose begins and ends are corners.
+ *
+ * Source: docs/theory/joints.md (4).
+ */
+class BrakedMotion : public MotionLaw
+{
+public:
+  enum class Family
+  {
+    linear,
+    cosine,
+    shaped
+  };
+  struct Ramp
+  {
+    double share, delay; ///< A_i [1], t_i [s]
+  };
+  struct Parameters
+  {
+    double            speed    = 0.; ///< v_0 [m/s or rad/s]
+    Family            family   = Family::linear;
+    double            duration = 0.; ///< T [s], > 0
+    std::vector<Ramp> ramps;         ///< of `shaped`
+  };
+
+  /// @throws std::invalid_argument for a duration that is not positive, or shares that do not add up to one
+  explicit BrakedMotion(const Parameters &parameters);
+
+  int                      n_history() const override { return 3; } ///< corners passed since the order, t_brake, f there
+  void                     start(double t, double *history) const override;
+  PrescribedMotion         at(double t, const double *history) const override;
+  bool                     next_corner(const double *history, double &t, std::string &name) const override;
+  void                     pass_corner(double t, double *history) const override;
+  bool                     command(const std::string &order, double t, double *history) const override;
+  std::vector<std::string> commands() const override { return {"brake"}; }
+
+private:
+  Parameters          parameters_;
+  std::vector<double> corners_; ///< [s] after t_brake, ascending; the last one ends the motion
+};
+
+} // namespace gestell::mechanism

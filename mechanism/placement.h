@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+using Vector3d = Eigen::Vector3d;
+
+/**
+ * A point with directions on a body, as a function of the body's k measures u (m, rad), which are zero in the position the
+ * scene describes:
+ *
+ *     x(u) = c + sum u_i t_i + (1 + theta x) rho(phi),     theta = sum u_i r_i,     rho(phi) = R(n, phi) (x_0 - c).
+ *
+ * Each linear measure moves by t_i and turns by the small rotation r_i (a frame, a slide and its guide, a point); one last
+ * measure may turn by any angle phi about n (a rotor on its carrier; a body in a plane).  Directions turn alike.
+ *
+ * Source: kinematics of rigid bodies; docs/theory/joints.md (1).
+ */
+class Placement
+{
+public:
+  static constexpr int max_measures = 7;
+
+  /// What one measure does to the body at `centre`: translation [1 or m/rad] and small rotation per unit.
+  struct LinearMeasure
+  {
+    Vector3d translation, rotation;
+  };
+
+  /// A vector fixed to the body and how it moves:  x' = J u',  x'' = J u'' + bias.
+  struct MovedVector
+  {
+    Vector3d                                          value, rate, bias;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 7> J;
+  };
+
+  /// On the ground: no measures.
+  explicit Placement(const Vector3d &point = Vector3d::Zero());
+  /// A body whose reference point is `centre`.
+  Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear);
+  /// The same, which also turns about the unit vector n.
+  Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear, const Vector3d &n);
+
+  int             n_measures() const { return int(linear_.size()) + (turns_ ? 1 : 0); }
+  bool            turns() const { return turns_; }
+  const Vector3d &point() const { return point_; } ///< at u = 0 [m]
+  double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
+
+  void position(const double *u, const double *v, MovedVector &x) const;
+  /// @param e  direction at u = 0
+  void direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;
+  Vector3d position(const double *u) const;
+  Vector3d direction(const Vector3d &e, const double *u) const;
+
+private:
+  void move(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const;
+
+  Vector3d                   point_, centre_;
+  std::vector<LinearMeasure> linear_;
+  bool                       turns_ = false;
+  Vector3d                   n_     = Vector3d::Zero();
+};
+
+} // namespace gestell::mechanism

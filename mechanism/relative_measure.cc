@@ -1,0 +1,107 @@
+#include "mechanism/relative_measure.h"
+
+#include <cmath>
+
+namespace gestell::mechanism
+{
+
+namespace
+{
+
+using MovedVector = Placement::MovedVector;
+using Gradient    = Eigen::Map<Eigen::RowVectorXd, 0, Eigen::InnerStride<>>;
+
+/// gradient_1 -= w . J_1, gradient_2 += w . J_2: of w . (x_2 - x_1), w held.
+void add_difference(const Vector3d &w, const MovedVector &x_1, const MovedVector &x_2, Gradient &of_1, Gradient &of_2)
+{
+  for (Eigen::Index i = 0; i < of_1.size(); ++i)
+    of_1[i] -= w.dot(x_1.J.col(i));
+  for (Eigen::Index i = 0; i < of_2.size(); ++i)
+    of_2[i] += w.dot(x_2.J.col(i));
+}
+
+void add_turn(const Vector3d &w, const MovedVector &a, Gradient &gradient)
+{
+  for (Eigen::Index i = 0; i < gradient.size(); ++i)
+    gradient[i] += w.dot(a.J.col(i));
+}
+
+} // namespace
+
+RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const Placement &second,
+                                                 const MovedVector &x_1, const MovedVector &x_2, const double *u,
+                                                 const double *v, double *gradient, Eigen::Index stride) const
+{
+  const int k_1 = first.n_measures(), k_2 = second.n_measures();
+  Gradient  of_1(gradient, k_1, Eigen::InnerStride<>(stride)),
+      of_2(gradient + stride * k_1, k_2, Eigen::InnerStride<>(stride));
+  of_1.setZero();
+  of_2.setZero();
+  const Vector3d d = x_2.value - x_1.value, d_rate = x_2.rate - x_1.rate, d_bias = x_2.bias - x_1.bias;
+  switch (form)
+  {
+  case Form::along:
+  {
+    if (carrier == Carrier::space)
+    {
+      add_difference(a, x_1, x_2, of_1, of_2);
+      return {a.dot(d), a.dot(d_rate), a.dot(d_bias)};
+    }
+    const bool  on_first = carrier == Carrier::first;
+    MovedVector e;
+    (on_first ? first : second).direction(a, on_first ? u : u + k_1, on_first ? v : v + k_1, e);
+    add_difference(e.value, x_1, x_2, of_1, of_2);
+    add_turn(d, e, on_first ? of_1 : of_2);
+    return {e.value.dot(d), e.value.dot(d_rate) + e.rate.dot(d),
+            e.value.dot(d_bias) + 2. * e.rate.dot(d_rate) + e.bias.dot(d)};
+  }
+  case Form::square:
+  {
+    MovedVector e, f;
+    first.direction(a, u, v, e);
+    second.direction(b, u + k_1, v + k_1, f);
+    add_turn(f.value, e, of_1);
+    add_turn(e.value, f, of_2);
+    return {e.value.dot(f.value), e.rate.dot(f.value) + e.value.dot(f.rate),
+            e.bias.dot(f.value) + 2. * e.rate.dot(f.rate) + e.value.dot(f.bias)};
+  }
+  case Form::distance:
+  {
+    const double   length = d.norm();
+    const Vector3d e      = length > 0. ? Vector3d(d / length) : Vector3d::UnitX();
+    const double   rate   = e.dot(d_rate);
+    add_difference(e, x_1, x_2, of_1, of_2);
+    return {length, rate, e.dot(d_bias) + (length > 0. ? (d_rate.squaredNorm() - rate * rate) / length : 0.)};
+  }
+  case Form::inclination:
+  {
+    const double x = a.dot(d), y = b.dot(d), r2 = x * x + y * y;
+    if (!(r2 > 0.))
+      return {0., 0., 0.};
+    const Vector3d w    = (x * b - y * a) / r2;
+    const double   rate = w.dot(d_rate), stretch = (x * a.dot(d_rate) + y * b.dot(d_rate)) / r2;
+    add_difference(w, x_1, x_2, of_1, of_2);
+    return {std::atan2(y, x), rate, w.dot(d_bias) - 2. * stretch * rate};
+  }
+  case Form::ratio:
+    break;
+  }
+  double s = 0., rate = 0.;
+  for (int i = 0; i < k_1 + k_2; ++i)
+  {
+    gradient[stride * i] = ratios[i];
+    s += ratios[i] * u[i];
+    rate += ratios[i] * v[i];
+  }
+  return {s, rate, 0.};
+}
+
+RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v, double *gradient) const
+{
+  MovedVector x_1, x_2;
+  first.position(u, v, x_1);
+  second.position(u + first.n_measures(), v + first.n_measures(), x_2);
+  return measure.evaluate(first, second, x_1, x_2, u, v, gradient);
+}
+
+} // namespace gestell::mechanism

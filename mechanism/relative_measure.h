@@ -1,0 +1,71 @@
+#pragma once
+
+#include "mechanism/placement.h"
+
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/**
+ * A scalar s of the motion of two places x_1, x_2 on two bodies, with d = x_2 - x_1:
+ *
+ *     along          a . d               a fixed in space, or carried by one of the bodies    [m]
+ *     square         a_1 . b_2           cosine between directions carried by the two         [1]
+ *     distance       |d|                                                                      [m]
+ *     inclination    atan2(b . d, a . d) angle of the line about a x b, in (-pi, pi]          [rad]
+ *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
+ *
+ * Ideal joints demand a value of it, elements act on it, signals tell it.
+ *
+ * Source: docs/theory/joints.md (2).
+ */
+struct RelativeMeasure
+{
+  enum class Form
+  {
+    along,
+    square,
+    distance,
+    inclination,
+    ratio
+  };
+  enum class Carrier
+  {
+    space,
+    first,
+    second
+  };
+
+  Form                form    = Form::along;
+  Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
+  Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of `inclination` at right angles to a
+  Carrier             carrier = Carrier::space;   ///< of a in `along`
+  std::vector<double> ratios;                     ///< c_i [k] of `ratio`
+
+  /// s, s' = G u' and s'' = G u'' + bias.
+  struct Value
+  {
+    double s, rate, bias;
+  };
+
+  /// @param x_1, x_2  the places at u, v [k]
+  /// @param gradient  G: k numbers, each `stride` behind the one before
+  Value evaluate(const Placement &first, const Placement &second, const Placement::MovedVector &x_1,
+                 const Placement::MovedVector &x_2, const double *u, const double *v, double *gradient,
+                 Eigen::Index stride = 1) const;
+};
+
+/// Where two bodies are, and a scalar of their motion.
+struct PlacedMeasure
+{
+  Placement       first, second;
+  RelativeMeasure measure;
+
+  static constexpr int max_measures = 2 * Placement::max_measures;
+
+  int                    n_measures() const { return first.n_measures() + second.n_measures(); }
+  RelativeMeasure::Value evaluate(const double *u, const double *v, double *gradient) const;
+};
+
+} // namespace gestell::mechanism
