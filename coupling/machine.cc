@@ -310,6 +310,8 @@ void Machine::start(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
     part.element->start(part.motion(state, parts_->by_history), parts_->history_of(part));
+  for (const auto &own : parts_->switches)
+    parts_->history[own.history] = 0.;
   parts_->refresh_guards();
 }
 
@@ -335,6 +337,9 @@ void Machine::guard_values(const LocalState &state, Eigen::VectorXd &g) const
       part.element->guard_values(part.motion(state, parts_->by_history), history, g.data() + first);
     first += n;
   }
+  for (const auto &own : parts_->switches)
+    if (parts_->history[own.history] == 0.)
+      g[first++] = parts_->watched_value(own, state) - own.request.level;
 }
 
 GuardCrossing Machine::crossing(int i) const
@@ -349,6 +354,15 @@ ActiveGuard Machine::guard(int i) const
 void Machine::transition(int i, const LocalState &state)
 {
   const auto &active = parts_->guards[i];
+  if (active.element < 0)
+  {
+    const auto &own    = parts_->switches[active.index];
+    const auto &target = parts_->placed[own.target];
+    parts_->history[own.history] = 1.;
+    target.element->command(own.request.order, target.motion(state, parts_->by_history), parts_->history_of(target));
+    parts_->refresh_guards();
+    return;
+  }
   const auto &part   = parts_->placed[active.element];
   part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
   parts_->refresh_guards();

@@ -28,7 +28,7 @@ struct Signal
   double      scale    = 1.;
   double      offset   = 0.;
   int         load     = -1; ///< external load
-  int         sensor   = -1; ///< of add_measure(), whose value (quantity 0) or rate (1) it is
+  int         measure  = -1; ///< of add_measure(), whose value (quantity 0) or rate (1) it is
 };
 
 enum class BodyKind
@@ -55,6 +55,10 @@ struct Body
   Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
 };
 
+/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
+/// @param normal  unit vector
+std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
+
 /// A point on a body, the frame or the ground, and the measures its motion depends on.
 struct PlacedPoint
 {
@@ -73,6 +77,26 @@ struct DrawnRod
 struct Oscillation
 {
   double omega, amplitude, phase;
+};
+
+/// A scalar of the motion of two points: signals "value" and "rate".
+struct NamedMeasure
+{
+  std::string              name, unit; ///< of the value: "m", "rad"
+  mechanism::PlacedMeasure measure;
+  std::vector<Measure>     measures;
+
+  mechanism::RelativeMeasure::Value evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                                             Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]
+};
+
+/// When a signal crosses a level, an element is given an order, once.
+struct Switch
+{
+  std::string   name, signal; ///< path of the signal
+  double        level    = 0.;
+  GuardCrossing crossing = GuardCrossing::rising;
+  std::string   element, order;
 };
 
 struct ElementPlacement
@@ -117,10 +141,10 @@ public:
                       const Vector3 &offset);
   /// The point `at` [m] of a body, an interface or the ground, in the position the scene describes.
   PlacedPoint place(const std::string &marker, const Vector3 &at) const;
-  /// A scalar of the motion of two points: signals "value" and "rate".
-  /// @param unit of the value: "m", "rad"
-  void add_measure(const std::string &name, const mechanism::PlacedMeasure &measure, std::vector<Measure> measures,
-                   const std::string &unit);
+  Vector3 position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
+  void    add_measure(NamedMeasure measure);
+  /// @throws std::invalid_argument for an unknown signal or element, or an order that the element does not know
+  void add_switch(const Switch &request);
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
   void draw_rod(const DrawnRod &rod);
@@ -139,6 +163,9 @@ public:
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
               const std::vector<Measure> &measures);
 
+  /// Signals that will be read: whether any tells the force of an ideal joint.
+  void will_read(const std::vector<Signal> &signals);
+
   /// Ends building: assembles the base system and W.
   void finish();
 
@@ -153,6 +180,7 @@ public:
   const std::vector<Body>             &bodies() const;
   const std::vector<DrawnRod>         &rods() const;
   const std::vector<ElementPlacement> &elements() const;
+  const NamedMeasure                  &measure(const std::string &name) const;
   const ReducedFrame                  *reduced_frame() const; ///< null if there is none
   const fem::FrameMatrices            *full_frame() const;    ///< null if there is none
   const LinearBase                    &base() const;
@@ -187,6 +215,7 @@ public:
   const std::vector<ConstraintBlock> &constraint_blocks() const override;
   void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
   void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
+  bool wants_multipliers() const override;
   std::string                     constraint_name(int i) const override;
   void                            follow_history(bool follow) override;
   Eigen::VectorXd                 save_history() const override;

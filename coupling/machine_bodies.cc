@@ -1,6 +1,7 @@
 #include "coupling/machine_parts.h"
 
 #include <cmath>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -96,40 +97,58 @@ int Machine::add_point(const std::string &name, double mass, const Vector3 &posi
   return first;
 }
 
+namespace
+{
+/// The global axis the unit vector n lies along; -1: none.
+int global_axis(const Vector3 &n)
+{
+  for (int d = 0; d < 3; ++d)
+    if (std::abs(std::abs(n[d]) - 1.) < 1e-12)
+      return d;
+  return -1;
+}
+
+/// Two unit vectors across n: global axes if n is one, in their order.
+std::pair<Vector3, Vector3> plane_of(const Vector3 &n)
+{
+  Vector3 e_1{}, e_2{};
+  if (const int axis = global_axis(n); axis >= 0)
+  {
+    e_1[axis == 0 ? 1 : 0] = e_2[axis == 2 ? 1 : 2] = 1.;
+    return {e_1, e_2};
+  }
+  int least = 0;
+  for (int d = 1; d < 3; ++d)
+    if (std::abs(n[d]) < std::abs(n[least]))
+      least = d;
+  Vector3 e{};
+  e[least] = 1.;
+  for (int d = 0; d < 3; ++d)
+    e_1[d] = e[d] - n[least] * n[d];
+  e_1 = unit(e_1, "plane");
+  for (int d = 0; d < 3; ++d)
+    e_2[d] = n[(d + 1) % 3] * e_1[(d + 2) % 3] - n[(d + 2) % 3] * e_1[(d + 1) % 3];
+  return {e_1, e_2};
+}
+} // namespace
+
+std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal)
+{
+  const int axis = global_axis(normal);
+  if (axis < 0)
+    return {name + ".s1", name + ".s2", name + ".angle"};
+  return {name + (axis == 0 ? ".uy" : ".ux"), name + (axis == 2 ? ".uy" : ".uz"), name + ".angle"};
+}
+
 int Machine::add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia,
                         const Vector3 &position)
 {
   require_mass(mass, "planar body \"" + name + "\": mass [kg]");
   require_mass(inertia, "planar body \"" + name + "\": inertia [kg m^2]");
   const Vector3 n = unit(normal, "planar body \"" + name + "\"");
-  // Across a global axis the other two, in their order; else any two.
-  int main = -1;
-  for (int d = 0; d < 3; ++d)
-    if (std::abs(std::abs(n[d]) - 1.) < 1e-12)
-      main = d;
-  Vector3                  e_1{}, e_2{};
-  std::vector<std::string> names{name + ".s1", name + ".s2", name + ".angle"};
-  if (main >= 0)
-  {
-    const int first = main == 0 ? 1 : 0, second = main == 2 ? 1 : 2;
-    e_1[first] = e_2[second] = 1.;
-    names[0] = name + ".u" + "xyz"[first];
-    names[1] = name + ".u" + "xyz"[second];
-  }
-  else
-  {
-    const int least = std::abs(n[0]) <= std::abs(n[1]) && std::abs(n[0]) <= std::abs(n[2]) ? 0
-                      : std::abs(n[1]) <= std::abs(n[2])                                   ? 1
-                                                                                           : 2;
-    Vector3 e{};
-    e[least] = 1.;
-    for (int d = 0; d < 3; ++d)
-      e_1[d] = e[d] - n[least] * n[d];
-    e_1 = unit(e_1, name);
-    for (int d = 0; d < 3; ++d)
-      e_2[d] = n[(d + 1) % 3] * e_1[(d + 2) % 3] - n[(d + 2) % 3] * e_1[(d + 1) % 3];
-  }
-  const int first = parts_->add_coordinates(name, names);
+  const auto [e_1, e_2] = plane_of(n);
+  const auto names      = planar_coordinates(name, n);
+  const int  first      = parts_->add_coordinates(name, {names.begin(), names.end()});
   Marker    own;
   own.name = name;
   for (int d = 0; d < 3; ++d)
@@ -197,13 +216,22 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
   return placed;
 }
 
-void Machine::add_measure(const std::string &name, const mechanism::PlacedMeasure &measure,
-                          std::vector<Measure> measures, const std::string &unit)
+Vector3 Machine::position(const std::string &name) const
 {
-  parts_->sensors.push_back({name, unit, measure, std::move(measures)});
+  marker(name); // throws with the nearest name
+  for (const Body &body : parts_->bodies)
+    if (body.name == name)
+      return body.centre;
+  return parts_->position_of(name);
 }
 
-double Machine::Parts::Sensor::evaluate(int quantity, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const
+void Machine::add_measure(NamedMeasure measure)
+{
+  parts_->measures.push_back(std::move(measure));
+}
+
+mechanism::RelativeMeasure::Value NamedMeasure::evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                                                         Eigen::VectorXd *on_q) const
 {
   double u[mechanism::PlacedMeasure::max_measures] = {}, rate[mechanism::PlacedMeasure::max_measures] = {};
   double gradient[mechanism::PlacedMeasure::max_measures];
@@ -214,7 +242,14 @@ double Machine::Parts::Sensor::evaluate(int quantity, const Eigen::VectorXd &q, 
       rate[i] += weight * v[coordinate];
     }
   const auto value = measure.evaluate(u, rate, gradient);
-  return quantity == 0 ? value.s : value.rate;
+  if (on_q)
+  {
+    on_q->setZero(q.size());
+    for (std::size_t i = 0; i < measures.size(); ++i)
+      for (const auto &[coordinate, weight] : measures[i])
+        (*on_q)[coordinate] += weight * gradient[i];
+  }
+  return value;
 }
 
 void Machine::add_point_mass(const std::string &name, const std::string &marker_name, double mass,

@@ -112,7 +112,9 @@ void Machine::Parts::finish()
       for (const auto &[coordinate, value] : load.u)
         excitation.add_harmonic(coordinate, part.omega, value * part.amplitude * std::sin(part.phase),
                                 value * part.amplitude * std::cos(part.phase));
+  add_watches();
   place_elements(n);
+  place_switches();
 }
 
 void Machine::Parts::assemble_dense(int n)
@@ -203,6 +205,9 @@ void Machine::Parts::refresh_guards()
                         {elements[e].name, own[i].kind}});
     }
   }
+  for (std::size_t i = 0; i < switches.size(); ++i)
+    if (history[switches[i].history] == 0.)
+      guards.push_back({-1, static_cast<int>(i), switches[i].request.crossing, {switches[i].request.name, "switch"}});
 }
 
 std::string Machine::Parts::coordinate_name(int i) const

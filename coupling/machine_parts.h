@@ -57,18 +57,19 @@ struct Machine::Parts
     double at(double t) const;
   };
 
-  struct Sensor
+  /// A switch: what it watches lies in u (of a placed element, or of one of its own) and it obeys no more once thrown.
+  struct PlacedSwitch
   {
-    std::string              name, unit;
-    mechanism::PlacedMeasure measure;
-    std::vector<Measure>     measures;
-
-    double evaluate(int quantity, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const;
+    Switch request;
+    Signal signal;
+    int    watched = -1; ///< element whose measures hold the motion of the signal
+    int    target  = -1; ///< element that gets the order
+    int    history = -1; ///< 1 once it was thrown
   };
 
   struct PlacedGuard
   {
-    int           element, index;
+    int           element, index; ///< of a switch: element -1, index of the switch
     GuardCrossing crossing;
     ActiveGuard   guard;
   };
@@ -84,7 +85,8 @@ struct Machine::Parts
   std::vector<DrawnRod>               rods;
   std::vector<LinearElement>          linear;
   std::vector<ElementPlacement>       elements;
-  std::vector<Sensor>                 sensors;
+  std::vector<NamedMeasure>           measures;
+  std::vector<Switch>                 switch_requests;
   std::vector<std::string>            coordinate_names; ///< of the bodies
   Triplets                            M, B, C;
   std::vector<std::pair<int, double>> constant_load;
@@ -100,9 +102,10 @@ struct Machine::Parts
   std::vector<int>             joints; ///< ideal ones, as indices of `placed`
   std::vector<ConstraintBlock> joint_blocks;
   Eigen::VectorXd             history;
-  std::vector<PlacedGuard>    guards;
+  std::vector<PlacedGuard>    guards; ///< of elements, then of switches
+  std::vector<PlacedSwitch>   switches;
   std::vector<HeldMeasure>    held;
-  bool                        by_history = false;
+  bool                        by_history = false, reads_joints = false;
 
   int     size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
   int     add_coordinates(const std::string &body, const std::vector<std::string> &names);
@@ -118,6 +121,9 @@ struct Machine::Parts
   void                          assemble_sparse(int n);
   void                          place_elements(int n);
   void                          refresh_guards();
+  void                          add_watches();
+  void                          place_switches();
+  double                        watched_value(const PlacedSwitch &s, const LocalState &state) const;
   std::string                   coordinate_name(int i) const;
   double                        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path

@@ -107,15 +107,15 @@ std::map<std::string, Signal> Machine::Parts::signals() const
       signals[load.name + ".torque"] = force;
   }
 
-  for (std::size_t i = 0; i < sensors.size(); ++i)
+  for (std::size_t i = 0; i < measures.size(); ++i)
     for (const int rate : {0, 1})
     {
       Signal signal;
-      signal.name     = sensors[i].name + (rate ? ".rate" : ".value");
-      signal.unit     = sensors[i].unit + (rate ? "/s" : "");
-      signal.sensor   = static_cast<int>(i);
+      signal.name     = measures[i].name + (rate ? ".rate" : ".value");
+      signal.unit     = measures[i].unit + (rate ? "/s" : "");
+      signal.measure  = static_cast<int>(i);
       signal.quantity = rate;
-      for (const Measure &u : sensors[i].measures) // so that whoever reads the signal provides their motion
+      for (const Measure &u : measures[i].measures) // so that whoever reads the signal provides their motion
         for (const auto &[coordinate, weight] : u)
           signal.on_q.emplace_back(coordinate, 0.);
       signals[signal.name] = signal;
@@ -178,8 +178,11 @@ double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const E
     value += weight * q[i];
   for (const auto &[i, weight] : signal.on_v)
     value += weight * v[i];
-  if (signal.sensor >= 0)
-    value += parts_->sensors[signal.sensor].evaluate(signal.quantity, q, v);
+  if (signal.measure >= 0)
+  {
+    const auto measured = parts_->measures[signal.measure].evaluate(q, v);
+    value += signal.quantity == 0 ? measured.s : measured.rate;
+  }
   if (signal.load >= 0)
     value += parts_->loads[signal.load].at(local.t);
   if (signal.element >= 0)

@@ -167,6 +167,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
                    const std::atomic<bool> *stop)
 {
   check_run(machine, options, signals.size());
+  machine.will_read(signals);
   const MethodOptions method = with_largest_step(machine, options);
   RunResult           result;
   guard(machine, initial, options, method, result);

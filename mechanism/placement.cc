@@ -1,7 +1,5 @@
 #include "mechanism/placement.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <vector>
 
@@ -49,6 +50,10 @@ public:
   bool            turns() const { return turns_; }
   const Vector3d &point() const { return point_; } ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
+
+  /// What measure i does to the reference point and to the directions of the body, per unit at u = 0.
+  Vector3d translation(int i) const { return i < int(linear_.size()) ? linear_[i].translation : Vector3d::Zero(); }
+  Vector3d rotation(int i) const { return i < int(linear_.size()) ? linear_[i].rotation : n_; }
 
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0

@@ -1,5 +1,6 @@
 #include "apps/scene/build_machine.h"
 
+#include "apps/scene/build_joints.h"
 #include "coupling/dense_frame.h"
 
 namespace gestell::apps
@@ -37,10 +38,21 @@ coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machin
 
 void add_body(coupling::Machine &machine, const BodyRequest &body)
 {
-  if (body.kind == coupling::BodyKind::rotor)
+  switch (body.kind)
+  {
+  case coupling::BodyKind::rotor:
     machine.add_rotor(body.name, body.axis, body.inertia, body.mass, body.carrier);
-  else
+    break;
+  case coupling::BodyKind::slider:
     machine.add_slider(body.name, body.axis, body.mass, body.carrier);
+    break;
+  case coupling::BodyKind::point:
+    machine.add_point(body.name, body.mass, body.position);
+    break;
+  case coupling::BodyKind::planar:
+    machine.add_planar(body.name, body.axis, body.mass, body.inertia, body.position);
+    break;
+  }
   machine.draw(body.name, body.position, body.radius, body.size);
 }
 
@@ -65,15 +77,25 @@ void fill(coupling::Machine &machine, const Scene &scene)
              machine.add_load(load.name, measure_of(load.u, machine), load.constant, load.oscillations,
                               load.force_unit);
            });
+  add_measures(machine, scene);
+  for (const auto &joint : scene.joints)
+    placed(joint.place, [&] { add_joint(machine, joint); });
   for (const auto &element : scene.elements)
     placed(place(element.name),
            [&]
            {
+             if (!element.on.empty())
+             {
+               attach_on_measure(machine, element);
+               return;
+             }
              std::vector<coupling::Measure> measures;
              for (const auto &motion : element.measures)
                measures.push_back(measure_of(motion, machine));
              machine.attach(element.name, element.element, measures);
            });
+  for (const auto &own : scene.switches)
+    placed(own.place, [&] { add_switch(machine, own); });
   for (const auto &rod : scene.rods)
     machine.draw_rod(rod);
   machine.finish();

@@ -16,6 +16,7 @@ void read_dry_friction(const SceneTable &, const Names &, Scene &);
 void read_cubic_spring(const SceneTable &, const Names &, Scene &);
 void read_force(const SceneTable &, const Names &, Scene &);
 void read_table_force(const SceneTable &, const Names &, Scene &);
+void read_wheel(const SceneTable &, const Names &, Scene &);
 
 const std::vector<ElementType> &element_types()
 {
@@ -33,6 +34,7 @@ const std::vector<ElementType> &element_types()
       {"cubic spring", read_cubic_spring},
       {"force", read_force},
       {"table force", read_table_force},
+      {"wheel", read_wheel},
   };
   return types;
 }

@@ -50,6 +50,72 @@ std::string Names::marker(const SceneTable &table, const std::string &key, const
   return table.has(key) ? marker(table, key) : fallback;
 }
 
+PlaceRequest Names::place(const SceneTable &table, const std::string &key, const std::string &at) const
+{
+  PlaceRequest      place;
+  const std::string name = table.text(key);
+  if (const auto named = places_.find(name); named != places_.end())
+    place = named->second;
+  else
+    place.marker = marker(table, key);
+  if (table.has(at))
+    place.at = table.vector(at, kind::length);
+  return place;
+}
+
+PlaceRequest Names::place(const SceneTable &table, const std::string &key, const std::string &at,
+                          const std::string &fallback) const
+{
+  if (table.has(key))
+    return place(table, key, at);
+  PlaceRequest place{fallback, {}};
+  if (table.has(at))
+    place.at = table.vector(at, kind::length);
+  return place;
+}
+
+const MeasureRequest *Names::find_measure(const std::string &name) const
+{
+  for (const MeasureRequest &measure : measures_)
+    if (measure.name == name)
+      return &measure;
+  return nullptr;
+}
+
+const MeasureRequest &Names::measure(const SceneTable &table, const std::string &key) const
+{
+  const std::string name = table.text(key);
+  if (const MeasureRequest *found = find_measure(name))
+    return *found;
+  std::vector<std::string> valid;
+  for (const MeasureRequest &measure : measures_)
+    valid.push_back(measure.name);
+  throw table.error(key, "there is no measure '" + name + "'" +
+                             (valid.empty() ? "; declare [measure." + written_key(name) + "]"
+                                            : coupling::suggestion(name, valid)));
+}
+
+std::vector<Names::Coordinate> Names::coordinates() const
+{
+  using coupling::BodyKind;
+  std::vector<Coordinate> coordinates;
+  for (const BodyRequest &body : bodies_)
+  {
+    if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
+      coordinates.push_back({body.name, body.kind == BodyKind::rotor});
+    else if (body.kind == BodyKind::point)
+      for (const char *axis : {".ux", ".uy", ".uz"})
+        coordinates.push_back({body.name + axis, false});
+    else
+    {
+      const auto names = coupling::planar_coordinates(body.name, body.axis);
+      for (int i = 0; i < 3; ++i)
+        coordinates.push_back({names[i], i == 2});
+    }
+  }
+  return coordinates;
+}
+
 const BodyRequest &Names::body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const
 {
   const std::string  name  = table.text(key);

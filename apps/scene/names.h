@@ -3,6 +3,7 @@
 #include "apps/scene/scene.h"
 #include "apps/scene/scene_table.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,28 @@ public:
   Names(const std::vector<std::string> &interfaces, bool any_interface);
 
   void add_body(const BodyRequest &body) { bodies_.push_back(body); }
+  void add_place(const std::string &name, const PlaceRequest &place) { places_[name] = place; }
+  void add_measure(const MeasureRequest &measure) { measures_.push_back(measure); }
 
   /// Marker named by a key of `table`: "ground", a body, or "frame.crown".
   std::string marker(const SceneTable &table, const std::string &key) const;
   std::string marker(const SceneTable &table, const std::string &key, const std::string &fallback) const;
+  /// Point named by a key of `table`: a [place], or what marker() knows; `at` in the table tells the point.
+  PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at = "at") const;
+  PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at,
+                     const std::string &fallback) const;
+  /// Measure named by a key of `table`.
+  const MeasureRequest &measure(const SceneTable &table, const std::string &key) const;
+  const MeasureRequest *find_measure(const std::string &name) const; ///< null if there is none
+
+  /// A coordinate of a body that a start may give: its name, and whether it is an angle.
+  struct Coordinate
+  {
+    std::string name;
+    bool        angle;
+  };
+  std::vector<Coordinate> coordinates() const;
+
   /// Body of that kind named by a key of `table`.
   const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;
 
@@ -31,7 +50,9 @@ public:
 private:
   std::vector<std::string> interfaces_;
   bool                     any_interface_;
-  std::vector<BodyRequest> bodies_;
+  std::vector<BodyRequest>            bodies_;
+  std::map<std::string, PlaceRequest> places_;
+  std::vector<MeasureRequest>         measures_;
 };
 
 /// Refuses names that cannot be referred to: empty, with dots, "frame", "ground".

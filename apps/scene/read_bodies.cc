@@ -17,7 +17,21 @@ BodyRequest read_body(const SceneTable &table)
   BodyRequest body;
   body.name        = table.name();
   body.place       = table.place();
-  const bool rotor = table.choice("type", {"rotor", "slider"}, "") == "rotor";
+  const std::string type = table.choice("type", {"rotor", "slider", "point", "planar"}, "");
+  if (type == "point" || type == "planar")
+  {
+    body.kind     = type == "point" ? coupling::BodyKind::point : coupling::BodyKind::planar;
+    body.mass     = table.positive("mass", kind::mass);
+    body.position = table.vector("position", kind::length);
+    if (type == "planar")
+    {
+      body.axis    = table.direction("normal");
+      body.inertia = table.positive("inertia", kind::inertia);
+    }
+    body.size = table.vector("size", kind::length, {});
+    return body;
+  }
+  const bool rotor = type == "rotor";
   body.kind        = rotor ? coupling::BodyKind::rotor : coupling::BodyKind::slider;
   body.axis        = table.direction("axis");
   body.position    = table.vector("position", kind::length, {});
@@ -71,7 +85,8 @@ std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
     names.add_body(bodies.back());
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    bodies[i].carrier = names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
+    if (bodies[i].kind == coupling::BodyKind::rotor || bodies[i].kind == coupling::BodyKind::slider)
+      bodies[i].carrier = names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
   return carriers_first(bodies);
 }
 

@@ -1,5 +1,6 @@
 #include "apps/scene/read_bodies.h"
 #include "apps/scene/read_frame.h"
+#include "apps/scene/read_joints.h"
 #include "apps/scene/read_run.h"
 #include "apps/scene/scene.h"
 #include "coupling/nearest_name.h"
@@ -41,18 +42,30 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
 }
 
 /// Value of a table { crank = "160 deg", "frame.crown.uz" = "-0.6 mm" } whose keys are coordinates.
-std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, bool rates, bool rotors_only)
+std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, bool rates, bool rotors_only,
+                                         bool measures)
 {
   std::vector<NamedValue> values;
   for (const auto &name : table.keys())
   {
-    const auto *body  = names.find_body(name);
-    const bool  frame = !rotors_only && name.rfind("frame.", 0) == 0;
-    auto        valid = names.body_names();
-    if (rotors_only)
-      valid.erase(std::remove_if(valid.begin(), valid.end(),
-                                 [&](const auto &n) { return names.find_body(n)->kind != coupling::BodyKind::rotor; }),
-                  valid.end());
+    const bool               frame = !rotors_only && name.rfind("frame.", 0) == 0;
+    std::vector<std::string> valid;
+    bool                     angle = name.size() > 2 && name[name.size() - 2] == 'r'; // frame.crown.rx
+    for (const auto &coordinate : names.coordinates())
+    {
+      const auto *body = names.find_body(coordinate.name);
+      if (rotors_only && !(body && body->kind == coupling::BodyKind::rotor))
+        continue;
+      valid.push_back(coordinate.name);
+      if (coordinate.name == name)
+        angle = coordinate.angle;
+    }
+    const MeasureRequest *measure = rotors_only || !measures ? nullptr : names.find_measure(name);
+    if (measure)
+    {
+      valid.push_back(name);
+      angle = measure->unit == "rad";
+    }
     if (!rotors_only)
       for (const auto &interface : names.interfaces())
         for (const std::string motion : {"ux", "uy", "uz", "rx", "ry", "rz"})
@@ -62,18 +75,17 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
                                   coupling::suggestion(name, valid));
     if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
       throw table.error(name, "the frame has no coordinate '" + name + "'" + coupling::suggestion(name, valid));
-    const bool angle = body ? body->kind == coupling::BodyKind::rotor : name.size() > 2 && name[name.size() - 2] == 'r';
     const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
-    values.push_back({name, table.number(name, kind), table.place(name)});
+    values.push_back({name, table.number(name, kind), table.place(name), measure != nullptr});
   }
   return values;
 }
 
 std::vector<NamedValue> read_optional_coordinates(const SceneTable &table, const std::string &key, const Names &names,
-                                                  bool rates, bool rotors_only)
+                                                  bool rates, bool rotors_only, bool measures = false)
 {
   const auto inner = table.optional_table(key);
-  return inner ? read_coordinates(*inner, names, rates, rotors_only) : std::vector<NamedValue>{};
+  return inner ? read_coordinates(*inner, names, rates, rotors_only, measures) : std::vector<NamedValue>{};
 }
 
 StartRequest read_start(const SceneTable &scene, const Names &names)
@@ -87,8 +99,8 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   start.rule  = table->choice("rule", {"given", "steady"}, "given") == "given" ? StartRule::given : StartRule::steady;
   if (start.rule == StartRule::given)
   {
-    start.q = read_optional_coordinates(*table, "q", names, false, false);
-    start.v = read_optional_coordinates(*table, "v", names, true, false);
+    start.q = read_optional_coordinates(*table, "q", names, false, false, true);
+    start.v = read_optional_coordinates(*table, "v", names, true, false, true);
     return start;
   }
   for (const auto &angle : read_optional_coordinates(*table, "angles", names, false, true))
@@ -160,7 +172,10 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 
   Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
   scene.bodies = read_bodies(table, names);
+  read_places(table, names, scene);
   read_elements(table, names, scene);
+  read_joints(table, names, scene);
+  read_switches(table, scene);
   scene.run   = read_run(table);
   scene.start = read_start(table, names);
   scene.modes = read_modes(table, names, scene);

@@ -34,6 +34,11 @@ MotionMeasure difference(const std::string &from, const std::string &to, const V
 
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
 {
+  if (table.has("on") && !table.has("from"))
+  {
+    const MeasureRequest &measure = names.measure(table, "on");
+    return {{}, measure.unit == "rad", measure.name};
+  }
   const std::string from = names.marker(table, "from"), to = names.marker(table, "to", "ground");
   if (from == to)
     throw table.error("to", "is '" + to + "' like `from`; an element acts between two places");
@@ -42,22 +47,38 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   if (along && about)
     throw table.error("has both 'direction' and 'about'; give 'direction' for a displacement or 'about' for an angle");
   if (along || about)
-    return {difference(from, to, table.direction(along ? "direction" : "about"), about), about};
+    return {difference(from, to, table.direction(along ? "direction" : "about"), about), about, ""};
 
   const BodyRequest *a = names.find_body(from), *b = names.find_body(to);
   if (const auto *slider = leading_body(a, b, coupling::BodyKind::slider))
-    return {difference(from, to, slider->axis, false), false};
+    return {difference(from, to, slider->axis, false), false, ""};
   const auto *rotor = leading_body(a, b, coupling::BodyKind::rotor);
   if (!rotor || (a && b && !parallel(a->axis, b->axis)))
     throw table.error("give 'direction' (a displacement) or 'about' (an angle) between '" + from + "' and '" + to +
                       "': their axes do not tell");
-  return {difference(from, to, rotor->axis, true), true};
+  return {difference(from, to, rotor->axis, true), true, ""};
 }
 
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
                  const std::vector<MotionMeasure> &measures)
 {
-  scene.elements.push_back({table.name(), std::move(element), measures});
+  scene.elements.push_back({table.name(), std::move(element), measures, ""});
+}
+
+void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                 const RelativeMotion &motion)
+{
+  if (motion.on.empty())
+    add_element(scene, table, std::move(element), std::vector<MotionMeasure>{motion.u});
+  else
+    scene.elements.push_back({table.name(), std::move(element), {}, motion.on});
+}
+
+void refuse_measure(const SceneTable &table, const RelativeMotion &motion)
+{
+  if (!motion.on.empty())
+    throw table.error("on", "this element needs a motion along a constant direction; give 'from', 'to' and 'direction' "
+                            "instead of a measure");
 }
 
 } // namespace gestell::apps

@@ -1,13 +1,16 @@
 #pragma once
 
+#include "apps/scene/quantity.h"
 #include "coupling/frame_service.h"
 #include "coupling/machine.h"
 #include "coupling/simulation.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
+#include "mechanism/joints/motion_law.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +62,54 @@ struct BodyRequest
   std::string        place;
 };
 
+/// A point of a body, an interface or the ground, in the position the scene describes.
+struct PlaceRequest
+{
+  std::string            marker;
+  std::optional<Vector3> at; ///< [m]; none: the body's own reference point
+};
+
+/// A scalar of the motion of two places; docs/scene.md, measures.
+struct MeasureRequest
+{
+  std::string                      name;
+  mechanism::RelativeMeasure::Form form = mechanism::RelativeMeasure::Form::along;
+  PlaceRequest                     first, second;
+  Vector3                          a{}, b{}; ///< unit vectors
+  std::string                      unit;
+  std::string                      place;
+};
+
+enum class JointType
+{
+  revolute,  ///< the two places stay together, turning freely about one axis
+  spherical, ///< the two places stay together
+  rigid,     ///< the two places stay together and do not turn against each other
+  prismatic, ///< moves along an axis of the first body and does not turn against it
+  in_plane,  ///< stays in the plane across an axis of the first body
+  distance,  ///< the two places keep their distance, or it follows a law
+  gear       ///< the angles (or displacements) of two bodies keep a ratio
+};
+
+struct JointRequest
+{
+  std::string                                 name;
+  JointType                                   type = JointType::revolute;
+  PlaceRequest                                from, to;
+  Vector3                                     axis{};
+  std::optional<double>                       length;      ///< of `distance` [m]; none: as described
+  double                                      ratio  = 1.; ///< of `gear`
+  std::shared_ptr<const mechanism::MotionLaw> law;         ///< of `distance`
+  std::string                                 place;
+};
+
+struct SwitchRequest
+{
+  coupling::Switch request;
+  Quantity         level; ///< with its unit
+  std::string      place;
+};
+
 /// weight * (motion of a marker along or about an axis).
 struct MotionTerm
 {
@@ -92,6 +143,7 @@ struct ElementRequest
   std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
   std::vector<MotionMeasure>               measures;
+  std::string                              on; ///< a MeasureRequest: the element, a law of one measure, acts on it
 };
 
 struct PointMassRequest
@@ -107,6 +159,7 @@ struct NamedValue
   std::string name;
   double      value;
   std::string place;
+  bool        measure = false; ///< of a MeasureRequest
 };
 
 enum class StartRule
@@ -153,6 +206,9 @@ struct Scene
   std::vector<LinearRequest>         linear;
   std::vector<LoadRequest>           loads;
   std::vector<ElementRequest>        elements;
+  std::vector<MeasureRequest>        measures;
+  std::vector<JointRequest>          joints;
+  std::vector<SwitchRequest>         switches;
   std::vector<PointMassRequest>      point_masses;
   std::vector<coupling::DrawnRod>    rods;
   std::map<std::string, std::string> element_places; ///< by the element's name

@@ -1,5 +1,7 @@
 #include "apps/scene/build_machine.h"
 
+#include "coupling/assembly.h"
+
 #include <algorithm>
 
 namespace gestell::apps
@@ -7,14 +9,14 @@ namespace gestell::apps
 namespace
 {
 
-/// Adds `value` for a body, or for a motion of an interface: q[coordinate] = sign * motion.
-void set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::Machine &machine)
+/// Adds `value` for a coordinate of a body, or for a motion of an interface: q[coordinate] = sign * motion.
+int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::Machine &machine)
 {
-  for (const auto &body : machine.bodies())
-    if (body.name == value.name)
+  for (int i = machine.n_frame(); i < machine.size(); ++i)
+    if (machine.coordinate_name(i) == value.name)
     {
-      x[body.coordinate] = value.value;
-      return;
+      x[i] = value.value;
+      return i;
     }
   static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
   const auto                            dot = value.name.rfind('.');
@@ -29,7 +31,7 @@ void set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling:
       if (i < 0)
         throw std::invalid_argument(value.place + ": this motion of the frame is held, it has no coordinate");
       x[i] = interface.sign[motion] * value.value;
-      return;
+      return i;
     }
   throw std::invalid_argument(value.place + ": there is no coordinate '" + value.name +
                               "'; give a body or \"frame.NAME.uz\"");
@@ -55,11 +57,29 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   }
   else
   {
-    state.q = state.v = Eigen::VectorXd::Zero(machine.size());
+    coupling::KnownStart known;
+    known.state.t = scene.run.options.begin;
+    known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
+    known.q_given.assign(machine.size(), 0);
+    known.v_given = known.q_given;
     for (const auto &value : scene.start.q)
-      set_coordinate(state.q, value, machine);
+      if (value.measure)
+        known.measures.emplace_back(value.name, value.value);
+      else
+        known.q_given[set_coordinate(known.state.q, value, machine)] = 1;
     for (const auto &value : scene.start.v)
-      set_coordinate(state.v, value, machine);
+      if (value.measure)
+        known.rates.emplace_back(value.name, value.value);
+      else
+        known.v_given[set_coordinate(known.state.v, value, machine)] = 1;
+    try
+    {
+      state = coupling::assemble(machine, known);
+    }
+    catch (const std::invalid_argument &e)
+    {
+      throw std::invalid_argument(scene.start.place + ": " + e.what());
+    }
   }
   state.t = scene.run.options.begin;
   return state;

@@ -140,6 +140,21 @@ double SceneTable::number(const std::string &key, const Kind &kind) const
   return evaluate(key, demand(key, "a " + kind.name + " such as \"" + kind.example + "\""), kind);
 }
 
+Quantity SceneTable::quantity(const std::string &key) const
+{
+  const SceneNode &value = demand(key, "a value such as \"287.9 kN\"");
+  if (value.type != Type::text && value.type != Type::integer && value.type != Type::real)
+    throw error(key, "needs a value such as \"287.9 kN\", got " + described(value));
+  try
+  {
+    return parameters_->evaluate(value);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw error(key, e.what());
+  }
+}
+
 double SceneTable::number(const std::string &key, const Kind &kind, double fallback) const
 {
   return optional_number(key, kind).value_or(fallback);

@@ -32,6 +32,8 @@ public:
 
   double                number(const std::string &key, const Kind &kind) const;
   double                number(const std::string &key, const Kind &kind, double fallback) const;
+  /// A value of any kind, whose dimension the caller judges.
+  Quantity              quantity(const std::string &key) const;
   std::optional<double> optional_number(const std::string &key, const Kind &kind) const;
   /// As number(), and must be > 0 or >= 0.
   double positive(const std::string &key, const Kind &kind) const;

@@ -274,6 +274,8 @@ void Bdf::cut(double t)
   cut_point_.a      = base_.a;
   cut_point_.p      = base_.p;
   cut_point_.lambda = base_.lambda;
+  if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
+    find_implied(cut_point_);
   cut_              = true;
   present(cut_point_);
 }
@@ -301,7 +303,7 @@ void Bdf::multistep(double t)
     divided_step(past(0), options_.step, 1, to);
   }
   push();
-  if (index_ + 1 < 2 * options_.order && system_.n_constraints() > 0)
+  if (system_.n_constraints() > 0 && (index_ + 1 < 2 * options_.order || system_.wants_multipliers()))
     find_implied(past(0));
 }
 

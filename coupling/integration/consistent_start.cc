@@ -189,10 +189,21 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     if (joints)
       G_.set_forces(local.lambda, local.p);
     Eigen::MatrixXd &jacobian = jacobian_.matrix();
-    jacobian.noalias()        = -D_.lazyProduct(dp_);
-    for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
-      if (std::none_of(held.begin(), held.end(), [i](const HeldMeasure &h) { return h.measure == i; }))
-        jacobian(i, i) += 1.;
+    bool             linear   = true; // no force depends on u'': one step finds all
+    for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
+    {
+      auto column = jacobian.col(j);
+      column.setZero();
+      const bool is_held = std::any_of(held.begin(), held.end(), [j](const HeldMeasure &h) { return h.measure == j; });
+      for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
+        if (dp_(i, j) != 0.)
+          column.noalias() -= dp_(i, j) * D_.col(i);
+      if (!is_held)
+      {
+        linear = linear && column.isZero(0.);
+        column[j] += 1.;
+      }
+    }
     correction_ = a_free_ - local.a;
     correction_.noalias() += D_.lazyProduct(local.p);
     if (!jacobian_.factorise())
@@ -218,7 +229,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     for (const ConstraintBlock &block : G_.blocks())
       scale_.segment(block.first_measure, block.n_measures).setConstant(largest);
     const bool small = (correction_.array().abs() <= converged * scale_.array()).all();
-    if (small)
+    if (small || linear)
     {
       if (joints)
         G_.set_forces(local.lambda, local.p);

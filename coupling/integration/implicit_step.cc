@@ -12,6 +12,8 @@ namespace
 {
 constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon();
 constexpr double joint_rounding      = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double share_of_joints     = 1e-3; ///< of the tolerance
+constexpr double finest_tolerance    = 1e-13;
 constexpr double weak_lever          = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
 } // namespace
@@ -55,6 +57,9 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
     : system_(system), options_(options), G_(system.constraint_blocks())
 {
+  // What positions are wrong by, multipliers are by m/h^2 times that.
+  if (G_.n_rows() > 0)
+    options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
   const int n_u = static_cast<int>(system.directions().cols());
   xi_.setZero(n_u);
   xi_free_.setZero(n_u);

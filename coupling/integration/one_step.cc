@@ -197,6 +197,8 @@ void OneStep::cut(double t)
   interpolate(t, here.local);
   here.t = t;
   cut_   = true;
+  if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
+    start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
 }
 
 } // namespace gestell::coupling

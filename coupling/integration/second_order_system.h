@@ -128,6 +128,8 @@ public:
   virtual void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const;
   /// What g' = G u' + rate and g'' = G u'' + bias have beyond the first terms, [n_c] each.
   virtual void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const;
+  /// Somebody looks at the multipliers: those of index 3 carry rounding enlarged by 1/h^2, and are found from g'' = 0 then.
+  virtual bool wants_multipliers() const { return false; }
   /// Joint and direction of row i, for messages: "crank pin, along x".
   virtual std::string constraint_name(int i) const;
 

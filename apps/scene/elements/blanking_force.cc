@@ -21,8 +21,8 @@ void read_blanking_force(const SceneTable &table, const Names &names, Scene &sce
   sheet.friction_share       = table.not_negative("friction_share", kind::number, sheet.friction_share);
   sheet.elastic_stiffness    = table.positive("elastic_stiffness", kind::stiffness);
   sheet.contact_at           = table.number("contact_at", kind::length);
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::BlankingForce>(sheet); }),
-              {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::BlankingForce>(sheet); }),
+              motion);
 }
 
 } // namespace gestell::apps

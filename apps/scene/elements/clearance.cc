@@ -25,7 +25,7 @@ Clearance::Parameters read_contact(const SceneTable &table, bool turns)
 void add_contact(Scene &scene, const SceneTable &table, const RelativeMotion &motion,
                  const Clearance::Parameters &contact)
 {
-  add_element(scene, table, checked(table, [&] { return std::make_shared<Clearance>(contact); }), {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<Clearance>(contact); }), motion);
 }
 
 } // namespace

@@ -16,7 +16,7 @@ void read_cutting_force(const SceneTable &table, const Names &names, Scene &scen
   cut.peak_penetration = table.positive("peak_penetration", kind::length);
   cut.contact_at       = table.number("contact_at", kind::length, cut.contact_at);
   cut.speed            = table.positive("speed", kind::speed, cut.speed);
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::CuttingForce>(cut); }), {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CuttingForce>(cut); }), motion);
 }
 
 } // namespace gestell::apps

@@ -12,6 +12,7 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
   const auto  motion = read_relative_motion(table, names);
   const Kind &kind   = motion.rotation ? kind::torque : kind::force;
   LoadRequest load;
+  refuse_measure(table, motion);
   load.name       = table.name();
   load.u          = motion.u;
   load.force_unit = motion.force_unit();

@@ -13,14 +13,15 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
   mechanism::RegularisedFriction::Parameters friction;
   friction.force = table.not_negative("force", turns ? kind::torque : kind::force);
   friction.speed = table.positive("speed", turns ? kind::angular_speed : kind::speed, friction.speed);
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::RegularisedFriction>(friction); }),
-              {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::RegularisedFriction>(friction); }),
+              motion);
 }
 
 /// Truly sticks.  Its two forces are given, or follow from a normal force by their coefficients.
 void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion       = read_relative_motion(table, names);
+  refuse_measure(table, motion); // it holds its measure where it sticks
   const bool turns        = motion.rotation;
   const bool coefficients = table.has("normal_force") || table.has("static") || table.has("kinetic");
   if (coefficients == (table.has("static_force") || table.has("kinetic_force")))
@@ -46,8 +47,8 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
                       std::string("is below '") + (coefficients ? "kinetic" : "kinetic_force") +
                           "'; what slides would hold more than what sticks, give at least as much");
   friction.belt_speed = table.number("speed", turns ? kind::angular_speed : kind::speed, friction.belt_speed);
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::CoulombFriction>(friction); }),
-              {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CoulombFriction>(friction); }),
+              motion);
 }
 
 } // namespace gestell::apps

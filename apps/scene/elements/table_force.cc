@@ -20,7 +20,7 @@ void read_table_force(const SceneTable &table, const Names &names, Scene &scene)
   force.against = against == "time" ? Against::time : against == "displacement" ? Against::displacement : Against::rate;
   for (const auto &row : table.pairs("table", x, turns ? kind::torque : kind::force))
     force.rows.push_back({row[0], row[1]});
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::TableForce>(force); }), {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::TableForce>(force); }), motion);
 }
 
 } // namespace gestell::apps

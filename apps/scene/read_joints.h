@@ -1,0 +1,19 @@
+#pragma once
+
+#include "apps/scene/names.h"
+#include "apps/scene/scene.h"
+#include "apps/scene/scene_table.h"
+
+namespace gestell::apps
+{
+
+/// Reads all [place.NAME] and [measure.NAME] and makes them known to `names`.
+void read_places(const SceneTable &scene, Names &names, Scene &result);
+
+/// Reads all [joint.NAME] into the scene.
+void read_joints(const SceneTable &scene, const Names &names, Scene &result);
+
+/// Reads all [switch.NAME] into the scene; once all else is read.
+void read_switches(const SceneTable &scene, Scene &result);
+
+} // namespace gestell::apps

@@ -1,0 +1,176 @@
+#include "coupling/assembly.h"
+
+#include <Eigen/QR>
+
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    most_iterations = 60;
+constexpr double closed          = 1e-10; ///< m or rad: residual that counts as closed where rounding stops progress
+
+class Assembly
+{
+public:
+  Assembly(Machine &machine, const KnownStart &known)
+      : machine_(machine), known_(known), state_(known.state), G_(machine.constraint_blocks()), n_c_(G_.n_rows())
+  {
+    local_.resize(machine);
+    g_.setZero(n_c_);
+    rate_.setZero(n_c_);
+    bias_.setZero(n_c_);
+    machine.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine.size()), local_);
+    machine.start(local_); // the laws of driven joints begin here
+  }
+
+  InitialState assembled()
+  {
+    close();
+    turn();
+    return state_;
+  }
+
+private:
+  /// Rows: joints, then measures; columns: free coordinates, scaled to equal mass.
+  void evaluate(const std::vector<std::pair<std::string, double>> &demands, Eigen::VectorXd &residual,
+                Eigen::MatrixXd &rows, bool rates)
+  {
+    machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
+    machine_.constraints(local_, g_, G_);
+    residual.resize(n_c_ + Eigen::Index(demands.size()));
+    rows.setZero(residual.size(), machine_.size());
+    if (rates)
+    {
+      machine_.constraint_rates(local_, rate_, bias_);
+      g_ = rate_;
+      G_.add_product(1., local_.v, g_);
+    }
+    residual.head(n_c_) = g_;
+    const auto &W       = machine_.directions();
+    for (std::size_t b = 0; b < G_.blocks().size(); ++b)
+      for (int k = 0; k < G_.blocks()[b].n_measures; ++k)
+        for (Eigen::SparseMatrix<double>::InnerIterator it(W, G_.blocks()[b].first_measure + k); it; ++it)
+          rows.block(G_.blocks()[b].first_row, it.row(), G_.blocks()[b].n_rows, 1) += it.value() * G_[b].col(k);
+    Eigen::VectorXd gradient;
+    for (std::size_t i = 0; i < demands.size(); ++i)
+    {
+      const auto value = machine_.measure(demands[i].first).evaluate(state_.q, state_.v, &gradient);
+      residual[n_c_ + Eigen::Index(i)] = (rates ? value.rate : value.s) - demands[i].second;
+      rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
+    }
+  }
+
+  /// The smallest change of the free coordinates that takes the residual away to first order.
+  Eigen::VectorXd change(const Eigen::VectorXd &residual, const Eigen::MatrixXd &rows, const std::vector<char> &given)
+  {
+    std::vector<int> free;
+    for (int i = machine_.n_frame(); i < machine_.size(); ++i)
+      if (!given[i])
+        free.push_back(i);
+    Eigen::VectorXd delta = Eigen::VectorXd::Zero(machine_.size());
+    if (free.empty())
+      return delta;
+    Eigen::VectorXd unit = delta, column = delta, scale(free.size());
+    Eigen::MatrixXd A(rows.rows(), free.size());
+    for (std::size_t j = 0; j < free.size(); ++j)
+    {
+      unit[free[j]] = 1.;
+      machine_.mass_times(unit, column);
+      unit[free[j]] = 0.;
+      const double m = column[free[j]];
+      scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
+      A.col(Eigen::Index(j)) = scale[Eigen::Index(j)] * rows.col(free[j]);
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
+    qr.setThreshold(1e-12);
+    qr.compute(A);
+    const Eigen::VectorXd x = qr.solve(-residual);
+    for (std::size_t j = 0; j < free.size(); ++j)
+      delta[free[j]] = scale[Eigen::Index(j)] * x[Eigen::Index(j)];
+    return delta;
+  }
+
+  void close()
+  {
+    Eigen::VectorXd residual, next;
+    Eigen::MatrixXd rows;
+    evaluate(known_.measures, residual, rows, false);
+    for (int k = 0; k < most_iterations && residual.size() > 0; ++k)
+    {
+      const Eigen::VectorXd delta = change(residual, rows, known_.q_given), q = state_.q;
+      double                part = 1.;
+      for (;; part *= 0.5) // shorter where the whole way leads further off
+      {
+        state_.q = q + part * delta;
+        evaluate(known_.measures, next, rows, false);
+        if (next.norm() < residual.norm() || part < 1e-3)
+          break;
+      }
+      const bool better = next.norm() < 0.5 * residual.norm();
+      if (!(next.norm() < residual.norm()))
+      {
+        state_.q = q;
+        break;
+      }
+      residual = next;
+      if (!better && residual.cwiseAbs().maxCoeff() < closed)
+        break;
+    }
+    evaluate(known_.measures, residual, rows, false);
+    refuse_open(residual, known_.measures, "m or rad", "positions");
+  }
+
+  void turn()
+  {
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd rows;
+    for (int k = 0; k < 2; ++k) // linear: the second time takes what rounding left
+    {
+      evaluate(known_.rates, residual, rows, true);
+      if (residual.size() > 0)
+        state_.v += change(residual, rows, known_.v_given);
+    }
+    evaluate(known_.rates, residual, rows, true);
+    refuse_open(residual, known_.rates, "m/s or rad/s", "velocities");
+  }
+
+  void refuse_open(const Eigen::VectorXd &residual, const std::vector<std::pair<std::string, double>> &demands,
+                   const std::string &unit, const std::string &what) const
+  {
+    if (residual.size() == 0)
+      return;
+    int          worst = 0;
+    const double open  = residual.cwiseAbs().maxCoeff(&worst);
+    if (open <= closed * std::max(1., what == "velocities" ? state_.v.cwiseAbs().maxCoeff() : 1.))
+      return;
+    std::ostringstream message;
+    message << "the mechanism cannot be assembled: with the given " << what << " "
+            << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst)
+                             : "the measure \"" + demands[worst - n_c_].first + "\"")
+            << " stays open by " << open << " " << unit
+            << "; check its places and lengths, or give fewer or other values in [start]";
+    throw std::invalid_argument(message.str());
+  }
+
+  Machine           &machine_;
+  const KnownStart  &known_;
+  InitialState       state_;
+  LocalState         local_;
+  ConstraintJacobian G_;
+  Eigen::VectorXd    g_, rate_, bias_;
+  int                n_c_;
+};
+
+} // namespace
+
+InitialState assemble(Machine &machine, const KnownStart &known)
+{
+  return Assembly(machine, known).assembled();
+}
+
+} // namespace gestell::coupling

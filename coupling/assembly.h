@@ -1,0 +1,29 @@
+#pragma once
+
+#include "coupling/steady_start.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// What is known of a start: values of coordinates, of measures, and of their rates.
+struct KnownStart
+{
+  InitialState                                state;            ///< with the given values; first guesses of the others
+  std::vector<char>                           q_given, v_given; ///< [n] coordinates that keep their value
+  std::vector<std::pair<std::string, double>> measures, rates;  ///< by the name of a NamedMeasure
+};
+
+/**
+ * Closes the joints of a machine and gives measures their values, g(t, q) = 0 and s(q) = s_0, by moving coordinates of
+ * bodies that are not given as little as possible, measured by their masses; then the velocities likewise,
+ * G q' + rate = 0.  Coordinates of the frame stay as they are.
+ *
+ * @throws std::invalid_argument if it cannot be done: the joint that stays open most, and by how much.
+ */
+InitialState assemble(Machine &machine, const KnownStart &known);
+
+} // namespace gestell::coupling

@@ -1,0 +1,69 @@
+#include "mechanism/elements/wheel.h"
+
+#include "mechanism/require.h"
+
+#include <algorithm>
+
+namespace gestell::mechanism
+{
+
+Wheel::Wheel(const Parameters &parameters) : parameters_(parameters)
+{
+  require(parameters.stiffness > 0., "wheel", "stiffness [N/m]", parameters.stiffness, "positive");
+  require(parameters.damping >= 0., "wheel", "damping [N s/m]", parameters.damping, "zero or positive");
+}
+
+void Wheel::start(const LocalMotion &motion, double *history) const
+{
+  history[0] = motion.u[0] <= 0. && force_in_contact(motion) >= 0. ? 1. : 0.;
+}
+
+void Wheel::engaged(const double *, double *K, double *D) const
+{
+  K[0] = parameters_.stiffness;
+  D[0] = parameters_.damping;
+}
+
+double Wheel::stored_energy(const LocalMotion &motion, const double *history) const
+{
+  const bool stands = parameters_.bilateral || (motion.by_history ? history[0] != 0. : motion.u[0] < 0.);
+  return stands ? 0.5 * parameters_.stiffness * motion.u[0] * motion.u[0] : 0.;
+}
+
+std::vector<Guard> Wheel::guards(const double *history) const
+{
+  if (parameters_.bilateral)
+    return {};
+  if (history[0] != 0.)
+    return {{"lift_off", Crossing::falling}};
+  return {{"touch_down", Crossing::rising}};
+}
+
+void Wheel::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  if (parameters_.bilateral)
+    return;
+  const double force = force_in_contact(motion) / parameters_.stiffness; // as a length, like u
+  g[0]               = history[0] != 0. ? force : std::min(force, -motion.u[0]);
+}
+
+void Wheel::transition(int, const LocalMotion &, double *history) const
+{
+  history[0] = 1. - history[0];
+}
+
+std::vector<Quantity> Wheel::quantities() const
+{
+  return {{"force", "N"}, {"compression", "m"}};
+}
+
+double Wheel::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  if (i == 1)
+    return -motion.u[0];
+  double p;
+  force(motion, history, &p);
+  return p;
+}
+
+} // namespace gestell::mechanism
