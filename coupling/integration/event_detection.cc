@@ -7,7 +7,12 @@ namespace gestell::coupling
 
 EventDetection::EventDetection(SecondOrderSystem &system) : system_(system)
 {
-  const Eigen::Index room = 4 * system.directions().cols() + 4;
+  make_room();
+}
+
+void EventDetection::make_room()
+{
+  const Eigen::Index room = system_.n_guards() + 4 * system_.directions().cols() + 4;
   g_from_.setZero(room);
   g_to_.setZero(room);
   g_.setZero(room);
@@ -16,6 +21,8 @@ EventDetection::EventDetection(SecondOrderSystem &system) : system_(system)
 void EventDetection::begin(const LocalState &state)
 {
   between_ = state;
+  if (system_.n_guards() > g_.size())
+    make_room();
   system_.guard_values(state, g_from_);
 }
 

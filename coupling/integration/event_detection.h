@@ -33,6 +33,7 @@ public:
   long chattering_steps() const { return chattering_; }
 
 private:
+  void   make_room();
   bool   earliest(const LocalState &from, const LocalState &to, double since, int &guard, double &share);
   void   at(const LocalState &from, const LocalState &to, double share, LocalState &state) const;
   double value(int guard, const LocalState &from, const LocalState &to, double share);
