@@ -112,9 +112,15 @@ std::vector<std::string> Parameters::names() const
 
 Quantity Parameters::evaluate(const SceneNode &value) const
 {
+  const Expression e = expression(value, {});
+  return {e.formula.constant(), e.dimension, e.checked, e.counts};
+}
+
+Expression Parameters::expression(const SceneNode &value, const std::vector<Variable> &variables) const
+{
   if (value.type == SceneNode::Type::text)
-    return parse_quantity(
-        value.text, [this](const std::string &name) { return find(name); }, names());
+    return parse_expression(
+        value.text, variables, [this](const std::string &name) { return find(name); }, names());
   return Quantity{value.number, {}, false, Counts::nothing};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/quantity.h"
+#include "apps/scene/parse_expression.h"
 #include "apps/scene/scene_node.h"
 
 #include <map>
@@ -24,6 +24,8 @@ public:
 
   /// A number or an expression; what a plain number measures is not known.
   Quantity evaluate(const SceneNode &value) const;
+  /// The same of `variables` as well.
+  Expression expression(const SceneNode &value, const std::vector<Variable> &variables) const;
 
 private:
   Quantity evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open);

@@ -1,4 +1,4 @@
-#include "apps/scene/quantity.h"
+#include "apps/scene/parse_expression.h"
 
 #include <cmath>
 #include <sstream>
@@ -52,7 +52,11 @@ std::string describe(const Dimension &dimension)
   return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
 }
 
-double value_as(const Quantity &q, const Kind &kind, const std::string &text)
+namespace
+{
+
+/// `shown`: the quantity as messages tell it behind its text, "3 kg".
+void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::string &text, const std::string &shown)
 {
   const std::string needs = "needs a" +
                             std::string(std::string("aei").find(kind.name[0]) != std::string::npos ? "n " : " ") +
@@ -60,18 +64,33 @@ double value_as(const Quantity &q, const Kind &kind, const std::string &text)
   bool fits = !q.checked;
   for (int more = 0; more <= kind.metre_range; ++more)
     fits = fits || equal(q.dimension, {kind.dimension[0] + more, kind.dimension[1], kind.dimension[2]});
-  if (!fits && q.value == 0. && equal(q.dimension, {}))
+  if (!fits && is_zero && equal(q.dimension, {}))
     fits = true; // zero of anything is zero
   if (!fits && equal(q.dimension, {}))
     throw std::invalid_argument(needs + "\"" + text +
                                 "\" without a unit; a plain number in SI units stands without quotes");
   if (!fits)
-    throw std::invalid_argument(needs + "\"" + text + "\", " + printed(q.value) + " " + describe(q.dimension));
+    throw std::invalid_argument(needs + "\"" + text + "\", " + shown);
   if (kind.refused != Counts::nothing && q.counts == kind.refused)
     throw std::invalid_argument(
         needs + "\"" + text + "\", which counts " +
         (kind.refused == Counts::turns ? "turns; write 1/min, rpm or rad/s" : "radians; write Hz"));
+}
+
+} // namespace
+
+double value_as(const Quantity &q, const Kind &kind, const std::string &text)
+{
+  check_kind(q, q.value == 0., kind, text, printed(q.value) + " " + describe(q.dimension));
   return q.value;
+}
+
+mechanism::Formula formula_as(const Expression &e, const Kind &kind, const std::string &text)
+{
+  if (e.is_value())
+    return value_as({e.formula.constant(), e.dimension, e.checked, e.counts}, kind, text);
+  check_kind({0., e.dimension, e.checked, e.counts}, false, kind, text, "which is in " + describe(e.dimension));
+  return e.formula;
 }
 
 } // namespace gestell::apps

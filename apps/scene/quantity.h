@@ -83,13 +83,16 @@ using NameLookup = std::function<std::optional<Quantity>(const std::string &name
  *     product = factor { (*|/) factor }
  *     factor  = (+|-) factor | power
  *     power   = operand [ ^ factor ]
- *     operand = number [units] | ( sum ) [units] | function ( sum {, sum} ) | pi | parameter | units
+ *     operand = number [units] | ( sum ) [units] | function ( sum {, sum} ) | if ( sum (<|<=|>|>=) sum , sum , sum )
+ *             | pi | parameter | units
  *     units   = unit[^n] { unit[^n] | / unit[^n] | 1/unit[^n] }
  *
  * The units that follow a number belong to it more tightly than any operator; "N s/m" is (N s)/m and "kg m^2" squares
  * the metre only.  What reads in two ways is refused: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  Where
  * an operand is expected a parameter comes before a unit of the same name.  "1/min" after a number means turns per
  * minute of a shaft, 2 pi/60 rad/s, as on every name plate; a full list of units is in docs/scene.md.
+ *
+ * Formulas, expressions with variables, have the same grammar: parse_expression().
  *
  * @param names  of all parameters, for suggestions.
  * @throws std::invalid_argument with what was expected and where in the text.

@@ -118,14 +118,20 @@ std::vector<std::string> SceneTable::keys() const
 
 double SceneTable::evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const
 {
+  return expression(key, value, {}, kind).constant();
+}
+
+mechanism::Formula SceneTable::expression(const std::string &key, const SceneNode &value,
+                                          const std::vector<Variable> &variables, const Kind &kind) const
+{
   const std::string at = value.place.text() + ": " + path_of(key) + ": ";
   if (value.type != Type::text && value.type != Type::integer && value.type != Type::real)
     throw std::invalid_argument(at + "needs a " + kind.name + " such as \"" + kind.example + "\", got " +
                                 described(value));
   try
   {
-    const double result = value_as(parameters_->evaluate(value), kind, value.text);
-    if (!std::isfinite(result))
+    const mechanism::Formula result = formula_as(parameters_->expression(value, variables), kind, value.text);
+    if (result.is_constant() && !std::isfinite(result.constant()))
       throw std::invalid_argument("needs a finite number, got " + value.text);
     return result;
   }
@@ -133,6 +139,12 @@ double SceneTable::evaluate(const std::string &key, const SceneNode &value, cons
   {
     throw std::invalid_argument(at + e.what());
   }
+}
+
+mechanism::Formula SceneTable::formula(const std::string &key, const std::vector<Variable> &variables,
+                                       const Kind &kind) const
+{
+  return expression(key, demand(key, "a formula of a " + kind.name), variables, kind);
 }
 
 double SceneTable::number(const std::string &key, const Kind &kind) const

@@ -41,6 +41,9 @@ public:
   double not_negative(const std::string &key, const Kind &kind) const;
   double not_negative(const std::string &key, const Kind &kind, double fallback) const;
 
+  /// A formula of `variables`, or a value.
+  mechanism::Formula formula(const std::string &key, const std::vector<Variable> &variables, const Kind &kind) const;
+
   int  integer(const std::string &key, int fallback) const;
   bool boolean(const std::string &key, bool fallback) const;
 
@@ -91,6 +94,9 @@ private:
   const SceneNode &demand(const std::string &key, const std::string &what) const;
   std::string      path_of(const std::string &key) const;
   double           evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
+  /// A value or a formula of `variables` of that kind.
+  mechanism::Formula expression(const std::string &key, const SceneNode &value, const std::vector<Variable> &variables,
+                                const Kind &kind) const;
 
   const SceneNode  *node_;
   const Parameters *parameters_;

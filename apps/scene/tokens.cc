@@ -35,13 +35,13 @@ struct Typed
 const std::vector<Typed> &typed_signs()
 {
   static const std::vector<Typed> signs = {
-      {"²", {{Token::symbol, "^", 0.}, {Token::number, "2", 2.}}},
-      {"³", {{Token::symbol, "^", 0.}, {Token::number, "3", 3.}}},
-      {"·", {{Token::symbol, "*", 0.}}},
-      {"°", {{Token::name, "°", 0.}}},
-      {"%", {{Token::name, "%", 0.}}},
-      {"µm", {{Token::name, "µm", 0.}}},
-      {"µs", {{Token::name, "µs", 0.}}},
+      {"²", {{Token::symbol, "^"}, {Token::number, "2", 2.}}},
+      {"³", {{Token::symbol, "^"}, {Token::number, "3", 3.}}},
+      {"·", {{Token::symbol, "*"}}},
+      {"°", {{Token::name, "°"}}},
+      {"%", {{Token::name, "%"}}},
+      {"µm", {{Token::name, "µm"}}},
+      {"µs", {{Token::name, "µs"}}},
   };
   return signs;
 }
@@ -74,7 +74,21 @@ std::size_t number_length(const std::string &text, std::size_t begin)
   return i - begin;
 }
 
+/// Characters, not bytes: those of UTF-8 that continue one are not counted.
+int characters_before(const std::string &text, std::size_t end)
+{
+  int n = 0;
+  for (std::size_t i = 0; i < end; ++i)
+    n += (static_cast<unsigned char>(text[i]) & 0xC0u) != 0x80u;
+  return n;
+}
+
 } // namespace
+
+std::string character(int place)
+{
+  return " (character " + std::to_string(place) + ")";
+}
 
 bool is_identifier(const std::string &name)
 {
@@ -89,6 +103,11 @@ bool is_identifier(const std::string &name)
 std::vector<Token> tokens_of(const std::string &text)
 {
   std::vector<Token> tokens;
+  const auto         add = [&](Token token, std::size_t begin)
+  {
+    token.place = 1 + characters_before(text, begin);
+    tokens.push_back(token);
+  };
   for (std::size_t i = 0; i < text.size();)
   {
     const char c = text[i];
@@ -103,7 +122,7 @@ std::vector<Token> tokens_of(const std::string &text)
       const auto read  = std::from_chars(text.data() + i, text.data() + i + length, value);
       if (read.ec != std::errc() || !std::isfinite(value))
         throw std::invalid_argument("\"" + text + "\" has a number out of range: " + text.substr(i, length));
-      tokens.push_back({Token::number, text.substr(i, length), value});
+      add({Token::number, text.substr(i, length), value}, i);
       i += length;
       continue;
     }
@@ -112,14 +131,15 @@ std::vector<Token> tokens_of(const std::string &text)
       std::size_t end = i;
       while (end < text.size() && continues_name(text[end]))
         ++end;
-      tokens.push_back({Token::name, text.substr(i, end - i), 0.});
+      add({Token::name, text.substr(i, end - i)}, i);
       i = end;
       continue;
     }
-    if (std::string("+-*/^(),").find(c) != std::string::npos)
+    if (std::string("+-*/^(),<>").find(c) != std::string::npos)
     {
-      tokens.push_back({Token::symbol, std::string(1, c), 0.});
-      ++i;
+      const bool or_equal = (c == '<' || c == '>') && i + 1 < text.size() && text[i + 1] == '=';
+      add({Token::symbol, text.substr(i, or_equal ? 2 : 1)}, i);
+      i += or_equal ? 2 : 1;
       continue;
     }
     const Typed *sign = nullptr;
@@ -127,10 +147,13 @@ std::vector<Token> tokens_of(const std::string &text)
       if (text.compare(i, candidate.text.size(), candidate.text) == 0)
         sign = &candidate;
     if (!sign)
-      throw std::invalid_argument("\"" + text + "\" has '" + std::string(1, c) + "', which has no meaning in a value");
-    tokens.insert(tokens.end(), sign->tokens.begin(), sign->tokens.end());
+      throw std::invalid_argument("\"" + text + "\" has '" + std::string(1, c) + "', which has no meaning in a value" +
+                                  character(1 + characters_before(text, i)));
+    for (const Token &token : sign->tokens)
+      add(token, i);
     i += sign->text.size();
   }
+  add({}, text.size());
   return tokens;
 }
 

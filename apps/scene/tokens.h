@@ -18,10 +18,15 @@ struct Token
   Kind        kind = end;
   std::string text;
   double      value = 0.;
+  int         place = 0; ///< of its first character in the text, from 1
 };
 
-/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) ,  ("·" is *, "²" is ^2, "³" is ^3).
+/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) , < <= > >=  ("·" is *, "²" is ^2, "³" is ^3); at
+/// the end one of kind `end`.
 /// @throws std::invalid_argument at any other character.
 std::vector<Token> tokens_of(const std::string &text);
+
+/// " (character 12)", as messages end that are about a place in a text.
+std::string character(int place);
 
 } // namespace gestell::apps

@@ -115,9 +115,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Reading{"-(1 + 2) * 3", -9., {0, 0, 0}}, Reading{"(2 + 3) mm", 0.005, {1, 0, 0}},
                       Reading{"2 m^2", 2., {2, 0, 0}}, Reading{"(2 m)^2", 4., {2, 0, 0}},
                       Reading{"sqrt(16 m^2)", 4., {1, 0, 0}}, Reading{"max(3 mm, 0.2 cm)", 0.003, {1, 0, 0}},
-                      Reading{"abs(-3 kg)", 3., {0, 1, 0}}, Reading{"exp(log(2))", 2., {0, 0, 0}},
-                      Reading{"m1*g", 93195., {1, 1, -2}}, Reading{"m1 * g / (2 mm)", 46597500., {0, 1, -2}},
-                      Reading{"crank_radius / mm", 80., {0, 0, 0}}, Reading{"1e3*mm", 1., {1, 0, 0}}));
+                      Reading{"max(0, -3 mm)", 0., {1, 0, 0}}, Reading{"2 mm + 0", 0.002, {1, 0, 0}},
+                      Reading{"atan2(2 m, 2 m)", pi / 4., {0, 0, 0}}, Reading{"tanh(0.5)", std::tanh(0.5), {0, 0, 0}},
+                      Reading{"if(crank_radius > 8 cm, 1 kg, 2 kg)", 2., {0, 1, 0}},
+                      Reading{"if(crank_radius >= 8 cm, 1 kg, 0)", 1., {0, 1, 0}},
+                      Reading{"3 kg*sign(-2 m) + 1 kg*step(0)", -2., {0, 1, 0}}, Reading{"abs(-3 kg)", 3., {0, 1, 0}},
+                      Reading{"exp(log(2))", 2., {0, 0, 0}}, Reading{"m1*g", 93195., {1, 1, -2}},
+                      Reading{"m1 * g / (2 mm)", 46597500., {0, 1, -2}}, Reading{"crank_radius / mm", 80., {0, 0, 0}},
+                      Reading{"1e3*mm", 1., {1, 0, 0}}));
 
 TEST(Quantity, ParametersComeBeforeUnitsWhereAnOperandIsExpected)
 {
@@ -174,6 +179,16 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                                                   {"20 degC", "unknown unit"}};
   for (const auto &[text, reason] : cases)
     EXPECT_NE(complaint(text).find(reason), std::string::npos) << "\"" << text << "\": " << complaint(text);
+}
+
+TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
+{
+  EXPECT_NE(complaint("2*crank_radius + 3 kg").find("adds kg to m; both must be of one kind (character 16)"),
+            std::string::npos);
+  EXPECT_NE(complaint("3 µm + parsec").find("(character 8)"), std::string::npos); // of UTF-8, not bytes
+  EXPECT_NE(complaint("(2").find("(character 3)"), std::string::npos);
+  EXPECT_NE(complaint("sqrt(4) mm").find("lacks an operator (* / + -) before 'mm' (character 9)"), std::string::npos);
+  EXPECT_NE(complaint("2 $ 3").find("(character 3)"), std::string::npos);
 }
 
 TEST(Quantity, DeepNestingIsRefusedInsteadOfOverflowingTheStack)
