@@ -17,6 +17,7 @@ void read_cubic_spring(const SceneTable &, const Names &, Scene &);
 void read_force(const SceneTable &, const Names &, Scene &);
 void read_table_force(const SceneTable &, const Names &, Scene &);
 void read_wheel(const SceneTable &, const Names &, Scene &);
+void read_formula_force(const SceneTable &, const Names &, Scene &);
 
 const std::vector<ElementType> &element_types()
 {
@@ -35,6 +36,7 @@ const std::vector<ElementType> &element_types()
       {"force", read_force},
       {"table force", read_table_force},
       {"wheel", read_wheel},
+      {"formula force", read_formula_force},
   };
   return types;
 }

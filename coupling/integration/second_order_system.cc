@@ -3,10 +3,16 @@
 namespace gestell::coupling
 {
 
-void LocalState::resize(const SecondOrderSystem &system)
+void LocalState::resize(Eigen::Index n_u)
 {
   for (Eigen::VectorXd *x : {&u, &v, &a, &p})
-    x->setZero(system.directions().cols());
+    x->setZero(n_u);
+  lambda.resize(0);
+}
+
+void LocalState::resize(const SecondOrderSystem &system)
+{
+  resize(system.directions().cols());
   lambda.setZero(system.n_constraints());
 }
 

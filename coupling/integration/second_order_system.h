@@ -34,6 +34,7 @@ struct LocalState
   Eigen::VectorXd lambda;  // [n_c] multipliers of ideal joints, p = G^T lambda on their measures
 
   void resize(const SecondOrderSystem &system); ///< to zero
+  void resize(Eigen::Index n_u);                ///< of a system without ideal joints
 };
 
 /// A measure that sticks: its rate is u' = rate, and its force p is the unknown.

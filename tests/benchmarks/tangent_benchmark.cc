@@ -1,8 +1,11 @@
-// Exact tangent of the connecting rod: which dual numbers?
+// Exact tangent of the connecting rod: which dual numbers?  And what a law costs that is a formula.
 
 #include "mechanism/elements/connecting_rod.h"
+#include "mechanism/elements/formula_force.h"
 
 #include <benchmark/benchmark.h>
+
+#include <cmath>
 
 #ifdef GESTELL_HAVE_SACADO
 #include <Sacado_No_Kokkos.hpp>
@@ -84,5 +87,61 @@ void tangent_sacado(benchmark::State &state)
 }
 BENCHMARK(tangent_sacado);
 #endif
+
+// --- a formula: -(900 N/m)*u - 5e6 N/m^3 * u^3 - 20 N s/m * v + 10 N*sin(2*pi*3 Hz*t)
+
+using gestell::mechanism::Formula;
+using gestell::mechanism::FormulaForce;
+
+FormulaForce shaken_spring()
+{
+  const Formula t = Formula::variable(FormulaForce::time), u = Formula::variable(FormulaForce::displacement),
+                v = Formula::variable(FormulaForce::rate);
+  return FormulaForce(
+      {-(900. * u) - 5e6 * power(u, 3.) - 20. * v + 10. * applied(gestell::mechanism::Function::sin, 18.85 * t)});
+}
+
+/// The same written in C++.
+class WrittenSpring : public gestell::mechanism::DifferentiableElement<WrittenSpring, 1>
+{
+public:
+  template <typename Number>
+  void law(const gestell::mechanism::Measures<Number> &m, const double *, Number *p) const
+  {
+    p[0] = -900. * m.u[0] - 5e6 * m.u[0] * m.u[0] * m.u[0] - 20. * m.v[0] + 10. * std::sin(18.85 * m.t);
+  }
+  std::vector<gestell::mechanism::Quantity> quantities() const override { return {}; }
+  double quantity(int, const gestell::mechanism::LocalMotion &, const double *) const override { return 0.; }
+};
+
+void force_of(benchmark::State &state, const gestell::mechanism::ForceElement &element)
+{
+  double t = 0.3, u = 0.01, v = 0.2, a = 0., p;
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(u);
+    benchmark::DoNotOptimize(t);
+    element.force({t, &u, &v, &a}, nullptr, &p);
+    benchmark::DoNotOptimize(p);
+  }
+}
+
+void tangent_of(benchmark::State &state, const gestell::mechanism::ForceElement &element)
+{
+  double t = 0.3, u = 0.01, v = 0.2, a = 0., p, dp;
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(u);
+    benchmark::DoNotOptimize(t);
+    element.tangent({t, &u, &v, &a}, nullptr, {weights[0], weights[1], weights[2]}, &p, &dp);
+    benchmark::DoNotOptimize(p);
+    benchmark::DoNotOptimize(dp);
+  }
+}
+
+BENCHMARK_CAPTURE(force_of, formula, shaken_spring());
+BENCHMARK_CAPTURE(force_of, written, WrittenSpring());
+BENCHMARK_CAPTURE(tangent_of, formula, shaken_spring());
+BENCHMARK_CAPTURE(tangent_of, written, WrittenSpring());
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/cutting_force.h"
+#include "mechanism/elements/formula_force.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/mechanism/element_probe.h"
 
@@ -35,6 +36,13 @@ BlankingForce::Parameters sheet(double exponent)
 TableForce::Parameters table(TableForce::Against against)
 {
   return {against, {{0.1, 0.}, {0.3, 80.}, {0.5, -40.}, {0.9, 0.}}};
+}
+
+/// Kinks within the parts of a condition, which come into play with it; jumps at u = 0.2 and t = 0.70007.
+Formula kinked_force()
+{
+  const Formula t = Formula::variable(0), u = Formula::variable(1), v = Formula::variable(2);
+  return conditional(u - 0.2, Relation::below, 3. * abs(v) - u, max(u, 0.5) * sign(v)) + step(t - 0.70007);
 }
 
 double rod_position(double phi)
@@ -123,6 +131,11 @@ std::vector<Switch> switches()
   all.push_back({"table_v_on", over_v, numbers(2.), probe1(0., 0.5, 2.), 0, "next_segment"});
   all.push_back({"table_v_back", over_v, numbers(3.), probe1(0., 0.5, -2.), 1, "previous_segment"});
   all.push_back({"table_t_on", over_t, numbers(1.), probe1(0., 2.), 0, "next_segment"});
+  const Formula u    = Formula::variable(FormulaForce::displacement), v = Formula::variable(FormulaForce::rate);
+  const auto    bent = std::make_shared<FormulaForce>(
+      FormulaForce::Parameters{-80. * max(u - 0.3, 0.) * (1. + v) + power(v, 2.) * abs(u - 0.4)});
+  all.push_back({"formula_up", bent, Eigen::Vector3d(-1., -1., 0.), probe1(0.3, 2.), 0, "max_1_rises"});
+  all.push_back({"formula_down", bent, Eigen::Vector3d(1., 1., 0.), probe1(0.4, -2.), 1, "abs_2_falls"});
   for (const double n : {1., 2., 7.5, 8.})
   {
     const auto            blanking = std::make_shared<BlankingForce>(sheet(n));
@@ -303,6 +316,12 @@ std::vector<Drive> drives()
            [](double t) { return swinging(t, 0., 0.4, 0.1, 7.); },
            3.,
            {"next_segment", "previous_segment"}},
+          {"formula",
+           std::make_shared<FormulaForce>(FormulaForce::Parameters{kinked_force()}),
+           [](double t) { return swinging(t, 0.4, 0., 0.7, 7.); },
+           3.,
+           // The others change sides at rest, and come into play on the right one.
+           {"if_1_rises", "if_1_falls", "abs_2_rises", "max_3_rises", "max_3_falls", "sign_4_falls", "step_5_rises"}},
           {"rod",
            std::make_shared<ConnectingRod>(rod),
            [](double t)

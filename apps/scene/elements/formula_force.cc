@@ -1,0 +1,27 @@
+#include "mechanism/elements/formula_force.h"
+
+#include "apps/scene/relative_motion.h"
+
+namespace gestell::apps
+{
+
+/// +F acts on `from` along the direction, on `to` against it.
+void read_formula_force(const SceneTable &table, const Names &names, Scene &scene)
+{
+  using mechanism::FormulaForce;
+  const auto                  motion    = read_relative_motion(table, names);
+  const bool                  turns     = motion.rotation;
+  const Counts                counts    = turns ? Counts::radians : Counts::nothing;
+  const std::vector<Variable> variables = {
+      // in the order of FormulaForce::Variable
+      {"t", "time", kind::time.dimension},
+      {"u", turns ? "angle" : "displacement", (turns ? kind::angle : kind::length).dimension, counts},
+      {"v", "its rate", (turns ? kind::angular_speed : kind::speed).dimension, counts}};
+
+  FormulaForce::Parameters force;
+  force.force = table.formula("force", variables, turns ? kind::torque : kind::force);
+  force.along = turns ? FormulaForce::Along::angle : FormulaForce::Along::line;
+  add_element(scene, table, checked(table, [&] { return std::make_shared<FormulaForce>(force); }), {motion.u});
+}
+
+} // namespace gestell::apps

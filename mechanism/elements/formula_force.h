@@ -1,0 +1,82 @@
+#pragma once
+
+#include "mechanism/differentiable_element.h"
+#include "mechanism/formula.h"
+
+#include <bitset>
+
+namespace gestell::mechanism
+{
+
+/**
+ * Force given by a formula of time, displacement and rate:   p = F(t, u, u')        [N or N m], so +F acts on u.
+ *
+ * Every kink of the formula is a guard, its value the argument of the kink; the history holds on which side it is.
+ * Events are called after the function, the place of the kink in the formula and where its argument goes:
+ * "abs_1_rises", "if_2_falls".
+ *
+ * Its work counts as input, negative where the force brakes: nothing in a formula tells what it stores.  As structure
+ * it has K = -dF/du and D = -dF/du' at the given u, at t = 0 and at rest.
+ */
+class FormulaForce : public DifferentiableElement<FormulaForce, 1>
+{
+public:
+  enum Variable
+  {
+    time,
+    displacement,
+    rate,
+    n_variables
+  };
+  enum class Along
+  {
+    line, ///< u in m, F in N
+    angle ///< u in rad, F in N m
+  };
+
+  struct Parameters
+  {
+    Formula force;               ///< F of the variables above
+    Along   along = Along::line; ///< names and units of the quantities
+  };
+
+  /// @throws std::invalid_argument if the formula depends on a variable there is not.
+  explicit FormulaForce(const Parameters &parameters);
+
+  template <typename Number>
+  void law(const Measures<Number> &m, const double *history, Number *p) const
+  {
+    const Number x[n_variables] = {Number(m.t), m.u[0], m.v[0]};
+    const int    n              = parameters_.force.n_kinks();
+    p[0] = n > 0 && m.by_history ? Number(parameters_.force.value(x, history) + Number(history[n]))
+                                 : parameters_.force.value(x);
+  }
+
+  void engaged(const double *u, double *K, double *D) const override;
+  /// Each kink in turn on the side where K, or D, is larger: right for a sum of terms with a kink each.
+  void stiffest(const double *u, double *K, double *D) const override;
+
+  /// history: side of each kink, -1 or 1; then 0, or no number once an accepted motion has left the range of a root:
+  /// roots go on below zero beyond a kink, but not for good.
+  int                   n_history() const override { return n_kinks() > 0 ? n_kinks() + 1 : 0; }
+  void                  start(const LocalMotion &motion, double *history) const override;
+  void                  accept(const LocalMotion &motion, double *history) const override;
+  Work                  work() const override { return Work::input; }
+  int                   n_guards(const double *) const override { return n_kinks(); }
+  std::vector<Guard>    guards(const double *history) const override;
+  void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                  transition(int i, const LocalMotion &motion, double *history) const override;
+  std::vector<Quantity> quantities() const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+private:
+  using Kinks = std::bitset<Formula::max_kinks>;
+
+  int  n_kinks() const { return parameters_.force.n_kinks(); }
+  void settle(const LocalMotion &motion, Kinks settled, double *history) const;
+  void structure(double u, const double *sides, double &K, double &D) const;
+
+  Parameters parameters_;
+};
+
+} // namespace gestell::mechanism
