@@ -21,7 +21,7 @@ void read_formula_force(const SceneTable &table, const Names &names, Scene &scen
   FormulaForce::Parameters force;
   force.force = table.formula("force", variables, turns ? kind::torque : kind::force);
   force.along = turns ? FormulaForce::Along::angle : FormulaForce::Along::line;
-  add_element(scene, table, checked(table, [&] { return std::make_shared<FormulaForce>(force); }), {motion.u});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<FormulaForce>(force); }), motion);
 }
 
 } // namespace gestell::apps
