@@ -72,6 +72,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   probe_   = {0., std::vector<double>(signals.size())};
   earlier_ = probe_;
   samples_.assign(samples + 1, probe_);
+  watched_.assign(signals.size(), true);
 
   result.columns = {"t"};
   result.units   = {"s"};
@@ -111,9 +112,8 @@ void Recorder::begin()
   evaluate(integrator_.time(), samples_.back());
   for (std::size_t i = 0; i < signals_.size(); ++i)
   {
-    SignalSummary &summary = result_.signals[i];
-    summary.min = summary.max = samples_.back().values[i];
-    summary.t_min = summary.t_max = integrator_.time();
+    watched_[i] = signals_[i].from.empty();
+    look_anew(i);
   }
   if (options_.energy)
     energy_.begin(integrator_.instant());
@@ -152,9 +152,23 @@ void Recorder::step()
   pictures();
 }
 
-void Recorder::jump()
+/// Extremes of a signal count from here.
+void Recorder::look_anew(std::size_t signal)
+{
+  SignalSummary &summary = result_.signals[signal];
+  summary.min = summary.max = samples_.back().values[signal];
+  summary.t_min = summary.t_max = integrator_.time();
+}
+
+void Recorder::jump(const std::string &event)
 {
   evaluate(integrator_.time(), samples_.back());
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    if (!watched_[i] && signals_[i].from == event)
+    {
+      watched_[i] = true;
+      look_anew(i);
+    }
   extremes(samples_.back());
   earlier_known_ = false;
   if (options_.energy)
@@ -170,6 +184,8 @@ void Recorder::extremes(const Sample &sample)
 void Recorder::extreme(std::size_t signal, double t, double value)
 {
   SignalSummary &summary = result_.signals[signal];
+  if (!watched_[signal])
+    return;
   if (value < summary.min)
   {
     summary.min   = value;
@@ -190,6 +206,8 @@ void Recorder::turn(const Sample &a, const Sample &b, const Sample &c)
     {
       const SignalSummary &summary = result_.signals[i];
       Point                top;
+      if (!watched_[i])
+        continue;
       const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
       if (turns && top.f > (sign > 0. ? summary.max : -summary.min))
         search(i, sign, a, b, c);
@@ -290,7 +308,14 @@ void Recorder::finish()
   if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
     row(integrator_.time(), last);
   for (std::size_t i = 0; i < signals_.size(); ++i)
+  {
     result_.signals[i].final = last.values[i];
+    if (watched_[i])
+      continue;
+    result_.warnings.push_back("signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
+                               "\" on, which did not happen: its extremes are those of the end");
+    look_anew(i);
+  }
   const double residual = result_.energy.residual, rounding = 1e-9 * std::abs(energy_.at_begin());
   if (residual <= std::max(0.01 * turned_over_, rounding))
     return;

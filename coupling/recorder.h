@@ -28,7 +28,8 @@ public:
 
   void begin();  ///< at the start, after the integrator began
   void step();   ///< a step was made; its dense output and the history that holds on it are there
-  void jump();   ///< an event has changed the history at the present instant
+  /// An event of that object has changed the history at the present instant.
+  void jump(const std::string &event);
   void finish(); ///< the last instant always has a row
 
 private:
@@ -39,6 +40,7 @@ private:
   };
 
   void evaluate(double t, Sample &sample);
+  void look_anew(std::size_t signal);
   void extremes(const Sample &sample);
   void extreme(std::size_t signal, double t, double value);
   void turn(const Sample &a, const Sample &b, const Sample &c);
@@ -58,6 +60,7 @@ private:
   Instant                    between_;
   std::vector<Sample>        samples_;               ///< of the last step, both ends included
   Sample                     earlier_, probe_;       ///< end of the step before the last one; scratch
+  std::vector<char>          watched_;               ///< signals whose extremes count already
   bool                       earlier_known_ = false; ///< and nothing jumped since
   double                     row_step_ = 0., picture_step_ = 0.;
   long                       next_row_ = 0, next_picture_ = 0; ///< on their grids

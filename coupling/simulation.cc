@@ -194,7 +194,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     {
       driver.advance();
       if (driver.events().size() != n_events)
-        recorder.jump();
+        recorder.jump(driver.events().back().name);
       n_events = driver.events().size();
       if (stop && stop->load(std::memory_order_relaxed))
       {

@@ -156,7 +156,10 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
 {
   std::vector<coupling::Signal> signals;
   for (const auto &request : scene.signals)
+  {
     signals.push_back(placed(request.place, [&] { return machine.signal(request.name, request.path); }));
+    signals.back().from = request.from;
+  }
   return signals;
 }
 

@@ -186,7 +186,7 @@ void read_output(const SceneTable &scene, Scene &result)
       for (const SignalRequest &other : result.signals)
         if (other.name == path)
           throw table->error("signals", "'" + path + "' stands in the list twice");
-      result.signals.push_back({path, path, table->place("signals")});
+      result.signals.push_back({path, path, table->place("signals"), ""});
     }
   else if (const auto signals = table->optional_table("signals"))
     for (const auto &name : signals->keys())
@@ -195,7 +195,13 @@ void read_output(const SceneTable &scene, Scene &result)
         throw signals->error(name,
                              "is no name for a signal: it heads a column of history.csv, so it must not be 't' or "
                              "contain commas, quotes or brackets");
-      result.signals.push_back({name, signals->text(name), signals->place(name)});
+      if (!signals->is_table(name))
+      {
+        result.signals.push_back({name, signals->text(name), signals->place(name), ""});
+        continue;
+      }
+      const auto watched = signals->table(name);
+      result.signals.push_back({name, watched.text("signal"), signals->place(name), watched.text("from")});
     }
 }
 

@@ -179,6 +179,7 @@ struct StartRequest
 struct SignalRequest
 {
   std::string name, path, place;
+  std::string from; ///< event from which on its extremes count
 };
 
 struct ModesRequest

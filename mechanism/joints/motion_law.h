@@ -53,7 +53,7 @@ private:
  * with w(s) = 1 - s (linear), (1 + cos pi s)/2 (cosine), or ramps of length T each that begin at delays t_i and take
  * shares A_i of the speed (shaped; sum A_i = 1), whose begins and ends are corners.
  *
- * Source: docs/theory/joints.md (4).
+ * Source: docs/theory/joints.md, prescribed motion.
  */
 class BrakedMotion : public MotionLaw
 {
