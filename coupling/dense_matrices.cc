@@ -2,6 +2,8 @@
 
 #include "coupling/nearest_name.h"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 
 namespace gestell::coupling
@@ -88,6 +90,27 @@ void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::
   add_up(machine, q, stiffness, damping,
          [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
          { placement.element->stiffest(u, K.data(), D.data()); });
+}
+
+Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state)
+{
+  Eigen::MatrixXd local;
+  machine.geometric(state, local);
+  const auto &W = machine.directions();
+  return W * local * W.transpose();
+}
+
+Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state)
+{
+  const int          n = machine.size(), n_c = machine.n_constraints();
+  ConstraintJacobian G(machine.constraint_blocks());
+  Eigen::VectorXd    g(n_c);
+  machine.constraints(state, g, G);
+  Eigen::MatrixXd rows(n_c, n);
+  G.times(Eigen::MatrixXd(machine.directions().transpose()), rows);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  const Eigen::MatrixXd                       Q = qr.householderQ();
+  return Q.rightCols(n - qr.rank());
 }
 
 } // namespace gestell::coupling

@@ -15,6 +15,12 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine);
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
 
+/// Geometric stiffness W K_g W^T [n x n] of all elements and joints at a motion with its forces and multipliers.
+Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state);
+
+/// Orthonormal columns [n x n - rank] that span the motions the joints leave free at a motion, G W^T Z = 0.
+Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state);
+
 /// The same of all elements in the stiffest branch of their laws.
 void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
                        Eigen::MatrixXd &damping);

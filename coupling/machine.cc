@@ -248,6 +248,18 @@ void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   }
 }
 
+void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
+{
+  K.setZero(parts_->W.cols(), parts_->W.cols());
+  double block[Parts::max_measures * Parts::max_measures];
+  for (const auto &part : parts_->placed)
+  {
+    part.element->geometric(part.motion(state, parts_->by_history), parts_->history_of(part), block);
+    K.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) =
+        Eigen::Map<const Eigen::MatrixXd>(block, part.n_measures, part.n_measures);
+  }
+}
+
 const std::vector<HeldMeasure> &Machine::held() const
 {
   return parts_->held;

@@ -193,6 +193,8 @@ public:
 
   double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                   const LocalState &local) const;
+  /// Geometric stiffness [n_u x n_u] of all elements and joints, block diagonal: mechanism::ForceElement::geometric().
+  void geometric(const LocalState &state, Eigen::MatrixXd &K) const;
   /// u, v, a of all elements for q, q', q''.
   void gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
               LocalState &local) const;

@@ -2,6 +2,7 @@
 
 #include "coupling/dense_matrices.h"
 #include "coupling/dense_modes.h"
+#include "coupling/integration/consistent_start.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -71,6 +72,29 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
 }
 } // namespace
 
+namespace
+{
+/// In the motions that the joints leave free, with the geometric stiffness of joints and elements: what makes a load on a
+/// rope swing.
+std::vector<Mode> jointed_modes(const Machine &machine, const Eigen::VectorXd &q, const Eigen::MatrixXd &B,
+                                const Eigen::MatrixXd &C, int n_modes)
+{
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  Eigen::VectorXd       a    = zero;
+  LocalState            local;
+  local.resize(machine);
+  machine.gather(0., q, zero, zero, local);
+  IntegrationWork work;
+  ConsistentStart(machine, "modes").solve(q, zero, a, local, work);
+  const Eigen::MatrixXd Z = free_motions(machine, local), K = C + geometric_stiffness(machine, local);
+  std::vector<Mode>     modes = modes_of(Z.transpose() * dense_mass(machine) * Z, Z.transpose() * B * Z,
+                                         Z.transpose() * K * Z, Z.transpose() * machine.translation_loads(), n_modes);
+  for (Mode &mode : modes)
+    mode.shape = Z * mode.shape;
+  return modes;
+}
+} // namespace
+
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 {
   const ReducedFrame *frame = machine.reduced_frame();
@@ -87,6 +111,8 @@ std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q
                                 " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
   Eigen::MatrixXd stiffness, damping;
   engaged_matrices(machine, q, open, stiffness, damping);
+  if (machine.n_constraints() > 0)
+    return jointed_modes(machine, q, dense_damping(machine) + damping, dense_stiffness(machine) + stiffness, n_modes);
   return modes_of(dense_mass(machine), dense_damping(machine) + damping, dense_stiffness(machine) + stiffness,
                   machine.translation_loads(), n_modes);
 }

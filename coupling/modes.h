@@ -18,7 +18,8 @@ struct Mode
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes);
 
 /// Modes of the coupled machine linearised at q: base system plus engaged elements (all but those named in `open`),
-/// without geometric stiffness.  Shapes in the machine's coordinates.
+/// without geometric stiffness.  With ideal joints: in the motions they leave free, with the geometric stiffness of the
+/// forces that act at q.  Shapes in the machine's coordinates.
 std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                                 int n_modes);
 

@@ -52,6 +52,11 @@ double ForceElement::resistance(const LocalMotion &motion, const double *history
   return -p;
 }
 
+void ForceElement::geometric(const LocalMotion &, const double *, double *K) const
+{
+  std::fill(K, K + n_measures() * n_measures(), 0.);
+}
+
 void ForceElement::constraint(const LocalMotion &, const double *, double *, double *) const {}
 
 void ForceElement::constraint_rates(const LocalMotion &, const double *, double *, double *) const {}

@@ -116,6 +116,10 @@ public:
   /// step of an integrator has to stand.  Default: engaged().
   virtual void stiffest(const double *u, double *K, double *D) const { engaged(u, K, D); }
 
+  /// Geometric stiffness [k x k, column major]: of a force that turns with the motion, -d(G^T)/du P, at the forces of
+  /// `motion` (of a joint its multipliers).  Together with engaged() it is the tangent.
+  virtual void geometric(const LocalMotion &motion, const double *history, double *K) const;
+
   /// Position function the element closes when it is engaged, g(u) = 0 (compression of a rod, twist of a coupling):
   /// returns false if there is none; else g, its gradient [k] and its second derivative along v, v^T g'' v.
   virtual bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const;

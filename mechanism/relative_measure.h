@@ -66,6 +66,8 @@ struct PlacedMeasure
 
   int                    n_measures() const { return first.n_measures() + second.n_measures(); }
   RelativeMeasure::Value evaluate(const double *u, const double *v, double *gradient) const;
+  /// matrix += factor s''(u) [k x k, column major].
+  void add_curvature(const double *u, double factor, double *matrix) const;
 };
 
 } // namespace gestell::mechanism

@@ -2,6 +2,7 @@
 
 #include "mechanism/require.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gestell::mechanism
@@ -92,6 +93,15 @@ void TransmittedElement::stiffest(const double *u, double *K, double *D) const
   law_->stiffest(&seen.s, &k, &d);
   spread(seen, k, K);
   spread(seen, d, D);
+}
+
+void TransmittedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
+{
+  const Seen seen = see(motion);
+  double     P;
+  law_->force(seen.motion(motion), history, &P);
+  std::fill(K, K + n_measures() * n_measures(), 0.);
+  measure_.add_curvature(motion.u, -P, K);
 }
 
 void TransmittedElement::accept(const LocalMotion &motion, double *history) const

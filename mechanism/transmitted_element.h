@@ -39,6 +39,7 @@ public:
                    double *dp_dv) const override;
   void engaged(const double *u, double *K, double *D) const override;
   void stiffest(const double *u, double *K, double *D) const override;
+  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
   void accept(const LocalMotion &motion, double *history) const override;
 
   double stored_energy(const LocalMotion &motion, const double *history) const override;

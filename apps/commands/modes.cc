@@ -35,7 +35,7 @@ int modes_command(const CommonOptions &options)
   require_writable(folder);
 
   ProgressLine          progress(options.quiet);
-  const PreparedMachine prepared = prepare_machine(scene, progress);
+  PreparedMachine       prepared = prepare_machine(scene, progress);
   progress.show("modes");
   Result result = begin_result(scene, "modes", prepared);
   progress.done();

@@ -139,9 +139,9 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   return facts;
 }
 
-Result begin_result(const Scene &scene, const std::string &command, const PreparedMachine &prepared)
+Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared)
 {
-  const coupling::Machine &small = prepared.small();
+  coupling::Machine &small = prepared.small();
   Result                   result;
   result.scene       = scene.name;
   result.description = scene.description;

@@ -35,7 +35,7 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine);
 
 /// q [n] of the configuration that modes are asked for.
-Eigen::VectorXd modes_configuration(const Scene &scene, const coupling::Machine &machine);
+Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);
 
 /// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
 /// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.

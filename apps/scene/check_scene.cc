@@ -67,7 +67,8 @@ void check_scene(const Scene &scene)
 {
   auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
-  modes_configuration(scene, machine);
+  if (machine.n_constraints() == 0 || scene.start.rule == StartRule::given) // a static start needs the frame itself
+    modes_configuration(scene, machine);
   if (scene.start.rule == StartRule::given)
     initial_state(scene, machine);
   for (const auto &[name, angle] : scene.start.steady.angles)

@@ -96,9 +96,13 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   if (!table)
     return start;
   start.place = table->place();
-  start.rule  = table->choice("rule", {"given", "steady"}, "given") == "given" ? StartRule::given : StartRule::steady;
-  if (start.rule == StartRule::given)
+  const std::string rule = table->choice("rule", {"given", "static", "steady"}, "given");
+  start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
+  if (start.rule != StartRule::steady)
   {
+    if (start.rule == StartRule::rest)
+      start.drift = table->boolean("drift", false);
+
     start.q = read_optional_coordinates(*table, "q", names, false, false, true);
     start.v = read_optional_coordinates(*table, "v", names, true, false, true);
     return start;
@@ -122,7 +126,7 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   const auto   table = scene.optional_table("modes");
   if (!table)
     return modes;
-  modes.at     = read_optional_coordinates(*table, "at", names, false, false);
+  modes.at     = read_optional_coordinates(*table, "at", names, false, false, true);
   modes.number = table->integer("number", modes.number);
   if (modes.number < 1)
     throw table->error("number", "needs a number of modes of 1 or more");

@@ -165,6 +165,7 @@ struct NamedValue
 enum class StartRule
 {
   given, ///< q and q' as listed, zero for the rest
+  rest,  ///< coupling::static_equilibrium near `given`
   steady ///< coupling::steady_start
 };
 
@@ -173,6 +174,7 @@ struct StartRequest
   StartRule               rule = StartRule::given;
   std::vector<NamedValue> q, v; ///< given
   coupling::SteadyStart   steady;
+  bool                    drift = false; ///< rest: with the quasi-static velocity
   std::string             place;
 };
 

@@ -1,6 +1,7 @@
 #include "apps/scene/build_machine.h"
 
 #include "coupling/assembly.h"
+#include "coupling/static_equilibrium.h"
 
 #include <algorithm>
 
@@ -37,6 +38,39 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
                               "'; give a body or \"frame.NAME.uz\"");
 }
 
+coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &machine,
+                                 const std::vector<NamedValue> &q, const std::vector<NamedValue> &v)
+{
+  coupling::KnownStart known;
+  known.state.t = scene.run.options.begin;
+  known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
+  known.q_given.assign(machine.size(), 0);
+  known.v_given = known.q_given;
+  for (const auto &value : q)
+    if (value.measure)
+      known.measures.emplace_back(value.name, value.value);
+    else
+      known.q_given[set_coordinate(known.state.q, value, machine)] = 1;
+  for (const auto &value : v)
+    if (value.measure)
+      known.rates.emplace_back(value.name, value.value);
+    else
+      known.v_given[set_coordinate(known.state.v, value, machine)] = 1;
+  return known;
+}
+
+coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine, const coupling::KnownStart &known)
+{
+  try
+  {
+    return coupling::assemble(machine, known);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw std::invalid_argument(scene.start.place + ": " + e.what());
+  }
+}
+
 } // namespace
 
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine)
@@ -57,24 +91,12 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   }
   else
   {
-    coupling::KnownStart known;
-    known.state.t = scene.run.options.begin;
-    known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
-    known.q_given.assign(machine.size(), 0);
-    known.v_given = known.q_given;
-    for (const auto &value : scene.start.q)
-      if (value.measure)
-        known.measures.emplace_back(value.name, value.value);
-      else
-        known.q_given[set_coordinate(known.state.q, value, machine)] = 1;
-    for (const auto &value : scene.start.v)
-      if (value.measure)
-        known.rates.emplace_back(value.name, value.value);
-      else
-        known.v_given[set_coordinate(known.state.v, value, machine)] = 1;
+    state = assembled(scene, machine, known_start(scene, machine, scene.start.q, scene.start.v));
     try
     {
-      state = coupling::assemble(machine, known);
+      if (scene.start.rule == StartRule::rest)
+        state = coupling::static_equilibrium(
+            machine, state, scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none);
     }
     catch (const std::invalid_argument &e)
     {
@@ -85,8 +107,20 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   return state;
 }
 
-Eigen::VectorXd modes_configuration(const Scene &scene, const coupling::Machine &machine)
+Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
 {
+  // With joints a position has to be closed: that of the start, or the one nearest to it with the given values.
+  if (machine.n_constraints() > 0 && scene.modes.at.empty())
+    return initial_state(scene, machine).q;
+  if (machine.n_constraints() > 0)
+  {
+    coupling::KnownStart known = known_start(scene, machine, scene.modes.at, {});
+    known.state.q              = initial_state(scene, machine).q;
+    for (const auto &value : scene.modes.at)
+      if (!value.measure)
+        set_coordinate(known.state.q, value, machine);
+    return assembled(scene, machine, known).q;
+  }
   Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());
   for (const auto &value : scene.modes.at)
     set_coordinate(q, value, machine);

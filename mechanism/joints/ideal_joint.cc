@@ -72,6 +72,13 @@ double IdealJoint::constraint_size() const
   return size > 0. ? size : 1.;
 }
 
+void IdealJoint::geometric(const LocalMotion &motion, const double *, double *K) const
+{
+  std::fill(K, K + n_measures() * n_measures(), 0.);
+  for (int i = 0; motion.lambda && i < n_constraints(); ++i)
+    PlacedMeasure{first_, second_, equations_[i].measure}.add_curvature(motion.u, -motion.lambda[i], K);
+}
+
 /// The force p = G^T lambda is the system's.
 void IdealJoint::force(const LocalMotion &, const double *, double *p) const
 {

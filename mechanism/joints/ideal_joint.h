@@ -47,6 +47,7 @@ public:
   void        constraint_rates(const LocalMotion &motion, const double *history, double *rate,
                                double *bias) const override;
   double      constraint_size() const override;
+  void        geometric(const LocalMotion &motion, const double *history, double *K) const override;
   std::string constraint_name(int i) const override { return equations_[i].name; }
 
   Work work() const override { return law_ ? Work::input : Work::dissipated; }

@@ -1,5 +1,6 @@
 // The mobile crane, built in a scene from bodies, joints, wheels and a switch, against its reference (tests/reference/crane).
 
+#include "coupling/modes.h"
 #include "tests/apps/csv_table.h"
 #include "tests/apps/scene_run.h"
 
@@ -91,6 +92,47 @@ TEST(Crane, TyresThatLiftOff)
   const SceneRun run("crane_minimal_lift.toml");
   EXPECT_LT(event_error(run, "unilateral"), 1e-6);
   EXPECT_LT(peak_error(run, "unilateral"), 1e-5);
+}
+
+// Equilibrium and drift are given as numbers in the reference: q to 16 digits, v to 12.
+TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
+{
+  const apps::Scene scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+                                             {"start.rule=\"static\"", "start.drift=true"});
+  coupling::Machine machine = apps::build_machine(scene);
+  const auto        start   = apps::initial_state(scene, machine);
+  const auto        lift = machine.measure("q1").evaluate(start.q, start.v), rope = machine.measure("q3").evaluate(start.q, start.v);
+  const int         pitch = machine.coordinate("chassis.angle");
+  EXPECT_NEAR(lift.s, -0.0417471501960756, 1e-13);
+  EXPECT_NEAR(start.q[pitch], -0.0110552957824447, 1e-13);
+  EXPECT_NEAR(rope.s, 0., 1e-13);
+  EXPECT_NEAR(lift.rate, 0.000385488344692, 1e-13);
+  EXPECT_NEAR(start.v[pitch], -0.00165219387, 1e-10); // nine digits are given
+}
+
+// Stage 3 of the reference: the cylinder stands at 2.752989795 m, the load hangs at rest.
+TEST(Crane, NaturalFrequenciesAboutItsEquilibrium)
+{
+  const apps::Scene scene =
+      apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+                       {"start.rule=\"static\"", "joint.cylinder.length=\"2.752989795 m\""});
+  coupling::Machine machine = apps::build_machine(scene);
+  const auto        modes   = coupling::coupled_modes(machine, apps::modes_configuration(scene, machine), {}, 20);
+  // frequency [Hz] undamped and damped, damping ratio; q4 is given to 1e-9 m, which moves frequencies by some 1e-9
+  const double expected[3][3] = {{0.404110925659008, 0.404116784280382, 0.0040894005004324},
+                                 {1.24538338664754, 1.24458868789087, 0.0351425609221216},
+                                 {2.60460937346, 2.59659464702923, 0.0783594082436467}};
+  std::vector<coupling::Mode> vibrating; // the load moves freely out of the plane
+  for (const auto &mode : modes)
+    if (mode.frequency_hz > 0.01 && std::abs(mode.shape[machine.coordinate("load.uy")]) < 1e-6)
+      vibrating.push_back(mode);
+  ASSERT_EQ(vibrating.size(), 3u);
+  for (int j = 0; j < 3; ++j)
+  {
+    EXPECT_NEAR(vibrating[j].frequency_hz, expected[j][0], 1e-6 * expected[j][0]);
+    EXPECT_NEAR(vibrating[j].damped_frequency_hz, expected[j][1], 1e-6 * expected[j][1]);
+    EXPECT_NEAR(vibrating[j].damping_ratio, expected[j][2], 1e-6 * expected[j][2]);
+  }
 }
 
 } // namespace
