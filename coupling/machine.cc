@@ -394,7 +394,7 @@ void Machine::local_power(const LocalState &state, const Eigen::VectorXd &p, dou
   for (const auto &part : parts_->placed)
   {
     const double power =
-        p.segment(part.first_measure, part.n_measures).dot(state.v.segment(part.first_measure, part.n_measures));
+        p.segment(part.first_measure, part.n_motions).dot(state.v.segment(part.first_measure, part.n_motions));
     (part.element->work() == mechanism::Work::input ? input : other) += power;
   }
 }

@@ -111,8 +111,8 @@ struct ElementPlacement
  * The coupled machine: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
  * couplings that join the base system, and nonlinear elements.
  *
- * Coordinates: those of the frame first (q1, then modes), then those of the bodies in the order they were added.
- * Call set_frame() first, finish() last; then it is a SecondOrderSystem.
+ * Coordinates: those of the frame first (q1, then modes), then those of the bodies and the lags in the order they were
+ * added.  Call set_frame() first, finish() last; then it is a SecondOrderSystem.
  */
 class Machine : public SecondOrderSystem
 {
@@ -160,7 +160,19 @@ public:
   void add_load(const std::string &name, const Measure &u, double constant,
                 const std::vector<Oscillation> &oscillations, const std::string &force_unit);
 
-  /// Nonlinear element acting on its measures.
+  /**
+   * A virtual coordinate x: a state that follows its input p with the time constant T > 0 [s],
+   *
+   *     T x' + x = p.
+   *
+   * It has no mass, so that only bdf integrates it.  An element takes it as one of its last measures and gives p, the
+   * force on it; dynamic motor characteristics and controllers are made of it (Dresig, Vul'fson, section 5.5.3).
+   *
+   * @return its coordinate
+   */
+  int add_lag(const std::string &name, double time_constant);
+
+  /// Nonlinear element acting on its measures; those of virtual coordinates come last.
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
               const std::vector<Measure> &measures);
 
@@ -187,7 +199,7 @@ public:
   const LinearBase                    &base() const;
   int                                  n_frame() const; ///< coordinates of the frame
   int                                  n_interface() const;
-  int                                  n_mechanism() const; ///< coordinates of the bodies
+  int                                  n_mechanism() const; ///< coordinates of the bodies and lags
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
   Eigen::MatrixXd translation_loads() const;
 
@@ -230,6 +242,7 @@ public:
   GuardCrossing                   crossing(int i) const override;
   ActiveGuard                     guard(int i) const override;
   void                            transition(int i, const LocalState &state) override;
+  const std::vector<int>         &virtual_coordinates() const override;
   double                          local_stored_energy(const LocalState &state) const override;
   void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const override;
   std::string coordinate_name(int i) const override;

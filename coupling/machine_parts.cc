@@ -4,6 +4,7 @@
 #include "coupling/sparse_base.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::coupling
 {
@@ -39,6 +40,32 @@ int Machine::Parts::add_coordinates(const std::string &body, const std::vector<s
   const int first = size();
   coordinate_names.insert(coordinate_names.end(), names.begin(), names.end());
   return first;
+}
+
+bool Machine::Parts::is_lag(const Measure &u) const
+{
+  return std::any_of(
+      u.begin(), u.end(),
+      [this](const auto &term)
+      { return std::find(lag_coordinates.begin(), lag_coordinates.end(), term.first) != lag_coordinates.end(); });
+}
+
+int Machine::add_lag(const std::string &name, double time_constant)
+{
+  if (!(time_constant > 0.) || !std::isfinite(time_constant))
+    throw std::invalid_argument("lag \"" + name + "\": time constant " + std::to_string(time_constant) +
+                                " s must be positive");
+  const int x = parts_->size();
+  parts_->add_dyad(parts_->B, time_constant, {{x, 1.}});
+  parts_->add_dyad(parts_->C, 1., {{x, 1.}});
+  parts_->coordinate_names.push_back(name);
+  parts_->lag_coordinates.push_back(x);
+  return x;
+}
+
+const std::vector<int> &Machine::virtual_coordinates() const
+{
+  return parts_->lag_coordinates;
 }
 
 void Machine::Parts::add_body(const Body &body)
@@ -166,7 +193,10 @@ void Machine::Parts::place_elements(int n)
     if (k > max_measures)
       throw std::invalid_argument("element \"" + placement.name + "\" has " + std::to_string(k) +
                                   " measures; at most " + std::to_string(max_measures) + " are provided for");
-    placed.push_back({placement.element.get(), n_measures, k, n_history});
+    int n_motions = k;
+    while (n_motions > 0 && is_lag(placement.measures[n_motions - 1]))
+      --n_motions;
+    placed.push_back({placement.element.get(), n_measures, k, n_history, n_motions});
     if (const int n_c = placement.element->n_constraints(); n_c > 0)
     {
       placed.back().first_constraint = n_constraints;

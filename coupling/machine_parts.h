@@ -28,6 +28,7 @@ struct Machine::Parts
   {
     const mechanism::ForceElement *element;
     int                            first_measure, n_measures, first_history;
+    int                            n_motions;     ///< measures that do work: the first ones, lags behind them do none
     bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
     int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
 
@@ -87,7 +88,8 @@ struct Machine::Parts
   std::vector<ElementPlacement>       elements;
   std::vector<NamedMeasure>           measures;
   std::vector<Switch>                 switch_requests;
-  std::vector<std::string>            coordinate_names; ///< of the bodies
+  std::vector<std::string>            coordinate_names; ///< of the bodies and lags
+  std::vector<int>                    lag_coordinates;
   Triplets                            M, B, C;
   std::vector<std::pair<int, double>> constant_load;
   std::vector<Load>                   loads;
@@ -109,6 +111,7 @@ struct Machine::Parts
 
   int     size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
   int     add_coordinates(const std::string &body, const std::vector<std::string> &names);
+  bool    is_lag(const Measure &u) const; ///< the measure is a virtual coordinate
   void    add_body(const Body &body);
   void    add_interfaces(const std::vector<fem::Interface> &interfaces);
   void    add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T

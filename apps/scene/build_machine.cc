@@ -92,6 +92,8 @@ void fill(coupling::Machine &machine, const Scene &scene)
              std::vector<coupling::Measure> measures;
              for (const auto &motion : element.measures)
                measures.push_back(measure_of(motion, machine));
+             for (const auto &lag : element.lags)
+               measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
              machine.attach(element.name, element.element, measures);
            });
   for (const auto &own : scene.switches)

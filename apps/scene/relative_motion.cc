@@ -60,9 +60,9 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
 }
 
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
-                 const std::vector<MotionMeasure> &measures)
+                 const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags)
 {
-  scene.elements.push_back({table.name(), std::move(element), measures, ""});
+  scene.elements.push_back({table.name(), std::move(element), measures, "", lags});
 }
 
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
@@ -71,7 +71,7 @@ void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mecha
   if (motion.on.empty())
     add_element(scene, table, std::move(element), std::vector<MotionMeasure>{motion.u});
   else
-    scene.elements.push_back({table.name(), std::move(element), {}, motion.on});
+    scene.elements.push_back({table.name(), std::move(element), {}, motion.on, {}});
 }
 
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion)

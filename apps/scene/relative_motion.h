@@ -48,6 +48,6 @@ void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mecha
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion);
 /// Adds an element to the scene.
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
-                 const std::vector<MotionMeasure> &measures);
+                 const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags = {});
 
 } // namespace gestell::apps

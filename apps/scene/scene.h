@@ -138,12 +138,20 @@ struct LoadRequest
   std::string                        force_unit;
 };
 
+/// Virtual coordinate T x' + x = p of an element.
+struct LagRequest
+{
+  std::string name; ///< "motor.torque"
+  double      time_constant = 0.;
+};
+
 struct ElementRequest
 {
   std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
   std::vector<MotionMeasure>               measures;
   std::string                              on; ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::vector<LagRequest>                  lags; ///< the element's last measures
 };
 
 struct PointMassRequest

@@ -20,7 +20,7 @@ namespace
 } // namespace
 
 Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
-    : system_(system), options_(options), implicit_(system, options.newton)
+    : system_(system), options_(options), implicit_(system, options.newton), virtual_rates_(system)
 {
   if (options.order < 1 || options.order > 6)
     throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
@@ -117,7 +117,9 @@ void Bdf::begin_from(double t)
     first.w += product_;
     find_implied(first);
   }
-  now_known_ = false;
+  virtual_rates_.settle(first.q, first.v, local_);
+  first.u_rate = local_.v;
+  now_known_   = false;
 }
 
 bool Bdf::is_implied() const

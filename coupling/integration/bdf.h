@@ -4,6 +4,7 @@
 #include "coupling/integration/consistent_start.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
+#include "coupling/integration/virtual_rates.h"
 
 #include <array>
 #include <memory>
@@ -88,6 +89,7 @@ private:
   const SecondOrderSystem    &system_;
   Options                     options_;
   ImplicitStep                implicit_;
+  VirtualRates                virtual_rates_;
   IntegrationWork             work_;
   mutable Instant             now_;
   mutable bool                now_known_ = false;

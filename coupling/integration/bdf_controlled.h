@@ -6,6 +6,7 @@
 #include "coupling/integration/error_scale.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
+#include "coupling/integration/virtual_rates.h"
 
 namespace gestell::coupling
 {
@@ -122,6 +123,7 @@ private:
   ErrorScale                       scale_;
   BdfOrderLimit                    limit_;
   ImplicitStep                     implicit_;
+  VirtualRates                     virtual_rates_;
   std::unique_ptr<ConsistentStart> consistent_;       ///< once a measure is held
   bool                             massless_ = false; ///< M is singular: no consistent start
   IntegrationWork                  work_;

@@ -23,12 +23,20 @@ EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double 
           weight_a * a.damping + weight_b * b.damping};
 }
 
+/// x . product_, the virtual coordinates left out.
+double EnergyBalance::work_with_product(const Eigen::VectorXd &x)
+{
+  for (const int i : system_.virtual_coordinates())
+    product_[i] = 0.;
+  return x.dot(product_);
+}
+
 EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 {
   Power power;
   system_.local_power(instant.local, instant.local.p, power.input, power.elements);
   system_.damping_times(instant.v, product_);
-  power.damping = instant.v.dot(product_);
+  power.damping = work_with_product(instant.v);
   if (!system_.excitation().is_constant())
   {
     system_.excitation().at(instant.t, load_);
@@ -43,7 +51,7 @@ double EnergyBalance::stored(const Instant &instant)
   kinetic_      = 0.5 * instant.v.dot(product_);
   double energy = kinetic_;
   system_.stiffness_times(instant.q, product_);
-  energy += 0.5 * instant.q.dot(product_);
+  energy += 0.5 * work_with_product(instant.q);
   if (system_.excitation().is_constant())
     energy -= load_.dot(instant.q);
   return energy + system_.local_stored_energy(instant.local);

@@ -27,6 +27,8 @@ enum class PowerRule
  *     input       integral of the drives' power (and of a load that varies in time)
  *     stored      change of q'^T M q'/2 + q^T C q/2 - f_t^T q (constant load) + energy in the elements
  *     dissipated  integral of q'^T B q' and of what the elements take up beyond their stored energy
+ *
+ * Virtual coordinates have no part in it.
  */
 class EnergyBalance
 {
@@ -38,7 +40,7 @@ public:
   void step(const Instant &instant); ///< trapezoidal
   void step(const TimeIntegrator &integrator, PowerRule rule);
   /// Forces have changed their branch at the instant of the last step.
-  void jump(const Instant &instant) { last_ = power(instant); }
+  void   jump(const Instant &instant) { last_ = power(instant); }
   double at_begin() const { return stored_begin_; } ///< [J], what stored counts from
   /// At an instant inside the last step (integrals by the cubic through both ends and their powers) or at its end.
   EnergyState state(const Instant &instant);
@@ -52,6 +54,7 @@ private:
   static Power sum(double weight_a, const Power &a, double weight_b, const Power &b);
 
   Power  power(const Instant &instant);
+  double work_with_product(const Eigen::VectorXd &x);
   double stored(const Instant &instant);
 
   const SecondOrderSystem &system_;

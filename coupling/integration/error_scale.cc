@@ -179,6 +179,10 @@ void ErrorScale::find_ends()
         mobility += it.value() * it.value() / m_[it.row()];
     root_mass_[j] = mobility > 0. ? 1. / std::sqrt(mobility) : 0.;
   }
+  for (const int i : system_.virtual_coordinates())
+    for (int j = 0; j < W.outerSize(); ++j)
+      if (W.coeff(i, j) != 0.)
+        virtual_measures_.push_back(j);
 }
 
 /// sum m_i (x_i - from_i)^2 of each group; returns their sum.
@@ -303,6 +307,8 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
            std::max(scale_.u_rate[j], measure_floor * speed), std::abs(to.u_rate[j] - from.u_rate[j]), size, rate,
            inverse_u_[j], inverse_rate_[j]);
   }
+  for (const int j : virtual_measures_)
+    inverse_rate_[j] = 0.;
 }
 
 double ErrorScale::error_of_measures(const Vector &e_u, const Vector &e_rate) const

@@ -103,6 +103,7 @@ private:
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
   std::vector<int>            end_group_; ///< and their groups
+  std::vector<int>            virtual_measures_; ///< their rates follow from them and are rounding in short steps: not judged
   Eigen::VectorXd root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
   Eigen::VectorXd q_begin_, v_begin_, u_begin_, rate_begin_;
   Excursions      accepted_, reached_; ///< before and after the step that is considered

@@ -27,6 +27,12 @@ const std::vector<HeldMeasure> &SecondOrderSystem::held() const
   return none;
 }
 
+const std::vector<int> &SecondOrderSystem::virtual_coordinates() const
+{
+  static const std::vector<int> none;
+  return none;
+}
+
 const std::vector<ConstraintBlock> &SecondOrderSystem::constraint_blocks() const
 {
   static const std::vector<ConstraintBlock> none;

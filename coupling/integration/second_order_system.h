@@ -135,6 +135,9 @@ public:
   virtual std::string constraint_name(int i) const;
 
   // --- energy
+  /// Coordinates without mass that are no motion but states of a law, such as the torque of a motor that follows with a
+  /// lag; nothing of M, B, C couples them to others.  They store and dissipate no energy.
+  virtual const std::vector<int> &virtual_coordinates() const;
   /// Energy [J] stored in the elements.
   virtual double local_stored_energy(const LocalState &state) const = 0;
   /// Power p . u' [W] of the elements that drive (input) and of all others.
