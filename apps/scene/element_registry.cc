@@ -18,6 +18,15 @@ void read_force(const SceneTable &, const Names &, Scene &);
 void read_table_force(const SceneTable &, const Names &, Scene &);
 void read_wheel(const SceneTable &, const Names &, Scene &);
 void read_formula_force(const SceneTable &, const Names &, Scene &);
+void read_force_profile(const SceneTable &, const Names &, Scene &);
+void read_speed_drive(const SceneTable &, const Names &, Scene &);
+void read_dynamic_motor(const SceneTable &, const Names &, Scene &);
+void read_brake(const SceneTable &, const Names &, Scene &);
+void read_clutch(const SceneTable &, const Names &, Scene &);
+void read_rope(const SceneTable &, const Names &, Scene &);
+void read_lugre_friction(const SceneTable &, const Names &, Scene &);
+void read_gas_force(const SceneTable &, const Names &, Scene &);
+void read_drawing_force(const SceneTable &, const Names &, Scene &);
 
 const std::vector<ElementType> &element_types()
 {
@@ -37,6 +46,15 @@ const std::vector<ElementType> &element_types()
       {"table force", read_table_force},
       {"wheel", read_wheel},
       {"formula force", read_formula_force},
+      {"force profile", read_force_profile},
+      {"speed drive", read_speed_drive},
+      {"dynamic motor", read_dynamic_motor},
+      {"brake", read_brake},
+      {"clutch", read_clutch},
+      {"rope", read_rope},
+      {"lugre friction", read_lugre_friction},
+      {"gas force", read_gas_force},
+      {"drawing force", read_drawing_force},
   };
   return types;
 }

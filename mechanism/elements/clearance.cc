@@ -2,6 +2,7 @@
 
 #include "mechanism/require.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::mechanism
@@ -9,13 +10,14 @@ namespace gestell::mechanism
 
 Clearance::Clearance(const Parameters &parameters) : parameters_(parameters)
 {
-  const auto &[gap, c, chi, stops] = parameters_;
-  const std::string name           = stops == Stops::both ? "clearance" : "stop";
+  const auto &[gap, c, chi, stops, n] = parameters_;
+  const std::string name              = stops == Stops::both ? "clearance" : "stop";
   if (stops == Stops::both)
     require(gap >= 0., name, "gap [m]", gap, "zero or positive");
   else
     require(std::isfinite(gap), name, "gap [m]", gap, "finite");
-  require(c > 0., name, "stiffness [N/m]", c, "positive");
+  require(c > 0., name, "stiffness [N/m^n]", c, "positive");
+  require(std::isfinite(n) && n >= 1., name, "exponent", n, "at least 1");
   require(chi >= 0., name, "dissipation [s/m]", chi, "zero or positive");
 }
 
@@ -41,10 +43,12 @@ void Clearance::start(const LocalMotion &motion, double *history) const
   history[0] = branch_at(motion.u[0], motion.v[0]);
 }
 
-void Clearance::engaged(const double *, double *K, double *D) const
+void Clearance::engaged(const double *u, double *K, double *D) const
 {
-  K[0] = parameters_.stiffness;
-  D[0] = 0.;
+  const auto &[gap, c, chi, stops, n] = parameters_;
+  const double s                      = stops == Stops::below || (stops == Stops::both && u[0] < 0.) ? -1. : 1.;
+  K[0]                                = n == 1. ? c : c * n * std::pow(std::max(0., s * u[0] - gap), n - 1.);
+  D[0]                                = 0.;
 }
 
 double Clearance::stored_energy(const LocalMotion &motion, const double *history) const
@@ -52,7 +56,8 @@ double Clearance::stored_energy(const LocalMotion &motion, const double *history
   const double u      = motion.u[0];
   const Branch branch = motion.by_history ? branch_of(history) : branch_at(u, motion.v[0]);
   const double d      = branch == open ? 0. : side(branch) * u - parameters_.gap;
-  return 0.5 * parameters_.stiffness * d * d;
+  const double n      = parameters_.exponent;
+  return n == 1. ? 0.5 * parameters_.stiffness * d * d : parameters_.stiffness / (n + 1.) * d * power(d);
 }
 
 int Clearance::n_guards(const double *history) const
@@ -75,11 +80,11 @@ std::vector<Guard> Clearance::guards(const double *history) const
 
 void Clearance::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const auto &[gap, c, chi, stops] = parameters_;
-  const double u                   = motion.u[0];
-  const Branch branch              = branch_of(history);
-  const double s                   = branch == open ? (stops == Stops::below ? -1. : 1.) : side(branch);
-  g[0]                             = u - s * gap;
+  const auto &[gap, c, chi, stops, n] = parameters_;
+  const double u                      = motion.u[0];
+  const Branch branch                 = branch_of(history);
+  const double s                      = branch == open ? (stops == Stops::below ? -1. : 1.) : side(branch);
+  g[0]                                = u - s * gap;
   if (branch != open)
     g[1] = 1. + (chi * s) * motion.v[0];
   else if (stops == Stops::both)

@@ -2,6 +2,8 @@
 
 #include "mechanism/differentiable_element.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -12,12 +14,14 @@ namespace gestell::mechanism
  * Measure u [m or rad]: displacement from the middle of the play, or from where a single stop is counted; s = sign(u)
  * of a play, s = 1 of a stop above, s = -1 of one below; d = s u - gap:
  *
- *     d > 0 and 1 + chi s u' > 0:   p = -s c d (1 + chi s u'),        otherwise p = 0.
+ *     d > 0 and 1 + chi s u' > 0:   p = -s c d^n (1 + chi s u'),        otherwise p = 0.
+ *
+ * n = 1 for a spring, 1.5 for a ball or another point contact after Hertz.  Stored is c d^(n+1)/(n+1).
  *
  * The factor (Hunt and Crossley) makes the force continuous at touch-down and lift-off.  Where the body leaves faster
  * than 1/chi the force is gone before the indentation is (branch of slack): until lift-off ("separation"), or until the
  * body slows down and the factor is positive again.
- * Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
+ * Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445, with any n.
  */
 class Clearance : public DifferentiableElement<Clearance, 1>
 {
@@ -32,13 +36,14 @@ public:
   struct Parameters
   {
     double gap         = 0.; ///< [m], half of the total play, >= 0; of a single stop any
-    double stiffness   = 0.; ///< c [N/m], > 0
+    double stiffness   = 0.; ///< c [N/m^n], > 0
     double dissipation = 0.; ///< chi [s/m], >= 0
     Stops  stops       = Stops::both;
+    double exponent    = 1.; ///< n, >= 1
   };
 
   /// chi [s/m] with which two bodies that meet at the speed v [m/s], and that nothing but the contact moves meanwhile,
-  /// part at e v:  (1 + e) chi v = ln[(1 + chi v) / (1 - chi e v)], whatever masses and stiffness are
+  /// part at e v:  (1 + e) chi v = ln[(1 + chi v) / (1 - chi e v)], whatever masses, stiffness and exponent are
   /// (docs/theory/elements.md, 11).  Needs 0 < e <= 1 and v > 0, else throws std::invalid_argument.
   static double dissipation_for(double restitution, double speed);
 
@@ -47,8 +52,8 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    const auto &[gap, c, chi, stops] = parameters_;
-    const Branch branch              = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+    const auto &[gap, c, chi, stops, n] = parameters_;
+    const Branch branch                 = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
     if (branch != contact_negative && branch != contact_positive)
     {
       p[0] = Number(0.);
@@ -57,7 +62,7 @@ public:
     const double s      = side(branch);
     const Number d      = s * m.u[0] - gap;
     const Number factor = 1. + (chi * s) * m.v[0];
-    p[0]                = -s * c * d * factor;
+    p[0]                = -s * c * power(d) * factor;
   }
 
   /// history: active branch.
@@ -88,12 +93,22 @@ private:
 
   Branch branch_at(double u, double v) const
   {
-    const auto &[gap, c, chi, stops] = parameters_;
-    const double s                   = stops == Stops::both ? (u < 0. ? -1. : 1.) : stops == Stops::above ? 1. : -1.;
+    const auto &[gap, c, chi, stops, n] = parameters_;
+    const double s                      = stops == Stops::both ? (u < 0. ? -1. : 1.) : stops == Stops::above ? 1. : -1.;
     if (!(s * u - gap > 0.))
       return open;
     const bool pressed = 1. + (chi * s) * v > 0.;
     return s < 0. ? (pressed ? contact_negative : slack_negative) : (pressed ? contact_positive : slack_positive);
+  }
+
+  /// d^n; below d = 0, where only a trial motion gets, the line goes on for n = 1 and zero for all else.
+  template <typename Number>
+  Number power(const Number &d) const
+  {
+    using std::pow;
+    if (parameters_.exponent == 1.)
+      return d;
+    return d > 0. ? Number(pow(d, parameters_.exponent)) : Number(0.);
   }
 
   Parameters parameters_;

@@ -8,19 +8,31 @@
 namespace gestell::mechanism
 {
 
-CoulombFriction::CoulombFriction(const Parameters &parameters) : parameters_(parameters)
+CoulombFriction::CoulombFriction(const Parameters &parameters)
+    : parameters_(parameters), sliding_{parameters.kinetic_force, parameters.static_force, parameters.stribeck_speed,
+                                        parameters.stribeck_exponent}
 {
-  const auto &[R, R0, v_b] = parameters_;
-  const std::string name   = "coulomb friction";
-  require(std::isfinite(R) && R >= 0., name, "kinetic_force [N]", R, "zero or positive");
-  require(std::isfinite(R0) && R0 >= R, name, "static_force [N]", R0,
-          "at least the kinetic force, " + std::to_string(R) + " N");
-  require(std::isfinite(v_b), name, "belt_speed [m/s]", v_b, "finite");
+  const std::string name = "coulomb friction";
+  sliding_.check(name);
+  require(std::isfinite(parameters.belt_speed), name, "belt_speed [m/s]", parameters.belt_speed, "finite");
+  require(std::isfinite(parameters.viscous) && parameters.viscous >= 0., name, "viscous [N s/m]", parameters.viscous,
+          "zero or positive");
+  for (const double level : parameters.engagement.levels())
+    require(level >= 0. && level <= 1., name, "engagement", level, "between 0 and 1");
+}
+
+void CoulombFriction::engaged(const double *, double *K, double *D) const
+{
+  K[0] = 0.;
+  D[0] = parameters_.viscous;
 }
 
 void CoulombFriction::start(const LocalMotion &motion, double *history) const
 {
-  history[0] = branch_at(motion.v[0]);
+  const Profile    &e     = parameters_.engagement;
+  const std::size_t piece = e.piece_at(motion.t);
+  history[0]              = e.is_zero(piece) ? released : branch_at(motion.v[0]);
+  history[1]              = static_cast<double>(piece);
 }
 
 bool CoulombFriction::holds(const double *history, double &rate) const
@@ -29,34 +41,68 @@ bool CoulombFriction::holds(const double *history, double &rate) const
   return branch_of(history) == stick;
 }
 
+int CoulombFriction::n_own_guards(const double *history) const
+{
+  return branch_of(history) == stick ? 2 : branch_of(history) == released ? 0 : 1;
+}
+
+int CoulombFriction::n_guards(const double *history) const
+{
+  return n_own_guards(history) + int(parameters_.engagement.ends(piece_of(history)));
+}
+
 std::vector<Guard> CoulombFriction::guards(const double *history) const
 {
+  std::vector<Guard> guards;
   switch (branch_of(history))
   {
   case slip_forward:
-    return {{"stick", Crossing::falling}};
+    guards = {{"stick", Crossing::falling}};
+    break;
   case slip_backward:
-    return {{"stick", Crossing::rising}};
-  default:
-    return {{"slip_forward", Crossing::falling}, {"slip_backward", Crossing::falling}};
+    guards = {{"stick", Crossing::rising}};
+    break;
+  case stick:
+    guards = {{"slip_forward", Crossing::falling}, {"slip_backward", Crossing::falling}};
+    break;
+  case released:
+    break;
   }
+  if (parameters_.engagement.ends(piece_of(history)))
+    guards.push_back({"next_segment", Crossing::rising});
+  return guards;
 }
 
 void CoulombFriction::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
+  const std::size_t piece = piece_of(history);
+  if (parameters_.engagement.ends(piece))
+    g[n_own_guards(history)] = motion.t - parameters_.engagement.corner(piece);
+  if (branch_of(history) == released)
+    return;
   if (branch_of(history) != stick)
   {
     g[0] = motion.v[0] - parameters_.belt_speed;
     return;
   }
   assert(motion.p != nullptr);
-  g[0] = parameters_.static_force + motion.p[0];
-  g[1] = parameters_.static_force - motion.p[0];
+  const double capacity = parameters_.engagement.value(piece, motion.t) * parameters_.static_force;
+  g[0]                  = capacity + motion.p[0];
+  g[1]                  = capacity - motion.p[0];
 }
 
-void CoulombFriction::transition(int i, const LocalMotion &, double *history) const
+void CoulombFriction::transition(int i, const LocalMotion &motion, double *history) const
 {
-  history[0] = branch_of(history) != stick ? stick : i == 0 ? slip_forward : slip_backward;
+  if (i < n_own_guards(history))
+  {
+    history[0] = branch_of(history) != stick ? stick : i == 0 ? slip_forward : slip_backward;
+    return;
+  }
+  history[1] += 1.;
+  if (parameters_.engagement.is_zero(piece_of(history)))
+    history[0] = released;
+  else if (branch_of(history) == released)
+    history[0] = branch_at(motion.v[0]);
 }
 
 std::vector<Quantity> CoulombFriction::quantities() const

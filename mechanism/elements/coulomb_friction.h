@@ -1,31 +1,37 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/profile.h"
+#include "mechanism/stribeck.h"
 
 namespace gestell::mechanism
 {
 
 /**
- * Dry friction after Coulomb that truly sticks, against a counterface (belt) of speed v_b.
+ * Dry friction after Coulomb and Stribeck that truly sticks, against a counterface (belt) of speed v_b; with an
+ * engagement e(t), 0 to 1, a brake or a clutch.
  *
  * Measure u [m or rad]; generalised force p [N or N m], three branches:
  *
- *     slip forward      u' > v_b      p = -R
- *     slip backward     u' < v_b      p = +R
- *     stick             u' = v_b      p is the force that holds it there, |p| <= R0
+ *     slip forward      u' > v_b      p = -e R(v) - d v,     v = |u' - v_b|
+ *     slip backward     u' < v_b      p = +e R(v) + d v
+ *     stick             u' = v_b      p is the force that holds it there, |p| <= e R0
  *
- * Sticking ends where the holding force reaches R0: p = -R0 (pulled forward) lets go forward, p = +R0 backward.  It
+ * R(v) is the kinetic force R, or falls to it from R0 along a Stribeck curve; d is viscous.  While e is zero it is
+ * released: nothing rubs and nothing sticks, only d acts.
+ *
+ * Sticking ends where the holding force reaches e R0: p < 0 (pulled forward) lets go forward, p > 0 backward.  It
  * begins where u' - v_b comes to zero, whatever the load; if that is too large to hold, a guard of the new branch is
  * past zero from its start and lets go at the same instant.  So a slide turns back by two events, stick and slip.  A
  * motion that starts with u' = v_b starts sticking.
  *
- * The element needs an integrator that locates events.  force() of a motion by itself (by_history = false) is
- * -R sign(u' - v_b), zero at u' = v_b; by history it is zero in stick, where holds() says that it is not asked.
+ * The element needs an integrator that locates events.  force() of a motion by itself (by_history = false) has the sign
+ * of u' - v_b, zero at u' = v_b; by history it is zero in stick, where holds() says that it is not asked.
  *
  * Against ground (v_b = 0) its work is dissipated; a belt is a drive: its work counts as input, what the sliding takes
  * already deducted.  For natural frequencies it has no stiffness.
  *
- * Source: docs/theory/elements.md.
+ * Source: docs/theory/elements.md; Stribeck.
  */
 class CoulombFriction : public DifferentiableElement<CoulombFriction, 1>
 {
@@ -35,6 +41,11 @@ public:
     double kinetic_force = 0.; ///< R [N or N m], >= 0
     double static_force  = 0.; ///< R0 [N or N m], >= R
     double belt_speed    = 0.; ///< v_b [m/s or rad/s]
+
+    double  stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: R drops at once
+    double  stribeck_exponent = 1.; ///< 1 or 2
+    double  viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
+    Profile engagement        = 1.; ///< e, 0 to 1
   };
 
   explicit CoulombFriction(const Parameters &parameters);
@@ -43,16 +54,23 @@ public:
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const Branch branch = m.by_history ? branch_of(history) : branch_at(value(m.v[0]));
-    p[0]                = Number(-branch * parameters_.kinetic_force);
+    const Number v      = m.v[0] - parameters_.belt_speed;
+    p[0]                = -parameters_.viscous * v;
+    if (branch == stick || branch == released)
+      return;
+    const double sign = branch, e = engagement(m.t, m.by_history, history);
+    p[0] -= sign * e * sliding_.force(Number(sign * v));
   }
 
-  /// history: active branch.
-  int  n_history() const override { return 1; }
+  void engaged(const double *u, double *K, double *D) const override; ///< d
+
+  /// history: active branch; piece of the engagement.
+  int  n_history() const override { return 2; }
   void start(const LocalMotion &motion, double *history) const override;
   bool holds(const double *history, double &rate) const override;
   Work work() const override { return parameters_.belt_speed == 0. ? Work::dissipated : Work::input; }
 
-  int                n_guards(const double *history) const override { return branch_of(history) == stick ? 2 : 1; }
+  int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
@@ -66,7 +84,8 @@ private:
   {
     slip_backward = -1,
     stick         = 0,
-    slip_forward  = 1
+    slip_forward  = 1,
+    released      = 2
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
@@ -75,7 +94,16 @@ private:
     return v > parameters_.belt_speed ? slip_forward : v < parameters_.belt_speed ? slip_backward : stick;
   }
 
+  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[1]); }
+  double engagement(double t, bool by_history, const double *history) const
+  {
+    const Profile &e = parameters_.engagement;
+    return e.value(by_history ? piece_of(history) : e.piece_at(t), t);
+  }
+  int n_own_guards(const double *history) const; ///< all but that of the engagement
+
   Parameters parameters_;
+  Stribeck   sliding_;
 };
 
 } // namespace gestell::mechanism

@@ -30,7 +30,7 @@ public:
   FrictionOscillator(const CoulombFriction::Parameters &parameters, double u, double v)
       : friction_(parameters), u_(u), v_(v)
   {
-    friction_.start(probe1(u, v).motion(true), &history_);
+    friction_.start(probe1(u, v).motion(true), history_);
   }
 
   /// Events up to the time end: due where a guard is past zero behind the time step, at its beginning if already past
@@ -42,7 +42,7 @@ public:
     while (t_ < end)
     {
       bool taken = false;
-      for (int i = 0; i < friction_.n_guards(&history_) && !taken; ++i)
+      for (int i = 0; i < friction_.n_guards(history_) && !taken; ++i)
       {
         if (past_after(i, step) <= 0.)
           continue;
@@ -53,9 +53,9 @@ public:
           (past_after(i, middle) < 0. ? open : due) = middle;
         }
         advance(past_after(i, open) < 0. ? due : open);
-        found.push_back({t_, u_, friction_.guards(&history_)[i].kind});
+        found.push_back({t_, u_, friction_.guards(history_)[i].kind});
         const double p = force_after(0.);
-        friction_.transition(i, after(0.).motion(true, &p), &history_);
+        friction_.transition(i, after(0.).motion(true, &p), history_);
         taken = true;
       }
       if (!taken)
@@ -67,7 +67,7 @@ public:
   bool held() const
   {
     double rate;
-    return friction_.holds(&history_, rate);
+    return friction_.holds(history_, rate);
   }
 
 private:
@@ -76,17 +76,17 @@ private:
     if (held())
       return c * after(dt).u[0];
     double p;
-    friction_.force(probe1(u_, v_).motion(true), &history_, &p);
+    friction_.force(probe1(u_, v_).motion(true), history_, &p);
     return p;
   }
 
   Probe after(double dt) const
   {
     double rate;
-    if (friction_.holds(&history_, rate))
+    if (friction_.holds(history_, rate))
       return probe1(u_ + rate * dt, rate);
     double p;
-    friction_.force(probe1(u_, v_).motion(true), &history_, &p);
+    friction_.force(probe1(u_, v_).motion(true), history_, &p);
     const double centre = p / c, cosine = std::cos(omega * dt), sine = std::sin(omega * dt);
     return probe1(centre + (u_ - centre) * cosine + v_ / omega * sine, v_ * cosine - (u_ - centre) * omega * sine);
   }
@@ -94,7 +94,7 @@ private:
   double past_after(int guard, double dt) const
   {
     const double p = force_after(dt);
-    return past(friction_, guard, after(dt), &history_, &p);
+    return past(friction_, guard, after(dt), history_, &p);
   }
 
   void advance(double dt)
@@ -104,7 +104,7 @@ private:
   }
 
   CoulombFriction friction_;
-  double          t_ = 0., u_, v_, history_ = 0.;
+  double          t_ = 0., u_, v_, history_[2] = {};
 };
 
 // Half a period takes 2 R/c off the amplitude; the slide rests for good where |c u| <= R0.  The oscillator adds up
@@ -160,33 +160,33 @@ TEST(CoulombFriction, StickSlipOnABeltHasItsExactCycle)
 TEST(CoulombFriction, HoldsUpToItsStaticForceAndLetsGoTheWayItIsPulled)
 {
   const CoulombFriction friction({4., 6., 0.2});
-  double                history = 7., rate = 0.;
-  friction.start(probe1(0., 0.2).motion(), &history);
-  ASSERT_TRUE(friction.holds(&history, rate));
+  double                history[2] = {7., 0.}, rate = 0.;
+  friction.start(probe1(0., 0.2).motion(), history);
+  ASSERT_TRUE(friction.holds(history, rate));
   EXPECT_EQ(rate, 0.2);
   for (const double p : {-5.999, 0., 5.999})
   {
-    EXPECT_LT(past(friction, 0, probe1(0., 0.2), &history, &p), 0.);
-    EXPECT_LT(past(friction, 1, probe1(0., 0.2), &history, &p), 0.);
-    EXPECT_EQ(friction.quantity(0, probe1(0., 0.2).motion(true, &p), &history), -p);
+    EXPECT_LT(past(friction, 0, probe1(0., 0.2), history, &p), 0.);
+    EXPECT_LT(past(friction, 1, probe1(0., 0.2), history, &p), 0.);
+    EXPECT_EQ(friction.quantity(0, probe1(0., 0.2).motion(true, &p), history), -p);
   }
   const double pulled_forward = -6.001;
-  EXPECT_GT(past(friction, 0, probe1(0., 0.2), &history, &pulled_forward), 0.);
-  EXPECT_LT(past(friction, 1, probe1(0., 0.2), &history, &pulled_forward), 0.);
-  friction.transition(0, probe1(0., 0.2).motion(true, &pulled_forward), &history);
-  EXPECT_FALSE(friction.holds(&history, rate));
-  EXPECT_EQ(force(friction, probe1(0., 0.2), &history, true)[0], -4.); // it resists the way it now goes
-  EXPECT_LT(past(friction, 0, probe1(0., 0.2001), &history), 0.);
-  EXPECT_GT(past(friction, 0, probe1(0., 0.1999), &history), 0.);
+  EXPECT_GT(past(friction, 0, probe1(0., 0.2), history, &pulled_forward), 0.);
+  EXPECT_LT(past(friction, 1, probe1(0., 0.2), history, &pulled_forward), 0.);
+  friction.transition(0, probe1(0., 0.2).motion(true, &pulled_forward), history);
+  EXPECT_FALSE(friction.holds(history, rate));
+  EXPECT_EQ(force(friction, probe1(0., 0.2), history, true)[0], -4.); // it resists the way it now goes
+  EXPECT_LT(past(friction, 0, probe1(0., 0.2001), history), 0.);
+  EXPECT_GT(past(friction, 0, probe1(0., 0.1999), history), 0.);
 }
 
 TEST(CoulombFriction, KeepsItsForceBeyondTheEndOfASlipWhenFollowedByHistory)
 {
   const CoulombFriction friction({4., 6., 0.});
-  const double          forward = 1., held = 0.;
-  EXPECT_EQ(force(friction, probe1(0., -1e-9), &forward, true)[0], -4.);
-  EXPECT_EQ(force(friction, probe1(0., -1e-9), &forward, false)[0], 4.);
-  EXPECT_EQ(force(friction, probe1(0., 0.), &held, false)[0], 0.);
+  const double          forward[2] = {1., 0.}, held[2] = {};
+  EXPECT_EQ(force(friction, probe1(0., -1e-9), forward, true)[0], -4.);
+  EXPECT_EQ(force(friction, probe1(0., -1e-9), forward, false)[0], 4.);
+  EXPECT_EQ(force(friction, probe1(0., 0.), held, false)[0], 0.);
 }
 
 TEST(CoulombFriction, CountsABeltAsADrive)

@@ -6,8 +6,14 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/cubic_spring.h"
 #include "mechanism/elements/cutting_force.h"
+#include "mechanism/elements/drawing_force.h"
+#include "mechanism/elements/dynamic_motor.h"
+#include "mechanism/elements/gas_force.h"
 #include "mechanism/elements/kloss_motor.h"
+#include "mechanism/elements/lugre_friction.h"
 #include "mechanism/elements/regularised_friction.h"
+#include "mechanism/elements/rope.h"
+#include "mechanism/elements/speed_drive.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/mechanism/element_probe.h"
 
@@ -68,29 +74,57 @@ std::vector<Case> cases()
     return std::make_shared<TableForce>(
         TableForce::Parameters{against, {{0., 0.}, {0.2, -50.}, {0.2, 100.}, {0.5, 40.}}});
   };
-  return {{"rod_compressed", connecting_rod, rod_probe(3e-4, 0.1)},
-          {"rod_in_gap", connecting_rod, rod_probe(-2e-4, -0.1)},
-          {"rod_pulled", connecting_rod, rod_probe(-7e-4, 0.2)},
-          {"sheet_rising", blanking, probe1(4e-4, 0.1)},
-          {"sheet_breaking", blanking, probe1(1.9e-3, 0.1)},
-          {"slug", blanking, probe1(3.1e-3, 0.1)},
-          {"clearance_open", clearance, probe1(2e-5, 0.1)},
-          {"clearance_positive", clearance, probe1(7e-5, 0.1)},
-          {"clearance_negative", clearance, probe1(-7e-5, 0.1)},
-          {"stop_above", stop(Clearance::Stops::above), probe1(7e-5, 0.1)},
-          {"stop_above_open", stop(Clearance::Stops::above), probe1(-7e-5, 0.1)},
-          {"stop_below", stop(Clearance::Stops::below), probe1(-7e-5, 0.1)},
-          {"stop_below_open", stop(Clearance::Stops::below), probe1(7e-5, 0.1)},
-          {"table_time", table(TableForce::Against::time), probe1(0., 0.1)},
-          {"table_displacement", table(TableForce::Against::displacement), probe1(0.35, 0.1)},
-          {"table_rate", table(TableForce::Against::rate), probe1(0., 0.35)},
-          {"cutting", cutting, probe1(9e-4, 0.01)},
-          {"cubic_spring", std::make_shared<CubicSpring>(CubicSpring::Parameters{1e6, 5e12}), probe1(3e-4, 0.)},
-          {"friction", std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3}),
-           probe1(0., 1e-3), 1e-7, 1e-7},
-          {"dry_forward", coulomb, probe1(0., 0.3)},
-          {"dry_backward", coulomb, probe1(0., -0.2)},
-          {"motor", std::make_shared<KlossMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}), probe1(0., 3.1)}};
+  return {
+      {"rod_compressed", connecting_rod, rod_probe(3e-4, 0.1)},
+      {"rod_in_gap", connecting_rod, rod_probe(-2e-4, -0.1)},
+      {"rod_pulled", connecting_rod, rod_probe(-7e-4, 0.2)},
+      {"sheet_rising", blanking, probe1(4e-4, 0.1)},
+      {"sheet_breaking", blanking, probe1(1.9e-3, 0.1)},
+      {"slug", blanking, probe1(3.1e-3, 0.1)},
+      {"clearance_open", clearance, probe1(2e-5, 0.1)},
+      {"clearance_positive", clearance, probe1(7e-5, 0.1)},
+      {"clearance_negative", clearance, probe1(-7e-5, 0.1)},
+      {"stop_above", stop(Clearance::Stops::above), probe1(7e-5, 0.1)},
+      {"stop_above_open", stop(Clearance::Stops::above), probe1(-7e-5, 0.1)},
+      {"stop_below", stop(Clearance::Stops::below), probe1(-7e-5, 0.1)},
+      {"stop_below_open", stop(Clearance::Stops::below), probe1(7e-5, 0.1)},
+      {"table_time", table(TableForce::Against::time), probe1(0., 0.1)},
+      {"table_displacement", table(TableForce::Against::displacement), probe1(0.35, 0.1)},
+      {"table_rate", table(TableForce::Against::rate), probe1(0., 0.35)},
+      {"cutting", cutting, probe1(9e-4, 0.01)},
+      {"cubic_spring", std::make_shared<CubicSpring>(CubicSpring::Parameters{1e6, 5e12}), probe1(3e-4, 0.)},
+      {"friction", std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3}), probe1(0., 1e-3),
+       1e-7, 1e-7},
+      {"dry_forward", coulomb, probe1(0., 0.3)},
+      {"dry_backward", coulomb, probe1(0., -0.2)},
+      {"stribeck", std::make_shared<CoulombFriction>(CoulombFriction::Parameters{300., 350., 0., 0.2, 1., 40.}),
+       probe1(0., 0.3)},
+      {"stribeck_squared_backward",
+       std::make_shared<CoulombFriction>(CoulombFriction::Parameters{300., 350., 0., 0.2, 2., 40.}), probe1(0., -0.3)},
+      {"smooth_stribeck",
+       std::make_shared<RegularisedFriction>(RegularisedFriction::Parameters{300., 2e-3, 350., 3e-3, 1., 40.}),
+       probe1(0., -1e-3), 1e-7, 1e-7},
+      {"lugre",
+       std::make_shared<LuGreFriction>(LuGreFriction::Parameters{300., 350., 0.2, 1., 1e6, 40., 5.}),
+       {0., Eigen::Vector2d(0., -200.), Eigen::Vector2d(-0.1, 0.), Eigen::Vector2d::Zero()}},
+      {"ball_positive", std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e11, 4., Clearance::Stops::both, 1.5}),
+       probe1(9e-5, 0.1)},
+      {"ball_negative", std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e11, 4., Clearance::Stops::both, 1.5}),
+       probe1(-9e-5, 0.1)},
+      {"rope_taut", std::make_shared<Rope>(Rope::Parameters{1e4, 50., 2e-3}), probe1(3e-3, -0.1)},
+      {"rope_slack", std::make_shared<Rope>(Rope::Parameters{1e4, 50., 2e-3}), probe1(1e-3, 0.1)},
+      {"gas", std::make_shared<GasForce>(GasForce::Parameters{1e-2, 5e-5, 0., 1.3, 2e5, 1e5, false, {}}),
+       probe1(-0.05, 0.1)},
+      {"drawing_elastic", std::make_shared<DrawingForce>(DrawingForce::Parameters{1e4, 1e8, 0., 3e-3}),
+       probe1(5e-5, 0.1)},
+      {"drawing_flow", std::make_shared<DrawingForce>(DrawingForce::Parameters{1e4, 1e8, 0., 3e-3}), probe1(2e-4, 0.1)},
+      {"speed_drive",
+       std::make_shared<SpeedDrive>(SpeedDrive::Parameters{40., 300., 900., Profile(30.)}),
+       {0., Eigen::Vector2d(0.1, 12.), Eigen::Vector2d(28., 3.), Eigen::Vector2d::Zero()}},
+      {"dynamic_motor",
+       std::make_shared<DynamicMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}),
+       {0., Eigen::Vector2d(0.1, 900.), Eigen::Vector2d(3.1, 3.), Eigen::Vector2d::Zero()}},
+      {"motor", std::make_shared<KlossMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}), probe1(0., 3.1)}};
 }
 
 std::ostream &operator<<(std::ostream &out, const Case &c)

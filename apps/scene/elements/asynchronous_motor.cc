@@ -5,15 +5,21 @@
 namespace gestell::apps
 {
 
-/// Measure: angle of the rotor about its own axis.
-void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
+mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table)
 {
-  const auto                       &rotor = names.body(table, "on", coupling::BodyKind::rotor);
   mechanism::KlossMotor::Parameters motor;
   motor.breakdown_torque  = table.positive("breakdown_torque", kind::torque);
   motor.breakdown_slip    = table.positive("breakdown_slip", kind::number);
   motor.synchronous_speed = table.number("synchronous_speed", kind::angular_speed);
   motor.ratio             = table.positive("ratio", kind::number, motor.ratio);
+  return motor;
+}
+
+/// Measure: angle of the rotor about its own axis.
+void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
+{
+  const auto &rotor = names.body(table, "on", coupling::BodyKind::rotor);
+  const auto  motor = read_kloss(table);
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::KlossMotor>(motor); }),
               {{{rotor.name, true, rotor.axis, 1.}}});
 }

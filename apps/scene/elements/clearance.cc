@@ -13,11 +13,21 @@ using mechanism::Clearance;
 const Kind dissipation{"dissipation factor", "0.3 s/m", {-1, 0, 1}};
 const Kind torsional_dissipation{"dissipation factor", "0.3 s/rad", {0, 0, 1}};
 
-/// Stiffness and dissipation, which every contact has.
+/// N/m^n, or N m/rad^n between rotors.
+Kind stiffness_of(double exponent, bool turns)
+{
+  if (turns || exponent == 1.)
+    return turns ? kind::torsional_stiffness : kind::stiffness;
+  const std::string power = exponent == 1.5 ? "1.5" : exponent == 2. ? "2" : "n";
+  return {"contact stiffness in N/m^" + power, "5e9", {1. - exponent, 1., -2.}};
+}
+
+/// Stiffness, exponent and dissipation, which every contact has.
 Clearance::Parameters read_contact(const SceneTable &table, bool turns)
 {
   Clearance::Parameters contact;
-  contact.stiffness   = table.positive("stiffness", turns ? kind::torsional_stiffness : kind::stiffness);
+  contact.exponent    = table.positive("exponent", kind::number, contact.exponent);
+  contact.stiffness   = table.positive("stiffness", stiffness_of(contact.exponent, turns));
   contact.dissipation = table.not_negative("dissipation", turns ? torsional_dissipation : dissipation, 0.);
   return contact;
 }

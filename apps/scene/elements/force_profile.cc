@@ -1,0 +1,21 @@
+#include "mechanism/elements/profile_force.h"
+
+#include "apps/scene/read_profile.h"
+#include "apps/scene/relative_motion.h"
+
+namespace gestell::apps
+{
+
+/// +F acts on `from` along the direction, on `to` against it.
+void read_force_profile(const SceneTable &table, const Names &names, Scene &scene)
+{
+  const auto   motion = read_relative_motion(table, names);
+  const Kind  &kind   = motion.rotation ? kind::torque : kind::force;
+  const double from   = table.number("initial", kind, 0.);
+  if (!table.has("profile"))
+    throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
+  const auto profile = read_profile(table, "profile", level_profile(kind, kind.example), from);
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }), motion);
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,67 @@
+#include "mechanism/elements/rope.h"
+
+#include "mechanism/require.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::mechanism
+{
+
+Rope::Rope(const Parameters &parameters) : parameters_(parameters)
+{
+  const auto &[c, b, slack] = parameters_;
+  require(std::isfinite(c) && c > 0., "rope", "stiffness [N/m]", c, "positive");
+  require(std::isfinite(b) && b >= 0., "rope", "damping [N s/m]", b, "zero or positive");
+  require(std::isfinite(slack), "rope", "slack [m]", slack, "finite");
+}
+
+void Rope::engaged(const double *, double *K, double *D) const
+{
+  K[0] = parameters_.stiffness;
+  D[0] = parameters_.damping;
+}
+
+void Rope::start(const LocalMotion &motion, double *history) const
+{
+  const double d = motion.u[0] - parameters_.slack;
+  history[0]     = d > 0. && parameters_.stiffness * d + parameters_.damping * motion.v[0] > 0. ? 1. : 0.;
+}
+
+double Rope::stored_energy(const LocalMotion &motion, const double *) const
+{
+  const double d = std::max(0., motion.u[0] - parameters_.slack);
+  return 0.5 * parameters_.stiffness * d * d;
+}
+
+std::vector<Guard> Rope::guards(const double *history) const
+{
+  if (history[0] != 0.)
+    return {{"slack", Crossing::falling}};
+  return {{"taut", Crossing::rising}};
+}
+
+void Rope::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  const auto &[c, b, slack] = parameters_;
+  const double d            = motion.u[0] - slack;
+  const double pull         = d + b / c * motion.v[0]; // F/c
+  g[0]                      = history[0] != 0. ? pull : std::min(d, pull);
+}
+
+void Rope::transition(int, const LocalMotion &, double *history) const
+{
+  history[0] = 1. - history[0];
+}
+
+std::vector<Quantity> Rope::quantities() const
+{
+  return {{"force", "N"}, {"elongation", "m"}};
+}
+
+double Rope::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  return i == 0 ? resistance(motion, history) : motion.u[0] - parameters_.slack;
+}
+
+} // namespace gestell::mechanism

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/**
+ * Course of a quantity over time: ramps from level to level whose rate and rate of rate are limited.
+ *
+ * A ramp over the difference D with the largest rate a and the largest rate of rate j ("jerk" of a speed) begins and
+ * ends with the time t_j of changing rate, between them the rate is a:
+ *
+ *     |D| >= a^2/j:   t_j = a/j,          t_c = |D|/a - t_j,      length 2 t_j + t_c
+ *     |D| <  a^2/j:   t_j = sqrt(|D|/j),  t_c = 0,
+ *
+ * without a limit of j it is a straight line of length |D|/a, without any limit a jump.  Every piece is a polynomial of
+ * second degree; pieces meet in corners, which are events of the element that follows the profile.
+ *
+ * Source: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, section 3.4.
+ */
+class Profile
+{
+public:
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+  struct Ramp
+  {
+    double at           = 0.;        ///< [s], begin
+    double to           = 0.;        ///< level at the end
+    double rate         = unlimited; ///< a, > 0
+    double rate_of_rate = unlimited; ///< j, > 0
+  };
+
+  Profile(double constant = 0.); // NOLINT: a level is a profile
+
+  /// @param name   of the element and the quantity, for messages: "speed drive: speed"
+  /// @param from   level before the first ramp
+  /// @param ramps  in the order of time, not overlapping
+  /// @throws std::invalid_argument
+  Profile(const std::string &name, double from, const std::vector<Ramp> &ramps);
+
+  /// Piece at the time t, at a corner the one behind it.
+  std::size_t piece_at(double t) const;
+  /// Value of a piece, also beyond its ends.
+  double value(std::size_t piece, double t) const;
+  /// Whether the piece has a corner at its end, and when that is.
+  bool   ends(std::size_t piece) const { return piece < corners_.size(); }
+  double corner(std::size_t piece) const { return corners_[piece]; }
+  bool   is_constant() const { return corners_.empty(); }
+  /// The piece is zero all along.
+  bool                is_zero(std::size_t piece) const;
+  double              end() const { return corners_.empty() ? 0. : corners_.back(); } ///< [s], last corner
+  std::vector<double> levels() const; ///< values at all corners: lowest and highest of the course are among them
+
+private:
+  /// c0 + c1 s + c2 s^2, s = t - begin
+  struct Piece
+  {
+    double                begin;
+    std::array<double, 3> c;
+  };
+  void add_ramp(double from, const Ramp &ramp);
+  void add(double begin, double c0, double c1, double c2);
+
+  std::vector<double> corners_; ///< ascending; two at one place are a piece of no length, which is left out
+  std::vector<Piece>  pieces_;  ///< one more than corners
+};
+
+} // namespace gestell::mechanism
