@@ -128,6 +128,19 @@ void guard(const Machine &machine, const InitialState &initial, const RunOptions
   }
 }
 
+/// Switches that never act, or act before anything has moved, are seldom meant.
+void warn_of_switches(const Machine &machine, double begin, RunResult &result)
+{
+  for (const Event &event : result.events)
+    if (event.kind == "switch" && event.t == begin)
+      result.warnings.push_back("switch " + event.name + " was thrown at the start: its signal lay beyond the value already");
+  if (!result.failure.empty() || result.interrupted)
+    return;
+  for (int i = 0; i < machine.n_guards(); ++i)
+    if (const ActiveGuard guard = machine.guard(i); guard.kind == "switch")
+      result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
+}
+
 void warn_of_fast_loads(const Machine &machine, RunResult &result)
 {
   const ReducedFrame *frame = machine.reduced_frame();
@@ -211,6 +224,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   }
   recorder.finish();
   result.events = driver.events();
+  warn_of_switches(machine, options.begin, result);
   take_work(integrator->work(), driver.chattering_steps(), controlled(method), result);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   return result;

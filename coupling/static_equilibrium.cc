@@ -3,6 +3,7 @@
 #include "coupling/dense_matrices.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <limits>
@@ -40,12 +41,13 @@ public:
   void solve()
   {
     const VectorXd begin = q_;
+    guess_multipliers(1.);
     if (newton(1.))
       return;
     for (int parts = 4; parts <= most_parts; parts *= 4)
     {
       q_ = begin;
-      lambda_.setZero();
+      guess_multipliers(1. / parts);
       bool found = true;
       for (int k = 1; found && k <= parts; ++k)
         found = newton(double(k) / parts);
@@ -71,6 +73,18 @@ public:
   }
 
 private:
+  /// The multipliers that come nearest to equilibrium where the machine stands: without them nothing holds a load on a
+  /// rope, whose stiffness is its tension.
+  void guess_multipliers(double share)
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    lambda_.setZero();
+    evaluate(share, saddle, residual);
+    if (n_c_ > 0)
+      lambda_ = saddle.topRightCorner(n_, n_c_).colPivHouseholderQr().solve(-residual.head(n_));
+  }
+
   void evaluate(double share, MatrixXd &saddle, VectorXd &residual)
   {
     const auto &W = machine_.directions();

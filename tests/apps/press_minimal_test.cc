@@ -126,7 +126,7 @@ TEST(PressMinimal, EnergyIsBalancedToTheSecondOrderOfTheStep)
 TEST(PressMinimal, FrequenciesMeetTheReference)
 {
   const Scene             scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
-  const coupling::Machine machine = build_machine(scene);
+  coupling::Machine machine = build_machine(scene);
   const auto     modes = coupling::coupled_modes(machine, modes_configuration(scene, machine), scene.modes.open, 5);
   const CsvTable reference(source + "/tests/reference/press/modes.csv");
   int            j = 0;
@@ -148,7 +148,7 @@ TEST(PressMinimal, FrequenciesMeetTheReference)
 TEST(PressMinimal, OpenPlayMeetsTheReferenceToo)
 {
   const Scene             scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
-  const coupling::Machine machine = build_machine(scene);
+  coupling::Machine machine = build_machine(scene);
   const auto              modes   = coupling::coupled_modes(machine, modes_configuration(scene, machine), {"rod"}, 5);
   const CsvTable          reference(source + "/tests/reference/press/modes.csv");
   int                     j = 0;
