@@ -31,6 +31,7 @@ public:
   InitialState assembled()
   {
     close();
+    refuse_dependent();
     turn();
     return state_;
   }
@@ -123,6 +124,28 @@ private:
     }
     evaluate(known_.measures, residual, rows, false);
     refuse_open(residual, known_.measures, "m or rad", "positions");
+  }
+
+  /// Equations that follow from others leave multipliers undetermined, and so does a position without hold.
+  void refuse_dependent()
+  {
+    if (n_c_ == 0)
+      return;
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd rows;
+    evaluate({}, residual, rows, false);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      if (const double size = rows.row(i).norm(); size > 0.)
+        rows.row(i) /= size;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(1e-10);
+    qr.compute(rows.transpose());
+    if (qr.rank() == n_c_)
+      return;
+    const int row = qr.colsPermutation().indices().tail(n_c_ - qr.rank()).maxCoeff();
+    throw std::invalid_argument("the joints say the same twice, or do not hold the mechanism in this position: " +
+                                machine_.constraint_name(row) +
+                                " follows from the others; leave that joint out, make it compliant, or start elsewhere");
   }
 
   void turn()

@@ -131,8 +131,8 @@ private:
       const VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
       motion.head(n_).cwiseAbs().maxCoeff(&worst);
       throw std::invalid_argument("there is no static equilibrium: the motion of " + machine_.coordinate_name(worst) +
-                                  " has neither stiffness nor weight that holds it; hold it, or start with rule = "
-                                  "\"given\"");
+                                  " has neither stiffness nor weight that holds it here; hold it, start from another "
+                                  "position, or with rule = \"given\"");
     }
     return scale.asDiagonal() * lu.solve(scale.asDiagonal() * right);
   }

@@ -1,3 +1,4 @@
+#include "coupling/assembly.h"
 #include "coupling/integration/event_driver.h"
 #include "coupling/integration/method.h"
 #include "tests/coupling/jointed_machines.h"
@@ -261,6 +262,57 @@ TEST(IdealJoint, JointsThatSayTheSameTwiceAreNamed)
   {
     EXPECT_NE(std::string(failure.what()).find("\"right\" (fx)"), std::string::npos) << failure.what();
   }
+}
+
+// The N four-bar from a start in which nothing fits: cranks hang, the couplers stay where they were drawn.
+TEST(Assembly, ClosesJointsAndKeepsWhatIsGiven)
+{
+  Machine              machine = n_four_bar(2);
+  coupling::KnownStart known;
+  known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
+  known.q_given.assign(machine.size(), 0);
+  known.v_given = known.q_given;
+  const int angle = machine.coordinate("crank 1.angle");
+  known.state.q[angle] = -0.7;
+  known.state.v[angle] = -2.;
+  known.q_given[angle] = known.v_given[angle] = 1;
+  const auto start = coupling::assemble(machine, known);
+  EXPECT_EQ(start.q[angle], -0.7);
+  EXPECT_EQ(start.v[angle], -2.);
+  for (const std::string crank : {"crank 0", "crank 2"}) // parallel, on the branch nearest to the drawing
+  {
+    EXPECT_NEAR(start.q[machine.coordinate(crank + ".angle")], -0.7, 1e-12);
+    EXPECT_NEAR(start.v[machine.coordinate(crank + ".angle")], -2., 1e-12);
+  }
+  EXPECT_NEAR(start.q[machine.coordinate("coupler 1.ux")], std::sin(0.7), 1e-12);
+}
+
+TEST(Assembly, NamesTheJointThatStaysOpenAndTheOneThatIsOneTooMany)
+{
+  Machine machine;
+  add_planar(machine, "bar", 1., 1., {0.5, 0.});
+  revolute(machine, "left", "ground", "bar", {0., 0.});
+  revolute(machine, "right", "ground", "bar", {1., 0.});
+  machine.finish();
+  coupling::KnownStart known;
+  known.state.q = known.state.v = Eigen::VectorXd::Zero(3);
+  known.q_given                 = {0, 0, 1};
+  known.v_given.assign(3, 0);
+  const auto refusal = [&]
+  {
+    try
+    {
+      coupling::assemble(machine, known);
+    }
+    catch (const std::invalid_argument &e)
+    {
+      return std::string(e.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_NE(refusal().find("\"right\" (fx) follows from the others"), std::string::npos) << refusal();
+  known.state.q[2] = 0.3;
+  EXPECT_NE(refusal().find("stays open by"), std::string::npos) << refusal();
 }
 
 } // namespace
