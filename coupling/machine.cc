@@ -111,6 +111,14 @@ const std::vector<DrawnRod> &Machine::rods() const
 {
   return parts_->rods;
 }
+const std::vector<DrawnBar> &Machine::bars() const
+{
+  return parts_->bars;
+}
+const std::vector<DrawnPin> &Machine::pins() const
+{
+  return parts_->pins;
+}
 const std::vector<ElementPlacement> &Machine::elements() const
 {
   return parts_->elements;

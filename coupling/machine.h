@@ -40,8 +40,9 @@ enum class BodyKind
   planar  ///< two displacements [m] across `axis` and the angle [rad] about it
 };
 
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`.  Its
-/// coordinates are zero in the position the scene describes.
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point or
+/// planar body as such a box too, else as a sphere or a plate through its `points`.  Its coordinates are zero in the
+/// position the scene describes.
 struct Body
 {
   std::string name;
@@ -54,6 +55,8 @@ struct Body
   Marker      marker;
   Vector3     centre{};    ///< [m] about which it turns: that of a rotor, the centre of mass of the others
   Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
+
+  std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
 };
 
 /// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
@@ -72,6 +75,20 @@ struct DrawnRod
 {
   std::string name, crank, slider;
   double      crank_radius = 0., length = 0.;
+};
+
+/// Bar drawn between two places that a joint keeps at a distance: a rod, a rope, a cylinder.
+struct DrawnBar
+{
+  std::string name;
+  PlacedPoint from, to;
+};
+
+/// Pin drawn where two bodies turn against each other.
+struct DrawnPin
+{
+  PlacedPoint at;
+  Vector3     axis{}; ///< unit vector
 };
 
 /// amplitude sin(omega t + phase), omega > 0 [rad/s].
@@ -149,6 +166,10 @@ public:
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
   void draw_rod(const DrawnRod &rod);
+  void draw_bar(const DrawnBar &bar);
+  void draw_pin(const DrawnPin &pin);
+  /// The point `at` [m] belongs to what is drawn of a body; on the frame or the ground it is not drawn.
+  void draw_point(const std::string &marker, const Vector3 &at);
 
   /// Linear spring, damper and constant force on a measure u, joining the base system: acts with
   /// -(c (u - u0) + b u' + F0) on u.  Signal quantities "force", "displacement", "rate".
@@ -192,6 +213,8 @@ public:
   std::vector<std::string>             signal_paths() const;
   const std::vector<Body>             &bodies() const;
   const std::vector<DrawnRod>         &rods() const;
+  const std::vector<DrawnBar>         &bars() const;
+  const std::vector<DrawnPin>         &pins() const;
   const std::vector<ElementPlacement> &elements() const;
   const NamedMeasure                  &measure(const std::string &name) const;
   const ReducedFrame                  *reduced_frame() const; ///< null if there is none

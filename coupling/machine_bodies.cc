@@ -292,4 +292,21 @@ void Machine::draw_rod(const DrawnRod &rod)
   parts_->rods.push_back(rod);
 }
 
+void Machine::draw_bar(const DrawnBar &bar)
+{
+  parts_->bars.push_back(bar);
+}
+
+void Machine::draw_pin(const DrawnPin &pin)
+{
+  parts_->pins.push_back(pin);
+}
+
+void Machine::draw_point(const std::string &name, const Vector3 &at)
+{
+  for (Body &body : parts_->bodies)
+    if (body.name == name)
+      body.points.push_back(at);
+}
+
 } // namespace gestell::coupling

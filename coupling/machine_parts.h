@@ -84,6 +84,8 @@ struct Machine::Parts
   std::map<std::string, Vector3>      positions; ///< of interfaces [m]
   std::vector<Body>                   bodies;
   std::vector<DrawnRod>               rods;
+  std::vector<DrawnBar>               bars;
+  std::vector<DrawnPin>               pins;
   std::vector<LinearElement>          linear;
   std::vector<ElementPlacement>       elements;
   std::vector<NamedMeasure>           measures;

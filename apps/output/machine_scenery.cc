@@ -10,6 +10,8 @@ Scenery scenery_of(const coupling::Machine &machine)
   scenery.n_frame = machine.n_frame();
   scenery.bodies  = machine.bodies();
   scenery.rods    = machine.rods();
+  scenery.bars    = machine.bars();
+  scenery.pins    = machine.pins();
 
   const auto take_interfaces = [&](const std::vector<fem::Interface> &interfaces)
   {

@@ -27,8 +27,13 @@ struct Scenery
   std::vector<std::pair<std::string, std::array<double, 3>>> interface_positions; ///< one per marker [m]
   std::vector<coupling::Body>                                bodies;
   std::vector<coupling::DrawnRod>                            rods;
+  std::vector<coupling::DrawnBar>                            bars;
+  std::vector<coupling::DrawnPin>                            pins;
 
   bool has_skin() const { return !points.empty(); }
+
+  /// Length [m] of the diagonal of the box around all that can be seen, as the scene describes it; 1 m if there is none.
+  double size() const;
 };
 
 /// Takes the picture of a finished machine.  The skin's displacement refers to the machine, which must outlive it.
@@ -39,5 +44,8 @@ double value(const coupling::Measure &measure, const Eigen::VectorXd &q);
 
 /// Displacement [m] of a marker's origin for q.
 Eigen::Vector3d translation(const coupling::Marker &marker, const Eigen::VectorXd &q);
+
+/// Where [m] a place is for q, however far its body has turned.
+Eigen::Vector3d position(const coupling::PlacedPoint &place, const Eigen::VectorXd &q);
 
 } // namespace gestell::apps

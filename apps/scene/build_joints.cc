@@ -28,9 +28,20 @@ Vector3d vector(const Vector3 &a)
   return {a[0], a[1], a[2]};
 }
 
+Vector3 point_of(const coupling::Machine &machine, const PlaceRequest &place)
+{
+  return place.at ? *place.at : machine.position(place.marker);
+}
+
 coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place)
 {
-  return machine.place(place.marker, place.at ? *place.at : machine.position(place.marker));
+  return machine.place(place.marker, point_of(machine, place));
+}
+
+void draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+{
+  for (const PlaceRequest *place : {&from, &to})
+    machine.draw_point(place->marker, point_of(machine, *place));
 }
 
 /// Two places with the measures of both.
@@ -197,6 +208,17 @@ private:
   const Pair &pair_;
 };
 
+/// What a joint looks like: a bar, a pin; of others only the points where they hold.
+void draw_joint(coupling::Machine &machine, const JointRequest &joint, const Pair &pair)
+{
+  draw_places(machine, joint.from, joint.to);
+  if (joint.type == JointType::distance)
+    machine.draw_bar({joint.name, placed(machine, joint.from), placed(machine, joint.to)});
+  if (joint.type == JointType::revolute)
+    if (const Body *body = pair.planar())
+      machine.draw_pin({placed(machine, joint.from), body->axis});
+}
+
 /// The level of a switch is told in the unit of its signal.
 void check_level(const coupling::Machine &machine, const SwitchRequest &request)
 {
@@ -221,6 +243,7 @@ void add_measures(coupling::Machine &machine, const Scene &scene)
     measure.a    = vector(request.a);
     measure.b    = vector(request.b);
     machine.add_measure({request.name, request.unit, {pair.first, pair.second, measure}, pair.measures});
+    draw_places(machine, request.first, request.second);
   }
 }
 
@@ -274,6 +297,7 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
   machine.attach(joint.name, std::make_shared<IdealJoint>(pair.first, pair.second, equations.list, joint.law),
                  pair.measures);
+  draw_joint(machine, joint, pair);
 }
 
 void attach_on_measure(coupling::Machine &machine, const ElementRequest &element)

@@ -28,7 +28,8 @@ BodyRequest read_body(const SceneTable &table)
       body.axis    = table.direction("normal");
       body.inertia = table.positive("inertia", kind::inertia);
     }
-    body.size = table.vector("size", kind::length, {});
+    body.size   = table.vector("size", kind::length, {});
+    body.radius = table.not_negative("radius", kind::length, 0.);
     return body;
   }
   const bool rotor = type == "rotor";
