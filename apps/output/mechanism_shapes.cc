@@ -12,64 +12,16 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double pi          = 3.14159265358979323846;
-constexpr int    n_rim       = 36;   ///< corners of a disc
 constexpr double disc_width  = 0.25; ///< of its radius
 constexpr double rod_breadth = 0.08; ///< of its length
+
+// parts of the machine's size
+constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02;
+constexpr double pin_radius   = 0.6; ///< of that of a plate
 
 Vector3d vector(const std::array<double, 3> &x)
 {
   return {x[0], x[1], x[2]};
-}
-
-/// Unit vector across `axis`, as near to `wish` as may be.
-Vector3d across(const Vector3d &axis, const Vector3d &wish)
-{
-  const Vector3d part = wish - axis.dot(wish) * axis;
-  return part.norm() > 1e-6 ? part.normalized() : axis.unitOrthogonal();
-}
-
-/// Adds a box about `centre` with half edges a, b, c (a right-handed frame).
-void add_box(Shape &shape, const Vector3d &centre, const Vector3d &a, const Vector3d &b, const Vector3d &c)
-{
-  const int first = static_cast<int>(shape.points.size());
-  for (const double k : {-1., 1.})
-    for (const auto &[i, j] : {std::pair(-1., -1.), {1., -1.}, {1., 1.}, {-1., 1.}})
-      shape.points.push_back(centre + i * a + j * b + k * c);
-  const auto quad = [&](int p, int q, int r, int s)
-  {
-    shape.triangles.push_back({first + p, first + q, first + r});
-    shape.triangles.push_back({first + p, first + r, first + s});
-  };
-  quad(3, 2, 1, 0);
-  quad(4, 5, 6, 7);
-  for (int i = 0; i < 4; ++i)
-    quad(i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4);
-}
-
-/// Adds a disc about `centre`; e1, e2, axis are a right-handed frame of unit vectors.
-void add_disc(Shape &shape, const Vector3d &centre, const Vector3d &e1, const Vector3d &e2, const Vector3d &axis,
-              double radius)
-{
-  const int      first = static_cast<int>(shape.points.size());
-  const Vector3d side  = 0.5 * disc_width * radius * axis;
-  for (int i = 0; i < n_rim; ++i)
-  {
-    const double   angle = 2. * pi * i / n_rim;
-    const Vector3d rim   = centre + radius * (std::cos(angle) * e1 + std::sin(angle) * e2);
-    shape.points.push_back(rim - side);
-    shape.points.push_back(rim + side);
-  }
-  shape.points.push_back(centre - side);
-  shape.points.push_back(centre + side);
-  for (int i = 0; i < n_rim; ++i)
-  {
-    const int here = first + 2 * i, next = first + 2 * ((i + 1) % n_rim), hub = first + 2 * n_rim;
-    shape.triangles.push_back({here, next, next + 1});
-    shape.triangles.push_back({here, next + 1, here + 1});
-    shape.triangles.push_back({hub, next, here});
-    shape.triangles.push_back({hub + 1, here + 1, next + 1});
-  }
 }
 
 const coupling::Body *find(const Scenery &scenery, const std::string &name)
@@ -78,6 +30,18 @@ const coupling::Body *find(const Scenery &scenery, const std::string &name)
                                  [&](const coupling::Body &b) { return b.name == name; });
   return body != scenery.bodies.end() ? &*body : nullptr;
 }
+
+/// The motion of the bodies and that of the frame, q = bodies + frame.
+struct Split
+{
+  Eigen::VectorXd bodies, frame;
+
+  Split(const Scenery &scenery, const Eigen::VectorXd &q) : bodies(q), frame(q)
+  {
+    bodies.head(scenery.n_frame).setZero();
+    frame.tail(q.size() - scenery.n_frame).setZero();
+  }
+};
 
 /// Where a rotor is and how it stands: pin direction and its perpendicular for the angle in q.
 struct RotorPose
@@ -92,6 +56,12 @@ struct RotorPose
       if (rod.crank == rotor.name)
         if (const coupling::Body *slider = find(scenery, rod.slider))
           top = -vector(slider->axis);
+    for (const auto &x : rotor.points)
+      if (const Vector3d arm = vector(x) - vector(rotor.position); axis.cross(arm).norm() > 1e-6 * rotor.radius)
+      {
+        top = arm;
+        break;
+      }
     const Vector3d zero = across(axis, axis.cross(top).norm() > 1e-6 ? top : Vector3d::UnitX());
     const double   phi  = q(rotor.coordinate);
     pin                 = std::cos(phi) * zero + std::sin(phi) * axis.cross(zero);
@@ -126,16 +96,17 @@ struct SliderPose
 Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eigen::VectorXd &q)
 {
   const RotorPose pose(scenery, rotor, q);
-  const Vector3d  centre = vector(rotor.position);
+  const Split     split(scenery, q);
+  const Vector3d  centre = vector(rotor.position) + translation(rotor.marker, split.bodies);
   const double    r      = rotor.radius;
 
   Shape shape;
   shape.name = rotor.name;
-  add_disc(shape, centre, pose.pin, pose.ahead, pose.axis, r);
+  add_disc(shape, centre, pose.pin, pose.axis, r, 0.5 * disc_width * r);
   // The rib stands out on both sides of the disc and shows the angle.
   add_box(shape, centre + 0.5 * r * pose.pin, 0.5 * r * pose.pin, 0.09 * r * pose.ahead,
           disc_width * r * pose.axis);
-  shape.displacement.assign(shape.points.size(), translation(rotor.marker, q));
+  shape.displacement.assign(shape.points.size(), translation(rotor.marker, split.frame));
   return shape;
 }
 
@@ -174,15 +145,80 @@ Shape rod_shape(const Scenery &scenery, const coupling::DrawnRod &rod, const cou
   return shape;
 }
 
+/// A planar body or a point; `number` counts them.
+Shape free_shape(const coupling::Body &body, int number, double machine_size, const Eigen::VectorXd &q)
+{
+  const bool        planar = body.kind == coupling::BodyKind::planar;
+  const Vector3d    centre = vector(body.position), moved = translation(body.marker, q);
+  const double      radius = body.radius > 0. ? body.radius : (planar ? plate_radius : point_radius) * machine_size;
+  Eigen::AngleAxisd turned = Eigen::AngleAxisd::Identity();
+  if (planar)
+    turned = Eigen::AngleAxisd(q(body.coordinate + 2), vector(body.axis));
+
+  Shape shape;
+  shape.name = body.name;
+  if (vector(body.size).minCoeff() > 0.)
+    add_box(shape, centre, 0.5 * body.size[0] * Vector3d::UnitX(), 0.5 * body.size[1] * Vector3d::UnitY(),
+            0.5 * body.size[2] * Vector3d::UnitZ());
+  else if (planar)
+  {
+    std::vector<Vector3d> corners = {centre};
+    for (const auto &x : body.points)
+      corners.push_back(vector(x));
+    // Each a little thinner than the one before, so that no two faces lie in one plane.
+    add_plate(shape, corners, vector(body.axis), radius, radius * (1. - 0.08 * (number % 6)));
+  }
+  else
+    add_sphere(shape, centre, radius);
+  for (Vector3d &x : shape.points)
+    x = centre + moved + turned * (x - centre);
+  shape.displacement.assign(shape.points.size(), Vector3d::Zero());
+  return shape;
+}
+
+Shape bar_shape(const coupling::DrawnBar &bar, double radius, const Split &split, const Eigen::VectorXd &q)
+{
+  const Vector3d from = position(bar.from, split.bodies), to = position(bar.to, split.bodies), way = to - from;
+  const Vector3d at_from = position(bar.from, q) - from, at_to = position(bar.to, q) - to;
+
+  Shape shape;
+  shape.name = bar.name;
+  if (!(way.norm() > 0.))
+    return shape;
+  add_bar(shape, from, to, radius);
+  for (const Vector3d &x : shape.points)
+    shape.displacement.push_back(at_from + (x - from).dot(way) / way.squaredNorm() * (at_to - at_from));
+  return shape;
+}
+
+Shape pins_shape(const Scenery &scenery, double radius, const Split &split, const Eigen::VectorXd &q)
+{
+  Shape shape;
+  shape.name = "joints";
+  for (const coupling::DrawnPin &pin : scenery.pins)
+  {
+    const Vector3d at = position(pin.at, split.bodies), axis = vector(pin.axis);
+    add_disc(shape, at, axis.unitOrthogonal(), axis, pin_radius * radius, 1.4 * radius);
+    shape.displacement.resize(shape.points.size(), position(pin.at, q) - at);
+  }
+  return shape;
+}
+
 } // namespace
 
 std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorXd &q)
 {
+  using coupling::BodyKind;
+  const double       size = scenery.size();
+  const Split        split(scenery, q);
+  int                n_free = 0;
   std::vector<Shape> shapes;
   for (const coupling::Body &body : scenery.bodies)
-    if (body.kind == coupling::BodyKind::rotor && body.radius > 0.)
+    if (body.kind == BodyKind::point || body.kind == BodyKind::planar)
+      shapes.push_back(free_shape(body, n_free++, size, q));
+    else if (body.kind == BodyKind::rotor && body.radius > 0.)
       shapes.push_back(rotor_shape(scenery, body, q));
-    else if (body.kind == coupling::BodyKind::slider && vector(body.size).minCoeff() > 0.)
+    else if (body.kind == BodyKind::slider && vector(body.size).minCoeff() > 0.)
       shapes.push_back(slider_shape(scenery, body, q));
   for (const coupling::DrawnRod &rod : scenery.rods)
   {
@@ -190,6 +226,10 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
     if (crank != nullptr && slider != nullptr && rod.length > rod.crank_radius)
       shapes.push_back(rod_shape(scenery, rod, *crank, *slider, q));
   }
+  for (const coupling::DrawnBar &bar : scenery.bars)
+    shapes.push_back(bar_shape(bar, bar_radius * size, split, q));
+  if (!scenery.pins.empty())
+    shapes.push_back(pins_shape(scenery, plate_radius * size, split, q));
   return shapes;
 }
 

@@ -1,28 +1,13 @@
 #pragma once
 
 #include "apps/output/scenery.h"
-
-#include <Eigen/Core>
-
-#include <array>
-#include <string>
-#include <vector>
+#include "apps/output/shape.h"
 
 namespace gestell::apps
 {
 
-/// A body as drawn.  Points stand where ideal kinematics puts them; what elasticity, play and the moving frame add is
-/// in `displacement`, so that bodies stay on a frame whose small displacements are drawn enlarged.
-struct Shape
-{
-  std::string                     name;
-  std::vector<Eigen::Vector3d>    points;       ///< [m]
-  std::vector<Eigen::Vector3d>    displacement; ///< [m] of each point
-  std::vector<std::array<int, 3>> triangles;    ///< into points, outside counter-clockwise
-};
-
 /**
- * Bodies and rods for the machine's coordinates q.
+ * Bodies, rods and joints for the machine's coordinates q.
  *
  * A rotor is a disc at its carrier, turned by its angle, with a rib that shows the angle; a slider is a box; a rod is
  * a bar from the pin of its crank to its slider.  At angle 0 the pin points against the motion of the slider (top dead
@@ -31,7 +16,16 @@ struct Shape
  *
  *     u(phi) = -r cos phi + sqrt(l^2 - r^2 sin^2 phi) - (l - r).
  *
- * Bodies of no size are left out.
+ * Rotors and sliders of no size are left out.
+ *
+ * A planar body of displacements u1, u2 and angle phi is a plate through its centre of mass c and the points x0 where joints
+ * and measures take hold of it, with half the breadth `radius`, or a box of `size`; it keeps its form at any angle:
+ *
+ *     x = c + u1 e_1 + u2 e_2 + R(axis, phi) (x0 - c).
+ *
+ * A point is a sphere of `radius` or a box.  What a scene gives no size is drawn in proportion to Scenery::size().
+ * Distance joints are round bars between their places, all pins of revolute joints one shape, "joints".  The position of
+ * points and planar bodies holds all of their motion; of places the motion of the frame is displacement.
  */
 std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorXd &q);
 

@@ -25,12 +25,16 @@ std::string damping_text(const coupling::Mode &mode)
                                         : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
 }
 
-/// Whether coordinate i of the machine is an angle: that of a rotor, or a rotation of an interface.
+/// Whether coordinate i of the machine is an angle: of a rotor or a planar body, or a rotation of an interface.
 bool is_angle(const Result &result, std::size_t i)
 {
   for (const coupling::Body &body : result.scenery.bodies)
-    if (body.coordinate == static_cast<int>(i))
-      return body.kind == coupling::BodyKind::rotor;
+  {
+    const bool rotor = body.kind == coupling::BodyKind::rotor, planar = body.kind == coupling::BodyKind::planar;
+    const int  n     = planar || body.kind == coupling::BodyKind::point ? 3 : 1;
+    if (const int own = static_cast<int>(i) - body.coordinate; own >= 0 && own < n)
+      return rotor || (planar && own == 2);
+  }
   const std::string &name = i < result.coordinate_names.size() ? result.coordinate_names[i] : std::string();
   const std::string  end  = name.size() > 3 ? name.substr(name.size() - 3) : "";
   return end == ".rx" || end == ".ry" || end == ".rz";

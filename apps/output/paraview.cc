@@ -5,9 +5,11 @@
 #include "apps/output/result_folder.h"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -141,22 +143,29 @@ private:
   Surface        surface_;
 };
 
-/// All bodies in one surface.
+/// All bodies in one surface; the cells tell which is which.
 void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes)
 {
   std::vector<Eigen::Vector3d>    points, displacements;
   std::vector<std::array<int, 3>> triangles;
-  for (const Shape &shape : shapes)
+  vtkNew<vtkIntArray>             body;
+  body->SetName("body");
+  for (std::size_t i = 0; i < shapes.size(); ++i)
   {
-    const int first = static_cast<int>(points.size());
+    const Shape &shape = shapes[i];
+    const int    first = static_cast<int>(points.size());
     points.insert(points.end(), shape.points.begin(), shape.points.end());
     displacements.insert(displacements.end(), shape.displacement.begin(), shape.displacement.end());
     for (const auto &t : shape.triangles)
+    {
       triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      body->InsertNextValue(static_cast<int>(i + 1));
+    }
   }
   Surface surface;
   surface.set_points(points);
   surface.set_triangles(triangles);
+  surface.poly->GetCellData()->AddArray(body);
   for (std::size_t i = 0; i < displacements.size(); ++i)
     surface.displacement->SetTuple(static_cast<vtkIdType>(i), displacements[i].data());
   surface.write(path);

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A body as drawn.  Points stand where ideal kinematics puts them; what elasticity, play and the moving frame add is
+/// in `displacement`, so that bodies stay on a frame whose small displacements are drawn enlarged.
+struct Shape
+{
+  std::string                     name;
+  std::vector<Eigen::Vector3d>    points;       ///< [m]
+  std::vector<Eigen::Vector3d>    displacement; ///< [m] of each point
+  std::vector<std::array<int, 3>> triangles;    ///< into points, outside counter-clockwise
+};
+
+/// Unit vector across the unit vector `axis`, as near to `wish` as may be.
+Eigen::Vector3d across(const Eigen::Vector3d &axis, const Eigen::Vector3d &wish);
+
+/// Adds a box about `centre` with half edges a, b, c (a right-handed frame).
+void add_box(Shape &shape, const Eigen::Vector3d &centre, const Eigen::Vector3d &a, const Eigen::Vector3d &b,
+             const Eigen::Vector3d &c);
+
+/// Adds a prism: the convex outline, counter-clockwise about the unit vector n, moved from -half n to half n.
+void add_prism(Shape &shape, const std::vector<Eigen::Vector3d> &outline, const Eigen::Vector3d &half);
+
+/// Adds a disc about `centre` across `axis` with half its width; its first corner lies along e1.
+void add_disc(Shape &shape, const Eigen::Vector3d &centre, const Eigen::Vector3d &e1, const Eigen::Vector3d &axis,
+              double radius, double half_width);
+
+/// Adds a round bar from a to b, which are apart.
+void add_bar(Shape &shape, const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radius);
+
+void add_sphere(Shape &shape, const Eigen::Vector3d &centre, double radius);
+
+/// Adds a plate with round corners: all that lies within `radius` of the convex hull of the points, seen along the unit
+/// vector n, and along n from the lowest point to the highest and `half_width` beyond both.
+void add_plate(Shape &shape, const std::vector<Eigen::Vector3d> &points, const Eigen::Vector3d &n, double radius,
+               double half_width);
+
+} // namespace gestell::apps
