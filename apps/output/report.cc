@@ -7,6 +7,7 @@
 #include "apps/output/skin_picture.h"
 #include "apps/output/svg.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps
@@ -15,6 +16,7 @@ namespace
 {
 
 constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
+constexpr double      seen_motion        = 0.02; ///< of the machine's size
 
 std::string section(const std::string &id, const std::string &title, const std::string &content)
 {
@@ -71,19 +73,34 @@ std::string warning_box(const Result &result)
   return html + "</ul></div>\n";
 }
 
+/// Whether bodies move so far that a second pose tells something.
+bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
+{
+  double way = 0.;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t j = 0; j < std::min(before[i].points.size(), after[i].points.size()); ++j)
+      way = std::max(way, (after[i].points[j] - before[i].points[j]).norm());
+  return way > seen_motion * machine_size;
+}
+
 /// Picture of the machine at the start of the run; empty if there is nothing to be seen.
 std::string machine_figure(const Result &result, Report &report)
 {
   const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
-  std::vector<Shape>    shapes;
+  std::vector<Shape>    shapes, later;
   std::string           caption = "The frame.";
   if (result.run && !result.run->picture_states.empty())
   {
     shapes  = mechanism_shapes(result.scenery, result.run->picture_states.front());
     caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
               short_text(result.run->picture_times.front()) + " s.";
+    later = mechanism_shapes(result.scenery, result.run->picture_states.back());
+    if (!far_apart(shapes, later, result.scenery.size()))
+      later.clear();
+    else
+      caption.insert(caption.size() - 1, ", in outline at t = " + short_text(result.run->picture_times.back()) + " s");
   }
-  const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene);
+  const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene, later);
   if (svg.empty())
     return "";
   report.charts.emplace_back("machine", svg);

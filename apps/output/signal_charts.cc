@@ -17,6 +17,8 @@ namespace
 constexpr double      readable_ratio  = 15.;
 constexpr std::size_t most_per_chart  = 7;
 constexpr std::size_t fewest_for_zoom = 200; ///< rows
+/// A shock lasts no longer than this part of the run; what is slower is a vibration.
+constexpr std::size_t shock_share = 200;
 
 std::vector<double> column(const coupling::RunResult &run, std::size_t j)
 {
@@ -116,11 +118,11 @@ std::string file_name(std::string text)
   return text;
 }
 
-/// Where a signal changes most within a sixtieth of the run, and by how much.
+/// Where a signal changes most within the time of a shock, and by how much.
 std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
 {
   const std::vector<double> t = column(run, 0), y = column(run, j);
-  const std::size_t         reach = std::max<std::size_t>(1, y.size() / 60);
+  const std::size_t         reach = std::max<std::size_t>(1, y.size() / shock_share);
   double                    at = t.front(), change = 0.;
   for (std::size_t i = 0; i + reach < y.size(); ++i)
     if (std::abs(y[i + reach] - y[i]) > change)
@@ -131,7 +133,7 @@ std::pair<double, double> hardest_change(const coupling::RunResult &run, std::si
   return {at, change};
 }
 
-/// Whether the shock shows in one of the signals: a third of its way within a sixtieth of the run.
+/// Whether the shock shows in one of the signals: a third of its way within the time of a shock.
 bool is_shaken(const coupling::RunResult &run, const SignalGroup &group)
 {
   return std::any_of(group.columns.begin(), group.columns.end(),

@@ -59,7 +59,8 @@ std::string edge_path(const Skin &skin, double enlargement, const View &view, co
 
 const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke:currentColor;stroke-width:1.2;"
                                "stroke-linejoin:round}.gst .edges{fill:none;stroke:#10151a;stroke-width:.5;"
-                               "stroke-opacity:.55;stroke-linecap:round}</style>\n";
+                               "stroke-opacity:.55;stroke-linecap:round}.gst .later{fill:none;stroke:var(--ink);"
+                               "stroke-width:.8;opacity:.5}</style>\n";
 
 std::string shifted(double x, double y, const std::string &content)
 {
@@ -149,16 +150,28 @@ std::string mode_picture_svg(const Skin &skin, const std::string &title, const s
          "</svg>\n";
 }
 
-std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title)
+std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
+                              const std::vector<Shape> &later)
 {
-  static const std::array<Colour, 4> body_colours = {{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {176, 80, 143}}};
+  static const std::array<Colour, 8> body_colours = {{{0, 114, 178},
+                                                      {213, 94, 0},
+                                                      {0, 158, 115},
+                                                      {176, 80, 143},
+                                                      {200, 150, 0},
+                                                      {70, 160, 215},
+                                                      {120, 90, 70},
+                                                      {110, 115, 125}}};
 
   std::vector<Vector3d> seen = skin.points;
-  for (const Shape &shape : shapes)
-    seen.insert(seen.end(), shape.points.begin(), shape.points.end());
+  for (const std::vector<Shape> *pose : {&shapes, &later})
+    for (const Shape &shape : *pose)
+      seen.insert(seen.end(), shape.points.begin(), shape.points.end());
   if (seen.empty())
     return "";
-  const View view(seen, picture_size);
+  const View  view(seen, picture_size);
+  std::string outlines;
+  for (const Shape &shape : later)
+    outlines += edge_path({shape.points, shape.displacement, shape.triangles}, 0., view, nullptr);
 
   const auto               pale   = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
   const std::vector<Facet> facets = facets_of(skin, 0., view, pale);
@@ -181,7 +194,8 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
   const double width = view.width() + 160., height = view.height() + 24.;
   return svg_head(width, height, title) + face_style +
          shifted(12., 12.,
-                 "<g class=\"faces\">" + facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
+                 "<path class=\"later\" d=\"" + outlines + "\"/>\n<g class=\"faces\">" +
+                     facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
                      edge_path(skin, 0., view, &raster) + "\"/>\n<g class=\"faces\" opacity=\".82\">" +
                      facet_paths(seen_bodies) + "</g>\n") +
          shifted(view.width() + 28., 12., names) + "</svg>\n";

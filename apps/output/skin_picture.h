@@ -19,7 +19,9 @@ Scenery for_pictures(const Scenery &scenery);
 /// undeformed edges.  Seen in parallel projection from front right and above.
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle);
 
-/// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass.
-std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title);
+/// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass; faint, the
+/// edges of the bodies at another time.
+std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
+                              const std::vector<Shape> &later = {});
 
 } // namespace gestell::apps
