@@ -77,7 +77,7 @@ struct DrawnRod
   double      crank_radius = 0., length = 0.;
 };
 
-/// Bar drawn between two places that a joint keeps at a distance: a rod, a rope, a cylinder.
+/// Bar drawn between two places whose distance matters: a rod, a rope, a cylinder, a spring.
 struct DrawnBar
 {
   std::string name;

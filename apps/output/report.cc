@@ -159,7 +159,7 @@ std::string events_section(const Result &result)
 }
 
 /// What the residual of the balance says, and what it does not.
-std::string energy_statement(const coupling::EnergySummary &energy)
+std::string energy_statement(const coupling::EnergySummary &energy, bool has_frame)
 {
   const bool   supplied = energy.input > 0.;
   const double scale    = supplied ? energy.input : std::max(std::abs(energy.stored), std::abs(energy.dissipated));
@@ -169,9 +169,8 @@ std::string energy_statement(const coupling::EnergySummary &energy)
          (scale > 0. ? ", <strong>" + short_text(100. * energy.residual / scale, 2) + " %</strong> of " +
                            (supplied ? "the energy supplied" : "the energy exchanged")
                      : "") +
-         ".</p><p>This residual measures the error of the integration in time alone. The errors of mesh and reduction "
-         "do "
-         "not show in it.</p>\n";
+         ".</p><p>This residual measures the error of the integration in time alone." +
+         (has_frame ? " The errors of mesh and reduction do not show in it." : "") + "</p>\n";
 }
 
 std::string energy_section(const Result &result, const std::vector<SignalChart> &charts)
@@ -186,7 +185,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   facts.quantity("stored since the start", energy.stored, "J");
   facts.quantity("dissipated, work of tools included", energy.dissipated, "J");
   facts.quantity("largest residual", energy.residual, "J");
-  std::string html = energy_statement(energy) + facts.table();
+  std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
   for (const SignalChart &chart : charts)
     if (chart.topic == ChartTopic::energy)
       html += figure(chart.svg);

@@ -305,6 +305,13 @@ void attach_on_measure(coupling::Machine &machine, const ElementRequest &element
   const coupling::NamedMeasure &measure = machine.measure(element.on);
   machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure.measure, element.element),
                  measure.measures);
+  if (measure.measure.measure.form != Form::distance)
+    return;
+  // A spring or a rope between two places is drawn as a distance joint is.
+  const auto second = measure.measures.begin() + measure.measure.first.n_measures();
+  machine.draw_bar({element.name,
+                    {measure.measure.first, {measure.measures.begin(), second}},
+                    {measure.measure.second, {second, measure.measures.end()}}});
 }
 
 void add_switch(coupling::Machine &machine, const SwitchRequest &request)

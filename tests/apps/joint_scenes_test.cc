@@ -52,9 +52,9 @@ TEST(DoubleFourBar, RockersStandWhereTheLoopsCloseAndEnergyIsKept)
 
 TEST(Crane, IsDrawnWithARopeAndACylinderOfTheirLengths)
 {
-  const apps::Scene scene =
-      apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
-                       {"run.end=\"0.4 s\"", "run.step=\"1 ms\"", "output.picture_step=\"0.2 s\""});
+  const apps::Scene   scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+                                                 {"run.end=\"0.4 s\"", "run.step=\"1 ms\"", "output.picture_step=\"0.2 s\"",
+                                                  "element.strut={type=\"cubic spring\", on=\"q4\", cubic=1}"});
   coupling::Machine   machine = apps::build_machine(scene);
   const auto          run     = coupling::simulate(machine, apps::initial_state(scene, machine), scene.run.options, {});
   const apps::Scenery scenery = apps::scenery_of(machine);
@@ -65,11 +65,12 @@ TEST(Crane, IsDrawnWithARopeAndACylinderOfTheirLengths)
     std::string names;
     for (const apps::Shape &shape : shapes)
       names += shape.name + ", ";
-    ASSERT_EQ(names, "chassis, boom, load, cylinder, rope, joints, ");
+    ASSERT_EQ(names, "chassis, boom, load, cylinder, rope, strut, joints, ");
     const auto length = [](const apps::Shape &bar) // its last two points are the middles of the ends
     { return (bar.points[bar.points.size() - 1] - bar.points[bar.points.size() - 2]).norm(); };
     EXPECT_NEAR(length(shapes[3]), 3.08 - 0.12 * run.picture_times[k], 1e-9);
     EXPECT_NEAR(length(shapes[4]), 1.35, 1e-9);
+    EXPECT_NEAR(length(shapes[5]), length(shapes[3]), 1e-12); // a spring beside the cylinder
   }
 }
 
