@@ -17,8 +17,9 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double massless = 1e-13; // mu relative to the largest, below which a mode has no mass
-constexpr double rigid    = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
+constexpr double massless    = 1e-13; // mu relative to the largest, below which a mode has no mass
+constexpr int    most_shifts = 20;    // times ten each
+constexpr double rigid       = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
 VectorXd unit_diagonal(const MatrixXd &A)
@@ -45,11 +46,21 @@ double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, b
   return s > 0. ? s : 1.;
 }
 
-bool is_regular(const MatrixXd &C)
+enum class Stiffness
+{
+  regular,  ///< every motion is held
+  singular, ///< some are free
+  unstable  ///< some are driven away: a linkage about to fall
+};
+
+Stiffness stiffness_of(const MatrixXd &C)
 {
   const VectorXd                                d = unit_diagonal(C);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
-  return scaled.eigenvalues().minCoeff() > rigid;
+  const VectorXd                               &values = scaled.eigenvalues();
+  return values.minCoeff() > rigid                                   ? Stiffness::regular
+         : values.minCoeff() < -rigid * values.cwiseAbs().maxCoeff() ? Stiffness::unstable
+                                                                     : Stiffness::singular;
 }
 
 void require_motion(const MatrixXd &A, const Eigen::LLT<MatrixXd> &factor)
@@ -69,14 +80,28 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
 {
   if (C.rows() == 0)
     return {};
-  bool           floating = false;
-  const double   lowest   = lowest_quotient(C, M, cancelled, floating);
-  const double   s        = !floating && is_regular(C) ? 0. : lowest;
-  const MatrixXd A        = C + s * M;
-  const VectorXd d        = unit_diagonal(A);
-  const MatrixXd scaled   = d.asDiagonal() * A * d.asDiagonal();
+  bool            floating  = false;
+  const double    lowest    = lowest_quotient(C, M, cancelled, floating);
+  const Stiffness stiffness = stiffness_of(C);
+  double          s         = !floating && stiffness == Stiffness::regular ? 0. : lowest;
+  VectorXd        d;
+  MatrixXd        scaled;
 
-  const Eigen::LLT<MatrixXd> L(scaled);
+  Eigen::LLT<MatrixXd> L;
+  const auto           factorise = [&]
+  {
+    const MatrixXd A = C + s * M;
+    d                = unit_diagonal(A);
+    scaled           = d.asDiagonal() * A * d.asDiagonal();
+    L.compute(scaled);
+  };
+  factorise();
+  // The shift must outweigh the fastest fall, of rate sqrt(-omega^2).
+  for (int i = 0; i < most_shifts && stiffness == Stiffness::unstable && L.info() != Eigen::Success; ++i)
+  {
+    s *= 10.;
+    factorise();
+  }
   require_motion(scaled, L);
   MatrixXd H = d.asDiagonal() * M * d.asDiagonal(); // H = L^-1 D M D L^-T
   L.matrixL().solveInPlace(H);

@@ -47,7 +47,7 @@ TEST(DoubleFourBar, RockersStandWhereTheLoopsCloseAndEnergyIsKept)
   }
   EXPECT_GT(run.signal("crank").max, 6. * M_PI); // three turns and more
   EXPECT_LT(error, 1e-9);
-  EXPECT_LT(run.result.energy.residual, 1e-4 * run.result.energy.input);
+  EXPECT_LT(run.result.energy.residual, 1e-5 * run.result.energy.input);
 }
 
 TEST(Crane, IsDrawnWithARopeAndACylinderOfTheirLengths)

@@ -1,5 +1,6 @@
 // Runs that cannot go on say why: forces that nothing determines, motions beyond all numbers.
 
+#include "coupling/dense_modes.h"
 #include "coupling/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
 
@@ -99,6 +100,20 @@ TEST(Simulation, AMassThatSticksCostsNoSearchForKinks)
   run.end            = 0.1; // 10 N sin(4 t) stays below 6 N
   const RunResult result = simulate(machine, rest, run, {});
   EXPECT_LT(result.work.evaluations, 10 * result.work.steps);
+}
+
+TEST(DegenerateModes, AMotionThatFallsHasNoFrequencyAndTheOthersKeepTheirs)
+{
+  // Square circular frequencies -5e4, 4 and 9, in coordinates that mix all three.
+  Eigen::Matrix3d V;
+  V << 2., 1., 0., -1., 3., 1., 0.5, 0., 2.;
+  const Eigen::MatrixXd W = V.inverse(), M = W.transpose() * W;
+  const Eigen::MatrixXd C     = W.transpose() * Eigen::Vector3d(-5e4, 4., 9.).asDiagonal() * W;
+  const DenseModes      modes = dense_modes(C, M);
+  ASSERT_EQ(modes.omega.size(), 3);
+  EXPECT_EQ(modes.omega[0], 0.);
+  EXPECT_NEAR(modes.omega[1], 2., 1e-6);
+  EXPECT_NEAR(modes.omega[2], 3., 1e-6);
 }
 
 } // namespace
