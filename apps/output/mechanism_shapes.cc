@@ -47,9 +47,10 @@ struct Split
 struct RotorPose
 {
   Vector3d axis, pin, ahead;
+  double   reach; ///< [m] of the pin, at least the radius
 
   RotorPose(const Scenery &scenery, const coupling::Body &rotor, const Eigen::VectorXd &q)
-      : axis(vector(rotor.axis).normalized())
+      : axis(vector(rotor.axis).normalized()), reach(rotor.radius)
   {
     Vector3d top = Vector3d::UnitZ();
     for (const coupling::DrawnRod &rod : scenery.rods)
@@ -59,7 +60,8 @@ struct RotorPose
     for (const auto &x : rotor.points)
       if (const Vector3d arm = vector(x) - vector(rotor.position); axis.cross(arm).norm() > 1e-6 * rotor.radius)
       {
-        top = arm;
+        top   = arm;
+        reach = std::max(reach, axis.cross(arm).norm());
         break;
       }
     const Vector3d zero = across(axis, axis.cross(top).norm() > 1e-6 ? top : Vector3d::UnitX());
@@ -103,8 +105,8 @@ Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eig
   Shape shape;
   shape.name = rotor.name;
   add_disc(shape, centre, pose.pin, pose.axis, r, 0.5 * disc_width * r);
-  // The rib stands out on both sides of the disc and shows the angle.
-  add_box(shape, centre + 0.5 * r * pose.pin, 0.5 * r * pose.pin, 0.09 * r * pose.ahead,
+  // The rib stands out on both sides of the disc, shows the angle and reaches a joint beyond the rim.
+  add_box(shape, centre + 0.5 * pose.reach * pose.pin, 0.5 * pose.reach * pose.pin, 0.09 * r * pose.ahead,
           disc_width * r * pose.axis);
   shape.displacement.assign(shape.points.size(), translation(rotor.marker, split.frame));
   return shape;

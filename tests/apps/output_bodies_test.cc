@@ -209,4 +209,10 @@ TEST(BodyShapes, ARotorShowsItsAngleTowardsTheJointItCarries)
   // The first corner of the disc lies along the pin: from x a quarter turn about y leads to -z.
   EXPECT_NEAR(crank.points[0][0], 0.5, 1e-12);
   EXPECT_NEAR(crank.points[0][2], 2. - 0.3, 1e-12);
+
+  scenery.bodies[0].points = {{0.5 + 0.7, 0.5, 2.}}; // beyond the rim: the rib reaches out to it
+  Eigen::AlignedBox3d box;
+  for (const Vector3d &x : named(mechanism_shapes(scenery, Eigen::Vector4d::Zero()), "crank").points)
+    box.extend(x);
+  EXPECT_NEAR(box.max()[0], 1.2, 1e-12);
 }
