@@ -5,6 +5,7 @@
 #include "coupling/nearest_name.h"
 #include "coupling/sparse_base.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -194,6 +195,26 @@ bool Machine::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::Matr
   C = dense->stiffness();
   return true;
 }
+/// Not those of an unreduced frame: its factor is made once per step size and kept.
+bool Machine::sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
+                              Eigen::SparseMatrix<double> &C) const
+{
+  if (const auto *dense = dynamic_cast<const DenseBase *>(parts_->base.get()))
+  {
+    M = dense->mass().sparseView();
+    B = dense->damping().sparseView();
+    C = dense->stiffness().sparseView();
+    return true;
+  }
+  const auto *sparse = dynamic_cast<const SparseBase *>(parts_->base.get());
+  if (!sparse || parts_->full)
+    return false;
+  M = sparse->mass();
+  B = sparse->damping();
+  C = sparse->stiffness();
+  return true;
+}
+
 const Eigen::SparseMatrix<double> &Machine::directions() const
 {
   return parts_->W;
@@ -265,6 +286,29 @@ void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
     part.element->geometric(part.motion(state, parts_->by_history), parts_->history_of(part), block);
     K.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) =
         Eigen::Map<const Eigen::MatrixXd>(block, part.n_measures, part.n_measures);
+  }
+}
+
+const std::vector<ForceBlock> &Machine::force_blocks() const
+{
+  return parts_->force_blocks;
+}
+
+void Machine::local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                                   Eigen::VectorXd &blocks) const
+{
+  double *block = blocks.data();
+  for (const auto &part : parts_->placed)
+  {
+    if (part.first_constraint >= 0)
+      continue;
+    const int size = part.n_measures * part.n_measures;
+    if (part.holds)
+      std::fill_n(block, size, 0.);
+    else
+      part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a},
+                            p.data() + part.first_measure, block);
+    block += size;
   }
 }
 

@@ -243,12 +243,17 @@ public:
   std::vector<SpectrumLine>     spectrum() const override;
   const Excitation             &excitation() const override;
   bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const override;
+  bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
+                       Eigen::SparseMatrix<double> &C) const override;
   const Eigen::SparseMatrix<double> &directions() const override;
   void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
   void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                      Eigen::MatrixXd &dp) const override;
   void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                          Eigen::MatrixXd &dp_dv) const override;
+  const std::vector<ForceBlock>      &force_blocks() const override;
+  void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                            Eigen::VectorXd &blocks) const override;
   const std::vector<HeldMeasure>     &held() const override;
   const std::vector<ConstraintBlock> &constraint_blocks() const override;
   void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;

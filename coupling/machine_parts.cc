@@ -13,6 +13,10 @@ namespace
 {
 const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
+/// Coordinates of a mechanism without frame from which on sparse matrices are cheaper.  Only with ideal joints: exact
+/// propagation and controlled steps, which do not take these, need dense ones.
+constexpr int dense_mechanism = 60;
+
 void add_to(Eigen::MatrixXd &dense, const std::vector<Eigen::Triplet<double>> &triplets)
 {
   for (const auto &entry : triplets)
@@ -122,6 +126,8 @@ void Machine::Parts::finish()
   translation_loads = Eigen::MatrixXd::Zero(n, 3);
   if (full)
     assemble_sparse(n);
+  else if (!reduced && n > dense_mechanism && has_joints())
+    assemble_mechanism(n);
   else
     assemble_dense(n);
   for (int d = 0; d < 3; ++d)
@@ -180,6 +186,19 @@ void Machine::Parts::assemble_sparse(int n)
                                       std::move(damping_operator));
 }
 
+bool Machine::Parts::has_joints() const
+{
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const ElementPlacement &placement) { return placement.element->n_constraints() > 0; });
+}
+
+/// Bodies alone: a few numbers per row.
+void Machine::Parts::assemble_mechanism(int n)
+{
+  const Eigen::SparseMatrix<double> zero(n, n);
+  base = std::make_unique<SparseBase>(enlarged(zero, n, M), enlarged(zero, n, B), enlarged(zero, n, C));
+}
+
 void Machine::Parts::place_elements(int n)
 {
   int      n_measures = 0, n_history = 0, n_constraints = 0;
@@ -187,6 +206,7 @@ void Machine::Parts::place_elements(int n)
   placed.clear();
   joints.clear();
   joint_blocks.clear();
+  force_blocks.clear();
   for (const ElementPlacement &placement : elements)
   {
     const int k = placement.element->n_measures();
@@ -204,6 +224,8 @@ void Machine::Parts::place_elements(int n)
       joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->constraint_size()});
       n_constraints += n_c;
     }
+    else
+      force_blocks.push_back({n_measures, k});
     for (int j = 0; j < k; ++j)
       for (const auto &[coordinate, weight] : placement.measures[j])
         columns.emplace_back(coordinate, n_measures + j, weight);

@@ -105,6 +105,7 @@ struct Machine::Parts
   std::vector<PlacedElement>  placed;
   std::vector<int>             joints; ///< ideal ones, as indices of `placed`
   std::vector<ConstraintBlock> joint_blocks;
+  std::vector<ForceBlock>      force_blocks;
   Eigen::VectorXd             history;
   std::vector<PlacedGuard>    guards; ///< of elements, then of switches
   std::vector<PlacedSwitch>   switches;
@@ -124,6 +125,8 @@ struct Machine::Parts
   void                          finish();
   void                          assemble_dense(int n);
   void                          assemble_sparse(int n);
+  void                          assemble_mechanism(int n);
+  bool                          has_joints() const;
   void                          place_elements(int n);
   void                          refresh_guards();
   void                          add_watches();

@@ -39,6 +39,9 @@ public:
     return {values_.data() + first_[i], blocks_[i].n_rows, blocks_[i].n_measures};
   }
 
+  /// All blocks, column by column, one behind the other.
+  const Eigen::VectorXd &values() const { return values_; }
+
   /// p = G^T lambda on the measures of joints; all others are left as they are.
   void set_forces(const Eigen::VectorXd &lambda, Eigen::VectorXd &p) const;
   /// g += factor G u

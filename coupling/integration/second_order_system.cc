@@ -21,6 +21,24 @@ bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eig
   return false;
 }
 
+bool SecondOrderSystem::sparse_matrices(Eigen::SparseMatrix<double> &, Eigen::SparseMatrix<double> &,
+                                        Eigen::SparseMatrix<double> &) const
+{
+  return false;
+}
+
+const std::vector<ForceBlock> &SecondOrderSystem::force_blocks() const
+{
+  static const std::vector<ForceBlock> none;
+  return none;
+}
+
+void SecondOrderSystem::local_tangent_blocks(const LocalState &state, double, double, double, Eigen::VectorXd &p,
+                                             Eigen::VectorXd &) const
+{
+  local_force(state, p);
+}
+
 const std::vector<HeldMeasure> &SecondOrderSystem::held() const
 {
   static const std::vector<HeldMeasure> none;

@@ -44,6 +44,12 @@ struct HeldMeasure
   double rate;
 };
 
+/// The measures of one force element: its block of dp/du.
+struct ForceBlock
+{
+  int first_measure, n_measures;
+};
+
 enum class GuardCrossing
 {
   rising,
@@ -91,6 +97,11 @@ public:
   /// M, B, C as dense matrices [n x n], for integrators that work in the modes of the base system; false: too large.
   virtual bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const;
 
+  /// M, B, C as sparse matrices [n x n] that are cheap to factorise anew in every step, for systems of many joints; false:
+  /// there are no such, and joints are solved condensed to the measures.
+  virtual bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
+                               Eigen::SparseMatrix<double> &C) const;
+
   // --- local nonlinear forces
   /// W [n x n_u].
   virtual const Eigen::SparseMatrix<double> &directions() const                                             = 0;
@@ -102,6 +113,12 @@ public:
   /// p [n_u], dp/du and dp/dv [n_u x n_u], block diagonal by element: only its blocks are written.
   virtual void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                                  Eigen::MatrixXd &dp_dv) const = 0;
+  /// The force elements, joints not among them, in the order of local_tangent_blocks(); needed with sparse_matrices().
+  virtual const std::vector<ForceBlock> &force_blocks() const;
+  /// As local_tangent(), where n_u^2 numbers are too many: the blocks of dp, column by column, one behind the other; that
+  /// of a held measure is zero.
+  virtual void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                                    Eigen::VectorXd &blocks) const;
   /// Measures that stick in the branches that are active now; changed by start(), transition(), restore_history().
   virtual const std::vector<HeldMeasure> &held() const;
   /// True: laws follow the branch their history names, smoothly continued beyond its switching point, as is right where
