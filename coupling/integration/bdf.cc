@@ -133,7 +133,7 @@ bool Bdf::has_consistent()
   if (!consistent_ && !massless_)
     try
     {
-      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF");
+      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF", options_.newton.joints);
     }
     catch (const std::invalid_argument &)
     {
@@ -297,6 +297,8 @@ void Bdf::multistep(double t)
       local_.u = 2. * past(0).u - past(1).u;
     else
       local_.u = past(0).u + options_.step * past(0).u_rate;
+    if (implicit_.is_sparse())
+      predict(options_.step, to.q);
     formula_step(options_.order, points, t, options_.step, to);
   }
   catch (const ConvergenceFailure &)
@@ -307,6 +309,17 @@ void Bdf::multistep(double t)
   push();
   if (system_.n_constraints() > 0 && (index_ + 1 < 2 * options_.order || system_.wants_multipliers()))
     find_implied(past(0));
+}
+
+/// As the prediction of the measures in multistep().
+void Bdf::predict(double step, Eigen::VectorXd &q)
+{
+  if (n_past_ >= 3)
+    q = 3. * (past(0).q - past(1).q) + past(2).q;
+  else if (n_past_ == 2)
+    q = 2. * past(0).q - past(1).q;
+  else
+    q = past(0).q + step * past(0).v;
 }
 
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
@@ -363,6 +376,8 @@ void Bdf::divided_step(const Point &from, double length, int halvings, Point &to
     try
     {
       local_.u = base.u + half * base.u_rate;
+      if (implicit_.is_sparse())
+        end.q = base.q + half * base.v;
       formula_step(1, points, base.t + half, half, end);
     }
     catch (const ConvergenceFailure &failure)
@@ -385,6 +400,8 @@ void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
     try
     {
       local_.u = base.u + step * base.u_rate;
+      if (implicit_.is_sparse())
+        to.q = base.q + step * base.v;
       formula_step(1, points, base.t + step, step, to);
     }
     catch (const ConvergenceFailure &)

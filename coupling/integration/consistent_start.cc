@@ -13,8 +13,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double converged      = 1e-12; ///< correction of u'', relative to the terms it is the sum of
-constexpr int    max_iterations = 25;
 constexpr double closed         = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
 
 /// A coordinate without mass, or how the solver puts it.
@@ -52,23 +50,17 @@ constexpr double closed         = 1e-10; ///< what joints may be open by, in m o
 
 } // namespace
 
-ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method)
+ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method, JointSolver joints)
     : system_(system), G_(system.constraint_blocks())
 {
-  const auto &W = system.directions();
-  const auto  n = system.size(), n_u = static_cast<int>(W.cols());
+  const auto n = system.size(), n_u = static_cast<int>(system.directions().cols());
   for (Eigen::VectorXd *x : {&f_, &product_})
     x->setZero(n);
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
   scale_.setZero(n_u);
-  dp_.setZero(n_u, n_u);
-  jacobian_.resize(n_u);
-  D_G_.setZero(n_u, G_.n_rows());
-  schur_.resize(G_.n_rows());
   for (Eigen::VectorXd *x : {&g_, &rate_, &bias_})
     x->setZero(G_.n_rows());
-  Y_.setZero(n, n_u);
   try
   {
     mass_ = system.factorise(1., 0., 0.);
@@ -82,6 +74,22 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   mass_->solve(f_, product_);
   if (!product_.allFinite())
     refuse_singular(system, method, "no solution exists");
+  saddle_ = SaddleMatrix::for_joints(system, joints);
+  if (saddle_)
+    size_for_sparse();
+  else
+    condense();
+}
+
+void ConsistentStart::condense()
+{
+  const auto &W   = system_.directions();
+  const int   n_u = static_cast<int>(W.cols());
+  dp_.setZero(n_u, n_u);
+  jacobian_.resize(n_u);
+  D_G_.setZero(n_u, G_.n_rows());
+  schur_.resize(G_.n_rows());
+  Y_.setZero(W.rows(), n_u);
   for (int j = 0; j < n_u; ++j)
   {
     f_ = W.col(j);
@@ -101,6 +109,11 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
   f_ -= product_;
   mass_->solve(f_, a);
   ++work.solves;
+  if (saddle_)
+  {
+    iterate_sparse(a, local, work);
+    return;
+  }
   if (D_.cols() == 0)
     return;
   a_free_.noalias() = system_.directions().transpose() * a;
@@ -151,6 +164,11 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
       break;
     if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)
       fail_open(system_, g_, local.t);
+    if (saddle_)
+    {
+      move_sparse(q, local.u, local.t);
+      continue;
+    }
     impulse_against(local);
     q.noalias() -= Y_.lazyProduct(correction_);
     local.u.noalias() -= D_.lazyProduct(correction_);
@@ -158,6 +176,11 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
   system_.constraint_rates(local, rate_, bias_);
   g_ = rate_;
   G_.add_product(1., local.v, g_);
+  if (saddle_)
+  {
+    move_sparse(v, local.v, local.t);
+    return;
+  }
   impulse_against(local);
   v.noalias() -= Y_.lazyProduct(correction_);
   local.v.noalias() -= D_.lazyProduct(correction_);
@@ -236,8 +259,13 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       return;
     }
   }
+  fail_unconverged(local.t);
+}
+
+void ConsistentStart::fail_unconverged(double t) const
+{
   std::ostringstream message;
-  message << "the acceleration that belongs to the state at t = " << local.t << " s was not found in " << max_iterations
+  message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << max_iterations
           << " iterations; the last correction was " << correction_.cwiseAbs().maxCoeff() << " m/s^2 (or rad/s^2)";
   throw ConvergenceFailure(message.str());
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/constraint_jacobian.h"
+#include "coupling/integration/saddle_matrix.h"
 #include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
@@ -20,6 +21,8 @@ namespace gestell::coupling
  *
  * whose accuracy is that of q and q', whatever integrator they came from.
  *
+ * With many joints the same equations are solved uncondensed, for a and lambda at once, by SaddleMatrix with A = M, f = 1.
+ *
  * Methods that carry the acceleration from step to step begin with it; M has to be regular for them.
  */
 class ConsistentStart
@@ -28,7 +31,8 @@ public:
   /// Factorises M.
   /// @param method  for messages: "Newmark"
   /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
-  ConsistentStart(const SecondOrderSystem &system, const std::string &method);
+  ConsistentStart(const SecondOrderSystem &system, const std::string &method,
+                  JointSolver joints = JointSolver::automatic);
 
   /// a [n] at local.t, for which local.u and local.v belong to q, v [n]; fills local.a, local.p and local.lambda.
   /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge, or if joints depend on each other
@@ -41,9 +45,19 @@ public:
   void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
 
 private:
+  static constexpr double converged      = 1e-12; ///< correction of u'', relative to the terms it is the sum of
+  static constexpr int    max_iterations = 25;
+
+  [[noreturn]] void fail_unconverged(double t) const;
   void take_up_joints(LocalState &local);
   void impulse_against(const LocalState &local);
   void iterate(LocalState &local, IntegrationWork &work);
+  void condense();
+  void size_for_sparse();
+  void iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
+  void factorise_sparse(double t);
+  void move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  double largest_acceleration(const Eigen::VectorXd &p);
 
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;
@@ -54,6 +68,9 @@ private:
   Eigen::MatrixXd               D_G_;  // D G^T [n_u x n_c]
   SmallLu                       schur_; // G D G^T
   Eigen::VectorXd               g_, rate_, bias_; // [n_c]
+  std::unique_ptr<SaddleMatrix> saddle_;          ///< null: condensed
+  Eigen::VectorXd               tangent_;         ///< dp/du'' by blocks
+  Eigen::VectorXd               y_, load_;        ///< [n + n_c + n_h], [n]
 };
 
 } // namespace gestell::coupling

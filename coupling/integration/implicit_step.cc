@@ -15,7 +15,6 @@ constexpr double joint_rounding      = 8.;   ///< times that of one number: seve
 constexpr double share_of_joints     = 1e-3; ///< of the tolerance
 constexpr double finest_tolerance    = 1e-13;
 constexpr double weak_lever          = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
-constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
 } // namespace
 
 namespace
@@ -68,12 +67,18 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   u_begin_.setZero(n_u);
   scale_.setZero(n_u);
   scale_before_.setZero(n_u);
+  g_.setZero(G_.n_rows());
+  begin(u_begin_);
+  saddle_ = SaddleMatrix::for_joints(system, options.joints);
+  if (saddle_)
+  {
+    size_for_sparse();
+    return;
+  }
   dp_.setZero(n_u, n_u);
   jacobian_.resize(n_u);
   S_G_.setZero(n_u, G_.n_rows());
   schur_.resize(G_.n_rows());
-  g_.setZero(G_.n_rows());
-  begin(u_begin_);
 }
 
 void ImplicitStep::begin(const Eigen::VectorXd &u)
@@ -91,7 +96,9 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, Int
     return found->second;
 
   Condensed made;
-  made.form   = form;
+  made.form = form;
+  if (saddle_)
+    return cache_.emplace(key, std::move(made)).first->second;
   made.solver = system_.factorise(form.w_M, form.w_B, form.w_C);
   ++work.factorisations;
   const auto &W = system_.directions();
@@ -124,6 +131,7 @@ bool ImplicitStep::take_up_joints(const Condensed &condensed, const LocalState &
   G_.times(S_G_, schur_.matrix());
   schur_.matrix() *= w_u;
   joints_singular_ = !schur_.factorise();
+  dependent_row_   = schur_.failed();
   if (joints_singular_)
     return false;
   G_.add_product(w_u, correction_, g_);
@@ -158,6 +166,16 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local)
     }
   }
   scale_ = scale_.cwiseMax(of_joints);
+}
+
+/// Largest correction in the scales of the measures, at most 1.
+double ImplicitStep::size_of_correction() const
+{
+  double size = 0.;
+  for (int i = 0; i < correction_.size(); ++i)
+    if (correction_[i] != 0.)
+      size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
+  return size;
 }
 
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
@@ -215,12 +233,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       correction_[h.measure] = 0.;
     }
     grow_scale(form, local);
-    double size = 0.;
-    for (int i = 0; i < correction_.size(); ++i)
-    {
-      if (correction_[i] != 0.)
-        size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
-    }
+    const double size = size_of_correction();
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
     xi_.noalias() += damping * correction_;
@@ -247,6 +260,17 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
 void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base,
                          Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
 {
+  if (saddle_)
+  {
+    local.t       = base.t;
+    scale_before_ = scale_;
+    if (iterate_sparse(condensed.form, f, base, x, local, work))
+      return;
+    scale_       = scale_before_;
+    contraction_ = unknown_contraction;
+    saddle_->forget_factor();
+    fail(base.t);
+  }
   const auto &W = system_.directions();
   condensed.solver->solve(f, x);
   ++work.solves;
@@ -277,7 +301,7 @@ void ImplicitStep::fail(double t) const
   if (singular_)
     fail_singular(system_, t);
   if (joints_singular_)
-    fail_dependent(system_, schur_.failed(), t);
+    fail_dependent(system_, dependent_row_, t);
   int worst = 0;
   for (int i = 1; i < residual_.size(); ++i)
     if (std::abs(residual_[i]) * scale_[worst] > std::abs(residual_[worst]) * scale_[i])

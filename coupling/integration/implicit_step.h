@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/saddle_matrix.h"
 #include "coupling/integration/second_order_system.h"
 #include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
@@ -14,6 +15,7 @@ struct NewtonOptions
 {
   double tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
   int    max_iterations = 25;
+  JointSolver joints    = JointSolver::automatic; ///< of systems with ideal joints
 };
 
 /**
@@ -49,6 +51,13 @@ struct StepForm
  * turns within an iteration (lambda g'') is left out of it: that is of the order of h^2 lambda/m against 1.
  *
  * One factorisation of A and n_u solves per StepForm, kept for later use.
+ *
+ * With many joints all that is dense is too much.  Newton then works on motion and multipliers at once, with SaddleMatrix:
+ *
+ *     K [dx, f d_lambda, f d_p_h] = [f_x + f W p - A x,  -g/w_u,  xi_h - W_h^T x],     xi = W^T x,
+ *
+ * factorised once per step, and again where its corrections stop contracting; G turns little in a step.  What counts as
+ * converged, and the results, are the same.
  */
 class ImplicitStep
 {
@@ -59,15 +68,18 @@ public:
   struct Condensed
   {
     StepForm                      form;
-    std::unique_ptr<LinearSolver> solver;
+    std::unique_ptr<LinearSolver> solver; ///< null, and Y, S empty, if is_sparse()
     Eigen::MatrixXd               Y; // [n x n_u]
     Eigen::MatrixXd               S; // [n_u x n_u]
   };
   const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
+  /// True: solve() wants a prediction of the whole x, too.
+  bool is_sparse() const { return saddle_ != nullptr; }
+
   /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures, local.lambda that of joints;
-  /// base holds u_0, v_0, a_0
-  /// and the time t.  local is the solution on return.
+  /// base holds u_0, v_0, a_0 and the time t.  local is the solution on return.  If is_sparse(), x is the prediction
+  /// that counts.
   /// @throws ConvergenceFailure
   void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
              LocalState &local, IntegrationWork &work);
@@ -76,9 +88,17 @@ public:
   void begin(const Eigen::VectorXd &u);
 
 private:
+  static constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
+
   bool take_up_joints(const Condensed &condensed, const LocalState &local);
   void grow_scale(const StepForm &form, const LocalState &local);
   bool iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
+  void size_for_sparse();
+  bool iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
+                      LocalState &local, IntegrationWork &work);
+  bool factorise_sparse(IntegrationWork &work);
+  void add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const;
+  double size_of_correction() const;
   void motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
 
@@ -93,6 +113,10 @@ private:
   SmallLu                                    schur_; ///< [n_c x n_c]
   Eigen::VectorXd                            g_;     ///< [n_c] g, then d_lambda
   bool                                       singular_ = false, joints_singular_ = false;
+  int                                        dependent_row_ = 0; ///< of the joints, where these are singular
+  std::unique_ptr<SaddleMatrix>              saddle_;            ///< null: condensed
+  Eigen::VectorXd                            tangent_;           ///< p' by blocks
+  Eigen::VectorXd                            y_;                 ///< [n + n_c + n_h] residual, then correction
   double                                     contraction_; ///< of Newton's corrections, as seen last
 };
 

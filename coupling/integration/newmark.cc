@@ -89,6 +89,8 @@ void Newmark::formula_step(const Point &from, double h, Point &to)
   base_.v.noalias() = W.transpose() * end.v;
   base_.a.noalias() = W.transpose() * from.a;
   end.local.u       = base_.u + (h * h * beta) * base_.a; // prediction: a_1 = a_0
+  if (implicit_.is_sparse())
+    x_ = (h * h) * from.a;
   base_.a *= shift;
 
   // ... and what x has to balance

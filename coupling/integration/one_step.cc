@@ -26,7 +26,7 @@ double require_step(const std::string &name, double step)
 OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, double step, int max_halvings,
                  const NewtonOptions &newton)
     : system_(system), implicit_(system, newton), step_(require_step(name, step)), max_halvings_(max_halvings),
-      start_(system, name), middle_(std::max(max_halvings, 0) + 1)
+      start_(system, name, newton.joints), middle_(std::max(max_halvings, 0) + 1)
 {
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);

@@ -120,13 +120,7 @@ Errors four_bar_errors(int N, const MethodOptions &method)
 {
   static const auto rows    = read_reference("dae/a02_n_four_bar.csv");
   Machine           machine = n_four_bar(N);
-  Eigen::VectorXd   v       = Eigen::VectorXd::Zero(machine.size());
-  for (const auto &body : machine.bodies()) // the upper ends move at 1 m/s
-  {
-    const bool crank       = body.name[1] == 'r';
-    v[body.coordinate]     = crank ? 0.5 : 1.;
-    v[body.coordinate + 2] = crank ? -1. : 0.;
-  }
+  const auto        v       = swinging_four_bars(machine);
   Errors errors;
   int    found = 0;
   run(machine, Eigen::VectorXd::Zero(machine.size()), v, method, 2., 0.25,
@@ -188,12 +182,7 @@ Errors slider_crank_errors(const std::string &name, const MethodOptions &method)
   static const auto rows    = read_reference("dae/slider_crank.csv");
   const auto        p       = slider_crank_case(name);
   Machine           machine = slider_crank(p);
-  Eigen::VectorXd   v       = Eigen::VectorXd::Zero(machine.size());
-  const double      omega = name == "crank1" ? 30. : 5., psi = -std::asin(p.r * std::sin(p.phi) / p.l);
-  const double      psi_rate = -p.r * std::cos(p.phi) * omega / (p.l * std::cos(psi));
-  const double      px = -p.r * std::sin(p.phi) * omega, py = p.r * std::cos(p.phi) * omega;
-  const double      ex = px - p.l * std::sin(psi) * psi_rate;
-  v << p.centre_1 * px, p.centre_1 * py, omega, px + p.centre_2 * (ex - px), py * (1. - p.centre_2), psi_rate, ex, 0., 0.;
+  const auto        v       = slider_crank_velocity(p, name == "crank1" ? 30. : 5.);
   Errors errors, largest;
   run(machine, Eigen::VectorXd::Zero(machine.size()), v, method, 0.5, 0.1,
       [&](double t, const Machine &m, const auto &q, const auto &v, const auto &local)

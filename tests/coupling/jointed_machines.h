@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/machine.h"
+#include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/cubic_spring.h"
 #include "mechanism/joints/ideal_joint.h"
 #include "mechanism/transmitted_element.h"
@@ -118,6 +119,19 @@ inline Machine n_four_bar(int N)
   return machine;
 }
 
+/// Velocities of A02 at its begin: the upper ends of the upright rods move at 1 m/s.
+inline Eigen::VectorXd swinging_four_bars(const Machine &machine)
+{
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(machine.size());
+  for (const auto &body : machine.bodies())
+  {
+    const bool crank       = body.name[1] == 'r';
+    v[body.coordinate]     = crank ? 0.5 : 1.;
+    v[body.coordinate + 2] = crank ? -1. : 0.;
+  }
+  return v;
+}
+
 /// A03: Andrews' squeezer in its start position, driven by 0.033 N m.
 inline Machine andrews_squeezer()
 {
@@ -174,8 +188,9 @@ inline SliderCrankParameters slider_crank_case(const std::string &name)
   return {.1, .45, 6., 4., 12., .01, .07, .2, .35, 25., .3};
 }
 
-/// Crank, rod and slider at the crank angle of the start; the slider is a point guided along x.
-inline Machine slider_crank(const SliderCrankParameters &p)
+/// Crank, rod and slider at the crank angle of the start; the slider is a point guided along x, with dry friction
+/// [N m] on the crank of so much in motion and twelve times that at rest.
+inline Machine slider_crank(const SliderCrankParameters &p, double friction = 0.)
 {
   Machine machine;
   machine.set_gravity({0., -9.81, 0.});
@@ -192,8 +207,25 @@ inline Machine slider_crank(const SliderCrankParameters &p)
             {along("fy", Vector3d::UnitY()), along("fz", Vector3d::UnitZ())});
   if (p.torque != 0.)
     machine.add_load("motor", machine.marker("crank").about({0., 0., 1.}), p.torque, {}, "N m");
+  if (friction > 0.)
+    machine.attach("brake",
+                   std::make_shared<mechanism::CoulombFriction>(
+                       mechanism::CoulombFriction::Parameters{friction, 12. * friction, 0.}),
+                   {{{machine.coordinate("crank.angle"), 1.}}});
   machine.finish();
   return machine;
+}
+
+/// Its velocities for an angular velocity omega [rad/s] of the crank, slider guided.
+inline Eigen::VectorXd slider_crank_velocity(const SliderCrankParameters &p, double omega)
+{
+  const double    psi = -std::asin(p.r * std::sin(p.phi) / p.l);
+  const double    psi_rate = -p.r * std::cos(p.phi) * omega / (p.l * std::cos(psi));
+  const double    px = -p.r * std::sin(p.phi) * omega, py = p.r * std::cos(p.phi) * omega;
+  const double    ex = px - p.l * std::sin(psi) * psi_rate;
+  Eigen::VectorXd v(9);
+  v << p.centre_1 * px, p.centre_1 * py, omega, px + p.centre_2 * (ex - px), py * (1. - p.centre_2), psi_rate, ex, 0., 0.;
+  return v;
 }
 
 } // namespace gestell::tests

@@ -1,0 +1,208 @@
+// Steps of many joints, solved sparse: the same motion as condensed to the measures, at a cost linear in their number.
+
+#include "coupling/integration/event_driver.h"
+#include "coupling/integration/method.h"
+#include "tests/coupling/jointed_machines.h"
+#include "tests/integration/allocation_counter.h"
+#include "tests/integration/reference_table.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using coupling::JointSolver;
+using coupling::Method;
+using coupling::MethodOptions;
+using Vector = Eigen::VectorXd;
+
+MethodOptions method(Method kind, double step, JointSolver solver)
+{
+  MethodOptions options;
+  options.method        = kind;
+  options.step          = step;
+  options.newton.joints = solver;
+  return options;
+}
+
+struct Motion
+{
+  std::vector<coupling::Instant> instants; ///< every `every` steps
+  coupling::IntegrationWork      work;
+};
+
+Motion motion_of(Machine &machine, const Vector &v, const MethodOptions &options, int steps, int every)
+{
+  const auto             integrator = coupling::make_integrator(machine, options);
+  coupling::EventOptions events;
+  events.end = steps * options.step;
+  coupling::EventDriver driver(machine, *integrator, events);
+  driver.begin(0., Vector::Zero(machine.size()), v);
+  Motion motion;
+  for (int next = every; integrator->time() < events.end * (1. - 1e-12);)
+  {
+    driver.advance();
+    if (integrator->time() >= next * options.step * (1. - 1e-12))
+    {
+      motion.instants.push_back(integrator->instant());
+      next += every;
+    }
+  }
+  motion.work = integrator->work();
+  return motion;
+}
+
+double difference(const Vector &a, const Vector &b)
+{
+  return a.size() == 0 ? 0. : (a - b).cwiseAbs().maxCoeff() / std::max(1., a.cwiseAbs().maxCoeff());
+}
+
+/// Newton leaves 1e-13 of the excursion in a position, and rounding of it as much; a step of h makes 1/h times that of a
+/// velocity, m/h^2 times that of a force, and n steps add up.
+void expect_same(Machine machine, const Vector &v, Method kind, double h, int steps)
+{
+  const auto dense  = motion_of(machine, v, method(kind, h, JointSolver::condensed), steps, steps / 10);
+  const auto sparse = motion_of(machine, v, method(kind, h, JointSolver::sparse), steps, steps / 10);
+  ASSERT_EQ(dense.instants.size(), sparse.instants.size());
+  for (std::size_t i = 0; i < dense.instants.size(); ++i)
+  {
+    const auto &a = dense.instants[i], &b = sparse.instants[i];
+    EXPECT_NEAR(a.t, b.t, 1e-9 * h);
+    EXPECT_LT(difference(a.q, b.q), 1e-12 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.v, b.v), 1e-11 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.local.u, b.local.u), 1e-12 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.local.v, b.local.v), 1e-11 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.local.p, b.local.p), 1e-8 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.local.lambda, b.local.lambda), 1e-8 * steps) << "at " << a.t;
+  }
+  EXPECT_LE(sparse.work.newton, dense.work.newton + dense.work.newton / 5) << "Newton's method converges as well";
+}
+
+TEST(ManyJoints, SparseStepsAreCondensedSteps)
+{
+  for (const Method kind : {Method::bdf, Method::generalised_alpha})
+  {
+    {
+      SCOPED_TRACE("four-bars");
+      expect_same(n_four_bar(2), swinging_four_bars(n_four_bar(2)), kind, 1e-3, 400);
+    }
+    {
+      SCOPED_TRACE("slider-crank");
+      Machine machine = slider_crank(slider_crank_case("crank2"));
+      expect_same(std::move(machine), Vector::Zero(9), kind, 1e-4, 1000);
+    }
+    {
+      SCOPED_TRACE("squeezer, with a spring");
+      expect_same(andrews_squeezer(), Vector::Zero(21), kind, 1e-5, 1000);
+    }
+  }
+}
+
+// Dry friction brings the crank to rest, once and for all.
+TEST(ManyJoints, MeasuresThatStickAreHeld)
+{
+  for (const Method kind : {Method::bdf, Method::generalised_alpha})
+  {
+    const auto   p       = slider_crank_case("crank1");
+    Machine      machine = slider_crank(p, 0.5);
+    const Vector v       = slider_crank_velocity(p, 10.);
+    const auto   dense   = motion_of(machine, v, method(kind, 1e-3, JointSolver::condensed), 1000, 50);
+    const auto   sparse  = motion_of(machine, v, method(kind, 1e-3, JointSolver::sparse), 1000, 50);
+    ASSERT_EQ(machine.held().size(), 1u) << "the crank should have come to rest";
+    ASSERT_EQ(dense.instants.size(), sparse.instants.size());
+    for (std::size_t i = 0; i < dense.instants.size(); ++i)
+    {
+      const auto &a = dense.instants[i], &b = sparse.instants[i];
+      EXPECT_NEAR(a.t, b.t, 1e-9);
+      EXPECT_LT(difference(a.q, b.q), 1e-9) << "at " << a.t;
+      EXPECT_LT(difference(a.v, b.v), 1e-8) << "at " << a.t;
+      EXPECT_LT(difference(a.local.p, b.local.p), 1e-6) << "at " << a.t;
+    }
+    EXPECT_LT(sparse.instants.back().v.cwiseAbs().maxCoeff(), 1e-10); // rounding of 3 rad over a step
+  }
+}
+
+struct FourBarErrors
+{
+  double q = 0., v = 0.;
+};
+
+FourBarErrors errors_of_forty(const MethodOptions &options)
+{
+  static const auto   rows    = read_reference("dae/a02_n_four_bar.csv");
+  Machine             machine = n_four_bar(40);
+  const Vector        v       = swinging_four_bars(machine);
+  const auto          every   = int(std::lround(0.25 / options.step));
+  const auto          motion  = motion_of(machine, v, options, 8 * every, every);
+  const int           angle   = machine.coordinate("crank 0.angle");
+  FourBarErrors       errors;
+  int                 found = 0;
+  for (const auto &r : rows)
+    for (const auto &now : motion.instants)
+      if (r.number("N") == 40 && std::abs(r.number("t") - now.t) < 1e-9)
+      {
+        ++found;
+        errors.q = std::max(errors.q, std::abs(now.q[angle] + r.number("phi_clockwise_from_upright")));
+        errors.v = std::max(errors.v, std::abs(now.v[angle] + r.number("phi_dot")));
+      }
+  EXPECT_EQ(found, 8);
+  return errors;
+}
+
+TEST(ManyJoints, FortyFourBarsMeetTheirReferenceWithOrderTwo)
+{
+  for (const Method kind : {Method::bdf, Method::generalised_alpha})
+  {
+    const double h      = kind == Method::bdf ? 1e-3 : 2e-3;
+    const auto   coarse = errors_of_forty(method(kind, h, JointSolver::automatic));
+    const auto   fine   = errors_of_forty(method(kind, h / 2., JointSolver::automatic));
+    // 0.15: the next term of the expansion at these steps
+    EXPECT_NEAR(std::log2(coarse.q / fine.q), 2., 0.15) << fine.q;
+    EXPECT_NEAR(std::log2(coarse.v / fine.v), 2., 0.15) << fine.v;
+    RecordProperty(kind == Method::bdf ? "bdf" : "alpha", std::to_string(fine.q));
+  }
+}
+
+TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
+{
+  for (const Method kind : {Method::bdf, Method::generalised_alpha})
+  {
+    Machine    machine    = n_four_bar(20);
+    const auto integrator = coupling::make_integrator(machine, method(kind, 1e-3, JointSolver::automatic));
+    integrator->begin(0., Vector::Zero(machine.size()), swinging_four_bars(machine));
+    for (int i = 0; i < 10; ++i)
+      integrator->advance();
+    const auto work   = integrator->work();
+    const long before = allocations;
+    for (int i = 0; i < 100; ++i)
+      integrator->advance();
+    EXPECT_TRUE(!counts_allocations || allocations == before);
+    EXPECT_EQ(integrator->work().factorisations - work.factorisations, 100);
+    EXPECT_LE(integrator->work().newton - work.newton, 300);
+    EXPECT_EQ(integrator->work().solves - work.solves, integrator->work().newton - work.newton);
+  }
+}
+
+TEST(ManyJoints, DependentJointsAreNamed)
+{
+  Machine machine;
+  add_planar(machine, "bar", 1., 1., {0.5, 0.});
+  revolute(machine, "left", "ground", "bar", {0., 0.});
+  revolute(machine, "right", "ground", "bar", {1., 0.});
+  machine.finish();
+  const auto integrator = coupling::make_integrator(machine, method(Method::bdf, 1e-3, JointSolver::sparse));
+  try
+  {
+    integrator->begin(0., Vector::Zero(3), Vector::Zero(3));
+    FAIL() << "accepted";
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("(fx)"), std::string::npos) << failure.what();
+  }
+}
+
+} // namespace
+} // namespace gestell::tests
