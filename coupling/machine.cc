@@ -187,12 +187,20 @@ const Excitation &Machine::excitation() const
 }
 bool Machine::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const
 {
-  const auto *dense = dynamic_cast<const DenseBase *>(parts_->base.get());
-  if (!dense)
+  constexpr int largest_mechanism = 600;
+  if (const auto *dense = dynamic_cast<const DenseBase *>(parts_->base.get()))
+  {
+    M = dense->mass();
+    B = dense->damping();
+    C = dense->stiffness();
+    return true;
+  }
+  const auto *sparse = dynamic_cast<const SparseBase *>(parts_->base.get());
+  if (!sparse || parts_->full || size() > largest_mechanism)
     return false;
-  M = dense->mass();
-  B = dense->damping();
-  C = dense->stiffness();
+  M = sparse->mass();
+  B = sparse->damping();
+  C = sparse->stiffness();
   return true;
 }
 /// Not those of an unreduced frame: its factor is made once per step size and kept.

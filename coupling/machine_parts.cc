@@ -13,8 +13,8 @@ namespace
 {
 const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
-/// Coordinates of a mechanism without frame from which on sparse matrices are cheaper.  Only with ideal joints: exact
-/// propagation and controlled steps, which do not take these, need dense ones.
+/// Coordinates of a mechanism without frame from which on sparse matrices are cheaper.  Only with ideal joints: all
+/// else there is for mechanisms works on dense ones.
 constexpr int dense_mechanism = 60;
 
 void add_to(Eigen::MatrixXd &dense, const std::vector<Eigen::Triplet<double>> &triplets)

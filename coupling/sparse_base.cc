@@ -126,6 +126,8 @@ SpectrumLine SparseBase::line_of(double omega, const VectorXd &mode) const
 
 std::vector<SpectrumLine> SparseBase::spectrum() const
 {
+  if (C_.nonZeros() == 0) // bodies that nothing but joints and elements hold
+    return std::vector<SpectrumLine>(size(), SpectrumLine{0., 0.});
   const bool dense = size() <= dense_limit;
   const auto modes = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : subspace_modes(C_, M_, lowest_lines, 1e-6);
 

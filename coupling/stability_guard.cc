@@ -142,7 +142,9 @@ std::string message_of(const std::vector<ModeAccuracy> &modes, const ModeAccurac
 std::vector<ModeAccuracy> mode_accuracy(const Machine &machine, const InitialState &initial,
                                         const MethodOptions &options)
 {
-  if (options.tolerance > 0. || !(options.step > 0.) || (machine.full_frame() && stable_at_every_step(options)))
+  Eigen::MatrixXd M, B, C;
+  const bool      large = machine.full_frame() || !machine.dense_matrices(M, B, C);
+  if (options.tolerance > 0. || !(options.step > 0.) || (large && stable_at_every_step(options)))
     return {};
   const bool                complex = options.method == Method::bdf && options.order > 2;
   const auto                rule    = complex ? DampingRule::exact : DampingRule::diagonal;

@@ -28,7 +28,8 @@ struct ModeAccuracy
 /**
  * All vibrating modes of the base system and, for dense models, of the machine with its elements engaged at `initial`,
  * each as the method of `options` with its fixed step carries it.  Empty where the step is controlled
- * (options.tolerance > 0), and for unreduced frames under methods that are stable at every step.
+ * (options.tolerance > 0), and for unreduced frames and mechanisms of more than 600 coordinates under methods that are
+ * stable at every step.
  *
  * BDF from order 3 on takes the complex eigenvalues, others undamped modes with their own share of damping.  Negative
  * damping ratios count as zero: what grows by itself is no fault of the method.

@@ -268,7 +268,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
       return;
     scale_       = scale_before_;
     contraction_ = unknown_contraction;
-    saddle_->forget_factor();
+    saddle_->forget_pivots();
     fail(base.t);
   }
   const auto &W = system_.directions();

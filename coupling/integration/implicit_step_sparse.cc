@@ -47,9 +47,9 @@ void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd 
 bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
                                   Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
 {
-  const auto &W           = system_.directions();
-  const auto &held        = system_.held();
-  const auto  n           = x.size(), n_c = Eigen::Index(G_.n_rows());
+  const auto &W    = system_.directions();
+  const auto &held = system_.held();
+  const auto  n = x.size(), n_c = Eigen::Index(G_.n_rows());
   double      size_before = 0.;
   singular_ = joints_singular_ = false;
   saddle_->hold(held);

@@ -19,8 +19,8 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr double dependent        = 1e-14; ///< pivot of an equation of unit length: rounding, as in SmallLu
 constexpr double pivot_preference = 1e-4;  ///< of the diagonal, where it is not that much smaller than the column
 constexpr int    many_equations   = 24;    ///< on one coordinate: it is eliminated after them
-constexpr int    few_measures     = 40;    ///< condensed at any rate
-constexpr double per_fill         = 8.;    ///< time of a multiplication with indices against one in a dense row
+constexpr int few_measures = 40; ///< condensed at any rate: small machines, and what their runs gave, stay as they are
+constexpr double per_fill  = 8.; ///< time of a multiplication with indices against one in a dense row
 
 template <typename Use>
 void for_column(const Sparse &W, int column, const Use &use)
@@ -95,8 +95,9 @@ void SaddleMatrix::collect_base(const SecondOrderSystem &system)
 {
   Sparse M, B, C;
   if (!system.sparse_matrices(M, B, C))
-    throw std::invalid_argument("the joints of this machine are solved condensed to the measures only: its frame hands out "
-                                "no matrices that could be factorised in every step");
+    throw std::invalid_argument(
+        "the joints of this machine are solved condensed to the measures only: its frame hands out "
+        "no matrices that could be factorised in every step");
   Triplets all;
   for (const Sparse *part : {&M, &B, &C})
     for (int j = 0; j < n_; ++j)
@@ -148,8 +149,10 @@ void SaddleMatrix::analyse()
         for_column(W, block.first_measure + a,
                    [&](int i, double w_i)
                    {
-                     for_column(W, block.first_measure + b, [&](int j, double w_j)
-                                { tangent.push_back({first + a + block.n_measures * b, i, j, w_i * w_j}); });
+                     for_column(W, block.first_measure + b,
+                                [&](int j, double w_j) {
+                                  tangent.push_back({first + a + block.n_measures * b, i, j, w_i * w_j});
+                                });
                    });
     first += block.n_measures * block.n_measures;
   }
@@ -214,7 +217,7 @@ void SaddleMatrix::order()
   for (int j = n_; j < N; ++j)
     set[j] = std::any_of(rows + begin[j], rows + begin[j + 1], [&](int i) { return set[i] == 0; }) ? 1 : 3;
   order_.resize(N);
-  double       facts[CAMD_INFO];
+  double           facts[CAMD_INFO];
   std::vector<int> sets = set; // consecutive numbers are asked for
   std::vector<int> used = set;
   std::sort(used.begin(), used.end());
@@ -234,9 +237,9 @@ void SaddleMatrix::order()
 
 void SaddleMatrix::hold(const std::vector<HeldMeasure> &held)
 {
-  const bool same = held.size() == held_.size() &&
-                    std::equal(held.begin(), held.end(), held_.begin(),
-                               [](const HeldMeasure &h, int measure) { return h.measure == measure; });
+  const bool same =
+      held.size() == held_.size() && std::equal(held.begin(), held.end(), held_.begin(),
+                                                [](const HeldMeasure &h, int measure) { return h.measure == measure; });
   if (same)
     return;
   held_.clear();
@@ -250,9 +253,9 @@ void SaddleMatrix::set_weights(double w_M, double w_B, double w_C, double f)
   const Eigen::Vector4d weights(w_M, w_B, w_C, f);
   if (weights_ == weights)
     return;
-  weights_                                                 = weights;
+  weights_                                                  = weights;
   Eigen::Map<Eigen::VectorXd>(A_.valuePtr(), A_.nonZeros()) = w_M * M_ + w_B * B_ + w_C * C_;
-  factorised_                                              = false;
+  factorised_                                               = false;
 }
 
 void SaddleMatrix::fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
@@ -291,6 +294,13 @@ void SaddleMatrix::scale()
       K[k] *= scale_[rows[k]] * scale_[j];
 }
 
+void SaddleMatrix::forget_pivots()
+{
+  factorised_ = false;
+  if (factor_->numeric)
+    klu_free_numeric(&factor_->numeric, &factor_->common);
+}
+
 bool SaddleMatrix::is_regular()
 {
   if (!factor_->numeric || factor_->common.status != KLU_OK)
@@ -316,14 +326,16 @@ bool SaddleMatrix::factorise(const Eigen::VectorXd &tangent, const ConstraintJac
   factorised_ = false;
   if (f.numeric)
   {
-    klu_refactor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, f.numeric, &f.common);
+    klu_refactor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, f.numeric,
+                 &f.common);
     factorised_ = is_regular();
   }
   if (!factorised_)
   {
     if (f.numeric)
       klu_free_numeric(&f.numeric, &f.common);
-    f.numeric = klu_factor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, &f.common);
+    f.numeric =
+        klu_factor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, &f.common);
     factorised_ = is_regular();
   }
   if (!factorised_ && f.numeric) // of no use to the next

@@ -18,8 +18,8 @@ void four_bar_steps(benchmark::State &state, JointSolver solver)
   const Eigen::VectorXd v       = tests::swinging_four_bars(machine);
 
   coupling::MethodOptions options;
-  options.step          = 1e-3;
-  options.newton.joints = solver;
+  options.step                    = 1e-3;
+  options.newton.joints           = solver;
   const auto           integrator = coupling::make_integrator(machine, options);
   coupling::LocalState local;
   machine.gather(0., q, v, q, local);
