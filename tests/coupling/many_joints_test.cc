@@ -59,8 +59,8 @@ double difference(const Vector &a, const Vector &b)
   return a.size() == 0 ? 0. : (a - b).cwiseAbs().maxCoeff() / std::max(1., a.cwiseAbs().maxCoeff());
 }
 
-/// Newton leaves 1e-13 of the excursion in a position, and rounding of it as much; a step of h makes 1/h times that of
-/// a velocity, m/h^2 times that of a force, and n steps add up.
+/// What rounding makes of positions of about 1 m, times 1/h in velocities and m/h^2 in forces (h = 1e-5 s for the
+/// squeezer of some grams, 1e-3 s for 1 kg), and what is left of Newton's tolerance of 1e-13.
 void expect_same(Machine machine, const Vector &v, Method kind, double h, int steps)
 {
   const auto dense  = motion_of(machine, v, method(kind, h, JointSolver::condensed), steps, steps / 10);
@@ -70,12 +70,12 @@ void expect_same(Machine machine, const Vector &v, Method kind, double h, int st
   {
     const auto &a = dense.instants[i], &b = sparse.instants[i];
     EXPECT_NEAR(a.t, b.t, 1e-9 * h);
-    EXPECT_LT(difference(a.q, b.q), 1e-12 * steps) << "at " << a.t;
-    EXPECT_LT(difference(a.v, b.v), 1e-11 * steps) << "at " << a.t;
-    EXPECT_LT(difference(a.local.u, b.local.u), 1e-12 * steps) << "at " << a.t;
-    EXPECT_LT(difference(a.local.v, b.local.v), 1e-11 * steps) << "at " << a.t;
-    EXPECT_LT(difference(a.local.p, b.local.p), 1e-8 * steps) << "at " << a.t;
-    EXPECT_LT(difference(a.local.lambda, b.local.lambda), 1e-8 * steps) << "at " << a.t;
+    EXPECT_LT(difference(a.q, b.q), 1e-13) << "at " << a.t;
+    EXPECT_LT(difference(a.v, b.v), 1e-10) << "at " << a.t;
+    EXPECT_LT(difference(a.local.u, b.local.u), 1e-13) << "at " << a.t;
+    EXPECT_LT(difference(a.local.v, b.local.v), 1e-10) << "at " << a.t;
+    EXPECT_LT(difference(a.local.p, b.local.p), 3e-7) << "at " << a.t;
+    EXPECT_LT(difference(a.local.lambda, b.local.lambda), 3e-7) << "at " << a.t;
   }
   EXPECT_LE(sparse.work.newton, dense.work.newton + dense.work.newton / 5) << "Newton's method converges as well";
 }
@@ -205,6 +205,15 @@ TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
     EXPECT_LE(integrator->work().newton - work.newton, 300);
     EXPECT_EQ(integrator->work().solves - work.solves, integrator->work().newton - work.newton);
   }
+}
+
+TEST(ManyJoints, HaveNoFrequenciesOfTheirOwn)
+{
+  const Machine machine = n_four_bar(101); // more coordinates than dense modes are found of
+  const auto    lines   = machine.spectrum();
+  ASSERT_EQ(int(lines.size()), machine.size());
+  for (const auto &line : lines)
+    EXPECT_EQ(line.omega, 0.);
 }
 
 TEST(ManyJoints, DependentJointsAreNamed)
