@@ -60,7 +60,7 @@ private:
     Eigen::VectorXd gradient;
     for (std::size_t i = 0; i < demands.size(); ++i)
     {
-      const auto value = machine_.measure(demands[i].first).evaluate(state_.q, state_.v, &gradient);
+      const auto value                 = machine_.measure(demands[i].first).evaluate(state_.q, state_.v, &gradient);
       residual[n_c_ + Eigen::Index(i)] = (rates ? value.rate : value.s) - demands[i].second;
       rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
     }
@@ -82,8 +82,8 @@ private:
     {
       unit[free[j]] = 1.;
       machine_.mass_times(unit, column);
-      unit[free[j]] = 0.;
-      const double m = column[free[j]];
+      unit[free[j]]          = 0.;
+      const double m         = column[free[j]];
       scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
       A.col(Eigen::Index(j)) = scale[Eigen::Index(j)] * rows.col(free[j]);
     }
@@ -143,9 +143,10 @@ private:
     if (qr.rank() == n_c_)
       return;
     const int row = qr.colsPermutation().indices().tail(n_c_ - qr.rank()).maxCoeff();
-    throw std::invalid_argument("the joints say the same twice, or do not hold the mechanism in this position: " +
-                                machine_.constraint_name(row) +
-                                " follows from the others; leave that joint out, make it compliant, or start elsewhere");
+    throw std::invalid_argument(
+        "the joints say the same twice, or do not hold the mechanism in this position: " +
+        machine_.constraint_name(row) +
+        " follows from the others; leave that joint out, make it compliant, or start elsewhere");
   }
 
   void turn()

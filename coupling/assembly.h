@@ -22,8 +22,8 @@ struct KnownStart
  * bodies that are not given as little as possible, measured by their masses; then the velocities likewise,
  * G q' + rate = 0.  Coordinates of the frame stay as they are.
  *
- * @throws std::invalid_argument if it cannot be done: the joint that stays open most, and by how much; or if equations of
- * joints depend on each other there: the one that does
+ * @throws std::invalid_argument if it cannot be done: the joint that stays open most, and by how much; or if equations
+ * of joints depend on each other there: the one that does
  */
 InitialState assemble(Machine &machine, const KnownStart &known);
 

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double massless    = 1e-13; // mu relative to the largest, below which a mode has no mass
 constexpr int    most_shifts = 20;    // times ten each
-constexpr double rigid       = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
+constexpr double rigid = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
 VectorXd unit_diagonal(const MatrixXd &A)

@@ -318,14 +318,14 @@ void Machine::transition(int i, const LocalState &state)
   const auto &active = parts_->guards[i];
   if (active.element < 0)
   {
-    const auto &own    = parts_->switches[active.index];
-    const auto &target = parts_->placed[own.target];
+    const auto &own              = parts_->switches[active.index];
+    const auto &target           = parts_->placed[own.target];
     parts_->history[own.history] = 1.;
     target.element->command(own.request.order, target.motion(state, parts_->by_history), parts_->history_of(target));
     parts_->refresh_guards();
     return;
   }
-  const auto &part   = parts_->placed[active.element];
+  const auto &part = parts_->placed[active.element];
   part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
   parts_->refresh_guards();
 }

@@ -29,7 +29,7 @@ struct Signal
   double      offset   = 0.;
   int         load     = -1; ///< external load
   std::string from;          ///< an event, by the name of its object: extremes count from there on; empty: always
-  int         measure  = -1; ///< of add_measure(), whose value (quantity 0) or rate (1) it is
+  int         measure = -1;  ///< of add_measure(), whose value (quantity 0) or rate (1) it is
 };
 
 enum class BodyKind
@@ -40,8 +40,8 @@ enum class BodyKind
   planar  ///< two displacements [m] across `axis` and the angle [rad] about it
 };
 
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point or
-/// planar body as such a box too, else as a sphere or a plate through its `points`.  Its coordinates are zero in the
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point
+/// or planar body as such a box too, else as a sphere or a plate through its `points`.  Its coordinates are zero in the
 /// position the scene describes.
 struct Body
 {
@@ -53,7 +53,7 @@ struct Body
   double      radius = 0.;
   Vector3     size{};
   Marker      marker;
-  Vector3     centre{};    ///< [m] about which it turns: that of a rotor, the centre of mass of the others
+  Vector3     centre{};     ///< [m] about which it turns: that of a rotor, the centre of mass of the others
   Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
 
   std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
@@ -151,16 +151,16 @@ public:
   int add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide);
   /// A point mass m [kg] that moves freely in space.
   int add_point(const std::string &name, double mass, const Vector3 &position);
-  /// A body of mass m [kg] and inertia J [kg m^2] about its centre of mass at `position`, that moves in the plane across
-  /// `normal` and turns about it by any angle.
+  /// A body of mass m [kg] and inertia J [kg m^2] about its centre of mass at `position`, that moves in the plane
+  /// across `normal` and turns about it by any angle.
   int add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia, const Vector3 &position);
   /// Point mass m [kg] with inertia about x, y, z [kg m^2] on a marker, at `offset` [m] from it.
   void add_point_mass(const std::string &name, const std::string &marker, double mass, const Vector3 &inertia,
                       const Vector3 &offset);
   /// The point `at` [m] of a body, an interface or the ground, in the position the scene describes.
   PlacedPoint place(const std::string &marker, const Vector3 &at) const;
-  Vector3 position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
-  void    add_measure(NamedMeasure measure);
+  Vector3     position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
+  void        add_measure(NamedMeasure measure);
   /// @throws std::invalid_argument for an unknown signal or element, or an order that the element does not know
   void add_switch(const Switch &request);
   /// How a body is drawn.
@@ -251,27 +251,27 @@ public:
                      Eigen::MatrixXd &dp) const override;
   void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                          Eigen::MatrixXd &dp_dv) const override;
-  const std::vector<ForceBlock>      &force_blocks() const override;
+  const std::vector<ForceBlock> &force_blocks() const override;
   void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                             Eigen::VectorXd &blocks) const override;
   const std::vector<HeldMeasure>     &held() const override;
   const std::vector<ConstraintBlock> &constraint_blocks() const override;
-  void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
-  void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
-  bool wants_multipliers() const override;
-  std::string                     constraint_name(int i) const override;
-  void                            follow_history(bool follow) override;
-  Eigen::VectorXd                 save_history() const override;
-  void                            restore_history(const Eigen::VectorXd &saved) override;
-  void                            start(const LocalState &state) override;
-  void                            accept(const LocalState &state) override;
-  int                             n_guards() const override;
-  void                            guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
-  GuardCrossing                   crossing(int i) const override;
-  ActiveGuard                     guard(int i) const override;
-  void                            transition(int i, const LocalState &state) override;
-  const std::vector<int>         &virtual_coordinates() const override;
-  double                          local_stored_energy(const LocalState &state) const override;
+  void        constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
+  void        constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
+  bool        wants_multipliers() const override;
+  std::string constraint_name(int i) const override;
+  void        follow_history(bool follow) override;
+  Eigen::VectorXd         save_history() const override;
+  void                    restore_history(const Eigen::VectorXd &saved) override;
+  void                    start(const LocalState &state) override;
+  void                    accept(const LocalState &state) override;
+  int                     n_guards() const override;
+  void                    guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
+  GuardCrossing           crossing(int i) const override;
+  ActiveGuard             guard(int i) const override;
+  void                    transition(int i, const LocalState &state) override;
+  const std::vector<int> &virtual_coordinates() const override;
+  double                  local_stored_energy(const LocalState &state) const override;
   void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const override;
   std::string coordinate_name(int i) const override;
 

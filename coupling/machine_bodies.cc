@@ -55,8 +55,8 @@ int Machine::add_rotor(const std::string &name, const Vector3 &axis, double iner
     own.rotation[d] = own.rotation[d] + a[d] * Measure{{phi, 1.}};
   parts_->add_dyad(parts_->M, inertia, {{phi, 1.}});
   parts_->add_mass(mass, base.translation);
-  parts_->add_body({name, BodyKind::rotor, phi, a, parts_->position_of(carrier), 0., {}, own,
-                    parts_->position_of(carrier)});
+  parts_->add_body(
+      {name, BodyKind::rotor, phi, a, parts_->position_of(carrier), 0., {}, own, parts_->position_of(carrier)});
   return phi;
 }
 
@@ -79,8 +79,7 @@ int Machine::add_slider(const std::string &name, const Vector3 &axis, double mas
   for (int d = 0; d < 3; ++d)
     parts_->add_dyad(parts_->M, mass, sideways[d]);
   parts_->add_loads(mass, own.translation);
-  parts_->add_body({name, BodyKind::slider, x, a, parts_->position_of(guide), 0., {}, own,
-                    parts_->position_of(guide)});
+  parts_->add_body({name, BodyKind::slider, x, a, parts_->position_of(guide), 0., {}, own, parts_->position_of(guide)});
   return x;
 }
 
@@ -145,11 +144,11 @@ int Machine::add_planar(const std::string &name, const Vector3 &normal, double m
 {
   require_mass(mass, "planar body \"" + name + "\": mass [kg]");
   require_mass(inertia, "planar body \"" + name + "\": inertia [kg m^2]");
-  const Vector3 n = unit(normal, "planar body \"" + name + "\"");
+  const Vector3 n       = unit(normal, "planar body \"" + name + "\"");
   const auto [e_1, e_2] = plane_of(n);
   const auto names      = planar_coordinates(name, n);
   const int  first      = parts_->add_coordinates(name, {names.begin(), names.end()});
-  Marker    own;
+  Marker     own;
   own.name = name;
   for (int d = 0; d < 3; ++d)
   {
@@ -165,15 +164,15 @@ int Machine::add_planar(const std::string &name, const Vector3 &normal, double m
 PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
 {
   using mechanism::Placement, mechanism::Vector3d;
-  const auto vector = [](const Vector3 &a) { return Vector3d(a[0], a[1], a[2]); };
-  const Marker &own = marker(name);
-  const Body   *on  = nullptr;
+  const auto    vector = [](const Vector3 &a) { return Vector3d(a[0], a[1], a[2]); };
+  const Marker &own    = marker(name);
+  const Body   *on     = nullptr;
   for (const Body &body : parts_->bodies)
     if (body.name == name)
       on = &body;
   PlacedPoint                           placed;
   std::vector<Placement::LinearMeasure> linear;
-  const auto                            add = [&](const Measure &u, const Vector3d &translation, const Vector3d &rotation)
+  const auto add = [&](const Measure &u, const Vector3d &translation, const Vector3d &rotation)
   {
     if (u.empty())
       return;
@@ -185,8 +184,7 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
   {
     const int n = on->kind == BodyKind::planar ? 2 : 3;
     for (int i = 0; i < n; ++i)
-      add({{on->coordinate + i, 1.}},
-          n == 3 ? Vector3d(Vector3d::Unit(i)) : vector(i == 0 ? on->e_1 : on->e_2), zero);
+      add({{on->coordinate + i, 1.}}, n == 3 ? Vector3d(Vector3d::Unit(i)) : vector(i == 0 ? on->e_1 : on->e_2), zero);
     if (n == 3)
       placed.placement = Placement(vector(at), centre, linear);
     else
@@ -280,8 +278,8 @@ void Machine::draw(const std::string &body_name, const Vector3 &position, double
       if (body.kind == BodyKind::rotor && body.marker.translation[0].empty() && body.marker.translation[1].empty() &&
           body.marker.translation[2].empty())
         body.centre = position; // on the ground nothing else tells where it turns
-      body.radius   = radius;
-      body.size     = size;
+      body.radius = radius;
+      body.size   = size;
       return;
     }
   body(body_name); // throws with the nearest name

@@ -98,19 +98,19 @@ struct Machine::Parts
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
   // finished
-  std::unique_ptr<LinearBase> base;
-  Eigen::SparseMatrix<double> W;
-  Excitation                  excitation; // f_t
-  Eigen::MatrixXd             translation_loads;
-  std::vector<PlacedElement>  placed;
+  std::unique_ptr<LinearBase>  base;
+  Eigen::SparseMatrix<double>  W;
+  Excitation                   excitation; // f_t
+  Eigen::MatrixXd              translation_loads;
+  std::vector<PlacedElement>   placed;
   std::vector<int>             joints; ///< ideal ones, as indices of `placed`
   std::vector<ConstraintBlock> joint_blocks;
   std::vector<ForceBlock>      force_blocks;
-  Eigen::VectorXd             history;
-  std::vector<PlacedGuard>    guards; ///< of elements, then of switches
-  std::vector<PlacedSwitch>   switches;
-  std::vector<HeldMeasure>    held;
-  bool                        by_history = false, reads_joints = false;
+  Eigen::VectorXd              history;
+  std::vector<PlacedGuard>     guards; ///< of elements, then of switches
+  std::vector<PlacedSwitch>    switches;
+  std::vector<HeldMeasure>     held;
+  bool                         by_history = false, reads_joints = false;
 
   int     size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
   int     add_coordinates(const std::string &body, const std::vector<std::string> &names);

@@ -20,8 +20,8 @@ public:
   {
     std::fill(p, p + n_measures_, 0.);
   }
-  void tangent(const mechanism::LocalMotion &motion, const double *history, const mechanism::TangentWeights &, double *p,
-               double *dp) const override
+  void tangent(const mechanism::LocalMotion &motion, const double *history, const mechanism::TangentWeights &,
+               double *p, double *dp) const override
   {
     force(motion, history, p);
     std::fill(dp, dp + n_measures_ * n_measures_, 0.);
@@ -46,8 +46,9 @@ void Machine::add_switch(const Switch &request)
       continue;
     const auto orders = element.element->commands();
     if (std::find(orders.begin(), orders.end(), request.order) == orders.end())
-      throw std::invalid_argument("\"" + request.element + "\" knows no order \"" + request.order + "\"" +
-                                  (orders.empty() ? std::string("; it obeys none") : suggestion(request.order, orders)));
+      throw std::invalid_argument(
+          "\"" + request.element + "\" knows no order \"" + request.order + "\"" +
+          (orders.empty() ? std::string("; it obeys none") : suggestion(request.order, orders)));
     parts_->switch_requests.push_back(request);
     return;
   }
@@ -122,10 +123,10 @@ bool Machine::wants_multipliers() const
 
 void Machine::will_read(const std::vector<Signal> &signals)
 {
-  parts_->reads_joints = std::any_of(
-      signals.begin(), signals.end(),
-      [&](const Signal &signal)
-      { return signal.element >= 0 && parts_->placed[signal.element].first_constraint >= 0; });
+  parts_->reads_joints =
+      std::any_of(signals.begin(), signals.end(),
+                  [&](const Signal &signal)
+                  { return signal.element >= 0 && parts_->placed[signal.element].first_constraint >= 0; });
 }
 
 const NamedMeasure &Machine::measure(const std::string &name) const

@@ -298,8 +298,8 @@ void Recorder::balance()
   const EnergyState energy = energy_.state(integrator_.instant());
   result_.energy           = {energy.input, energy.stored, energy.dissipated,
                               std::max(result_.energy.residual, std::abs(energy.residual()))};
-  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated,
-                           std::abs(energy.kinetic)});
+  turned_over_             = std::max(
+                  {turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated, std::abs(energy.kinetic)});
 }
 
 void Recorder::finish()
@@ -319,7 +319,8 @@ void Recorder::finish()
   const double residual = result_.energy.residual, rounding = 1e-9 * std::abs(energy_.at_begin());
   if (residual <= std::max(0.01 * turned_over_, rounding))
     return;
-  const std::string open = "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";
+  const std::string open =
+      "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";
   if (residual <= 0.5 * turned_over_ || options_.force_unstable || !result_.failure.empty())
     result_.warnings.push_back(open + "the step is too large for this motion");
   else

@@ -26,8 +26,8 @@ public:
   Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
            const std::vector<Signal> &signals, int samples, RunResult &result);
 
-  void begin();  ///< at the start, after the integrator began
-  void step();   ///< a step was made; its dense output and the history that holds on it are there
+  void begin(); ///< at the start, after the integrator began
+  void step();  ///< a step was made; its dense output and the history that holds on it are there
   /// An event of that object has changed the history at the present instant.
   void jump(const std::string &event);
   void finish(); ///< the last instant always has a row

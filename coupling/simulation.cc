@@ -52,7 +52,7 @@ void check_load_period(const Machine &machine, const RunOptions &options)
 void check_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
   constexpr double most_pictures = 2e4;
-  const double     count         = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
+  const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
   if (!options.allow_large && count > most_pictures)
     refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
            options.picture_step, " s, or say output.allow_large = true if that is what you want");
@@ -133,7 +133,8 @@ void warn_of_switches(const Machine &machine, double begin, RunResult &result)
 {
   for (const Event &event : result.events)
     if (event.kind == "switch" && event.t == begin)
-      result.warnings.push_back("switch " + event.name + " was thrown at the start: its signal lay beyond the value already");
+      result.warnings.push_back("switch " + event.name +
+                                " was thrown at the start: its signal lay beyond the value already");
   if (!result.failure.empty() || result.interrupted)
     return;
   for (int i = 0; i < machine.n_guards(); ++i)

@@ -204,7 +204,8 @@ void check_stability(const std::vector<ModeAccuracy> &modes, const MethodOptions
     return;
   const double      step = largest_stable_step(modes, options);
   const std::string way =
-      step > 0. ? "take run.step = \"" + step_text(step) + "\", the largest one below that is stable with this method (accuracy wants less), or "
+      step > 0. ? "take run.step = \"" + step_text(step) +
+                      "\", the largest one below that is stable with this method (accuracy wants less), or "
                 : "no smaller step that would be of use is known to be stable with this method; take ";
   throw std::invalid_argument(message_of(modes, *worst, options) + "; " + way +
                               "run.method = \"bdf\" with run.order = 2, stable for every mode at any step; "

@@ -16,8 +16,8 @@ namespace
 {
 
 constexpr int    most_iterations = 50, most_parts = 64;
-constexpr double converged       = 1e-13; ///< correction, against the size of q
-constexpr double singular        = 1e-14; ///< smallest pivot of the scaled saddle matrix
+constexpr double converged = 1e-13; ///< correction, against the size of q
+constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -104,9 +104,9 @@ private:
     MatrixXd A(n_c_, n_);
     G_.times(MatrixXd(W.transpose()), A);
     saddle.setZero(n_ + n_c_, n_ + n_c_);
-    saddle.topLeftCorner(n_, n_)        = C_ + W * (geometric - dp) * W.transpose();
-    saddle.topRightCorner(n_, n_c_)     = -A.transpose();
-    saddle.bottomLeftCorner(n_c_, n_)   = A;
+    saddle.topLeftCorner(n_, n_)      = C_ + W * (geometric - dp) * W.transpose();
+    saddle.topRightCorner(n_, n_c_)   = -A.transpose();
+    saddle.bottomLeftCorner(n_c_, n_) = A;
     residual.resize(n_ + n_c_);
     residual.head(n_)   = C_ * q_ - share * load_ - W * local_.p;
     residual.tail(n_c_) = g;
@@ -175,7 +175,8 @@ private:
 InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift)
 {
   if (machine.full_frame())
-    throw std::invalid_argument("a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
+    throw std::invalid_argument(
+        "a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
   Equilibrium equilibrium(machine, assembled);
   equilibrium.solve();
   InitialState state = assembled;

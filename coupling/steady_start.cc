@@ -199,7 +199,7 @@ public:
     // A x = 0 for x = P Z^T e_n: the last column of the orthogonal factor.
     Eigen::VectorXd motion = solver_.matrixZ().transpose() * Eigen::VectorXd::Unit(n, n - 1);
     motion                 = scale_.asDiagonal() * Eigen::VectorXd(solver_.colsPermutation() * motion);
-    const double half = 0.5 * motion.cwiseAbs().maxCoeff();
+    const double half      = 0.5 * motion.cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < unknown_.size(); ++i)
       if (std::abs(motion[static_cast<Eigen::Index>(i)]) >= half)
         return unknown_[i];

@@ -28,7 +28,8 @@ struct SteadyStart
 /**
  * State from which the machine runs on steadily for an instant (docs/theory/start.md): the frame rests, rotors turn as
  * given, sliders follow the closed elements kinematically, g(q) = 0, grad g . q' = 0, grad g . q'' = -q'^T g'' q'; the
- * positions are those of equilibrium with weights, element forces and the inertia of that motion; what sticks carries no force,
+ * positions are those of equilibrium with weights, element forces and the inertia of that motion; what sticks carries
+ * no force,
  *
  *     M q'' + B q' + C q = f_t + W p(q, q', q'').
  *

@@ -42,8 +42,8 @@ struct FrameOutput
 /// Skin of the frame for pictures: displacement of point i, direction d is row 3 i + d of `displacement` times q.
 struct Picture
 {
-  std::vector<std::array<double, 3>> points;    ///< [m]
-  std::vector<std::array<int, 3>>    triangles; // into points
+  std::vector<std::array<double, 3>>           points;       ///< [m]
+  std::vector<std::array<int, 3>>              triangles;    // into points
   Eigen::SparseMatrix<double, Eigen::RowMajor> displacement; // [3 points x n]
 };
 
@@ -62,7 +62,7 @@ struct ModalDamping
  */
 struct FrameMatrices
 {
-  Eigen::SparseMatrix<double> M, B, C; // [n x n] kg, N s/m, N/m
+  Eigen::SparseMatrix<double> M, B, C;                  // [n x n] kg, N s/m, N/m
   double                      modal_damping_ratio = 0.; ///< zeta of the modes of the supported frame
   ModalDamping                modal_damping;            ///< empty until computed
   std::vector<Interface>      interfaces;
@@ -71,12 +71,12 @@ struct FrameMatrices
   /// Empty in frames given by matrices: then M * translations.
   Eigen::MatrixXd acceleration_load;
   /// [n x 6] q of the rigid motions ux uy uz rx ry rz about `centre`, or empty if not known.
-  Eigen::MatrixXd             rigid_motions;
-  std::array<double, 3>       centre{}; ///< of mass [m]
-  std::vector<FrameOutput>    outputs;
-  Picture                     picture;
-  double                      mass = 0.; ///< of the frame [kg]
-  int                         n_cells = 0;
+  Eigen::MatrixXd          rigid_motions;
+  std::array<double, 3>    centre{}; ///< of mass [m]
+  std::vector<FrameOutput> outputs;
+  Picture                  picture;
+  double                   mass    = 0.; ///< of the frame [kg]
+  int                      n_cells = 0;
 
   /// Coordinates q1 of all interfaces, ascending.
   std::vector<int> interface_coordinates() const;

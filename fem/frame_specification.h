@@ -91,7 +91,7 @@ struct CutSpecification
 
 struct MeshOptions
 {
-  double                        size = 0.;   ///< [m]
+  double                        size = 0.;    ///< [m]
   std::map<std::string, double> surface_size; ///< [m] on named surfaces, graded outwards
   double                        max_cells = 2e6;
   std::string                   place;
@@ -100,7 +100,7 @@ struct MeshOptions
 /// All that defines a frame made from CAD or from a mesh.
 struct FrameSpecification
 {
-  std::string                            cad;  ///< .step .stp .brep .geo .msh; absolute path
+  std::string                            cad;       ///< .step .stp .brep .geo .msh; absolute path
   double                                 unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
   MeshOptions                            mesh;
   Material                               material;

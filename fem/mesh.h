@@ -14,10 +14,10 @@ using Point3 = std::array<double, 3>; ///< [m]
 struct Mesh
 {
   std::vector<Point3>             points;
-  std::vector<std::array<int, 4>> cells;        ///< positively oriented
-  std::vector<int>                cell_solid;   ///< index of the solid a cell belongs to
-  std::vector<std::array<int, 3>> skin;         ///< every outer triangle
-  std::vector<std::string>        solids;       ///< names, as in the CAD file where it has them
+  std::vector<std::array<int, 4>> cells;      ///< positively oriented
+  std::vector<int>                cell_solid; ///< index of the solid a cell belongs to
+  std::vector<std::array<int, 3>> skin;       ///< every outer triangle
+  std::vector<std::string>        solids;     ///< names, as in the CAD file where it has them
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;

@@ -125,19 +125,21 @@ public:
   virtual bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const;
 
   // --- ideal joints
-  /// Number of equations g(t, u) = 0 that the element demands of its measures; with any, it is an ideal joint: its force
-  /// is p = G^T lambda with multipliers lambda that the system finds, and force() and tangent() are not consulted.
+  /// Number of equations g(t, u) = 0 that the element demands of its measures; with any, it is an ideal joint: its
+  /// force is p = G^T lambda with multipliers lambda that the system finds, and force() and tangent() are not
+  /// consulted.
   virtual int n_constraints() const { return 0; }
   /// g [n_c] and G = dg/du [n_c x k, column major].
   virtual void constraint(const LocalMotion &motion, const double *history, double *g, double *G) const;
   /// g' = G u' + rate, g'' = G u'' + bias; [n_c] each.
   virtual void constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const;
   /// Size [m, rad] of the numbers whose difference g is: rounding leaves so much times epsilon of it.
-  virtual double constraint_size() const { return 1.; }
+  virtual double      constraint_size() const { return 1.; }
   virtual std::string constraint_name(int i) const { return (void)i, ""; }
 
-  /// Obeys an order of a switch, such as "brake", at the motion where it is given; false: the element knows no such order.
-  virtual bool command(const std::string &order, const LocalMotion &motion, double *history) const;
+  /// Obeys an order of a switch, such as "brake", at the motion where it is given; false: the element knows no such
+  /// order.
+  virtual bool                     command(const std::string &order, const LocalMotion &motion, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
 
   virtual void accept(const LocalMotion &, double *history) const { (void)history; }

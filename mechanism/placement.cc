@@ -13,7 +13,8 @@ Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<
 {
 }
 
-Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear, const Vector3d &n)
+Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear,
+                     const Vector3d &n)
     : point_(point), centre_(centre), linear_(std::move(linear)), turns_(true), n_(n)
 {
 }
@@ -36,12 +37,12 @@ void Placement::move(const Vector3d &arm, const double *u, const double *v, Move
   {
     const double   c = std::cos(u[n_linear]), s = std::sin(u[n_linear]), w = v[n_linear];
     const Vector3d along = n_.dot(arm) * n_, across = arm - along;
-    rho                        = along + c * across + s * n_.cross(arm);
-    const Vector3d first       = n_.cross(rho);
-    const Vector3d second      = n_.cross(first);
-    x.J.col(n_linear)          = first + theta.cross(first);
-    x.rate                     = w * x.J.col(n_linear);
-    x.bias                     = w * w * (second + theta.cross(second)) + 2. * w * theta_rate.cross(first);
+    rho                   = along + c * across + s * n_.cross(arm);
+    const Vector3d first  = n_.cross(rho);
+    const Vector3d second = n_.cross(first);
+    x.J.col(n_linear)     = first + theta.cross(first);
+    x.rate                = w * x.J.col(n_linear);
+    x.bias                = w * w * (second + theta.cross(second)) + 2. * w * theta_rate.cross(first);
   }
   for (int i = 0; i < n_linear; ++i)
     x.J.col(i) = linear_[i].rotation.cross(rho);

@@ -11,13 +11,13 @@ namespace gestell::mechanism
 using Vector3d = Eigen::Vector3d;
 
 /**
- * A point with directions on a body, as a function of the body's k measures u (m, rad), which are zero in the position the
- * scene describes:
+ * A point with directions on a body, as a function of the body's k measures u (m, rad), which are zero in the position
+ * the scene describes:
  *
  *     x(u) = c + sum u_i t_i + (1 + theta x) rho(phi),     theta = sum u_i r_i,     rho(phi) = R(n, phi) (x_0 - c).
  *
- * Each linear measure moves by t_i and turns by the small rotation r_i (a frame, a slide and its guide, a point); one last
- * measure may turn by any angle phi about n (a rotor on its carrier; a body in a plane).  Directions turn alike.
+ * Each linear measure moves by t_i and turns by the small rotation r_i (a frame, a slide and its guide, a point); one
+ * last measure may turn by any angle phi about n (a rotor on its carrier; a body in a plane).  Directions turn alike.
  *
  * Source: kinematics of rigid bodies; docs/theory/joints.md (1).
  */
@@ -48,7 +48,7 @@ public:
 
   int             n_measures() const { return int(linear_.size()) + (turns_ ? 1 : 0); }
   bool            turns() const { return turns_; }
-  const Vector3d &point() const { return point_; } ///< at u = 0 [m]
+  const Vector3d &point() const { return point_; }                                    ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
 
   /// What measure i does to the reference point and to the directions of the body, per unit at u = 0.
@@ -57,7 +57,7 @@ public:
 
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0
-  void direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;
+  void     direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;
   Vector3d position(const double *u) const;
   Vector3d direction(const Vector3d &e, const double *u) const;
 

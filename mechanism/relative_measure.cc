@@ -107,8 +107,8 @@ RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v,
 /// The bias v^T s'' v is a quadratic form: its polarisation gives the entries exactly.
 void PlacedMeasure::add_curvature(const double *u, double factor, double *matrix) const
 {
-  const int    k = n_measures();
-  double       v[max_measures] = {}, gradient[max_measures], own[max_measures];
+  const int k               = n_measures();
+  double    v[max_measures] = {}, gradient[max_measures], own[max_measures];
   for (int i = 0; i < k; ++i)
   {
     v[i]   = 1.;
@@ -118,9 +118,9 @@ void PlacedMeasure::add_curvature(const double *u, double factor, double *matrix
   for (int j = 0; j < k; ++j)
     for (int i = 0; i <= j; ++i)
     {
-      v[i] = v[j]    = 1.;
-      const double both  = i == j ? own[i] : 0.5 * (evaluate(u, v, gradient).bias - own[i] - own[j]);
-      v[i] = v[j]    = 0.;
+      v[i] = v[j]       = 1.;
+      const double both = i == j ? own[i] : 0.5 * (evaluate(u, v, gradient).bias - own[i] - own[j]);
+      v[i] = v[j] = 0.;
       matrix[i + k * j] += factor * both;
       if (i != j)
         matrix[j + k * i] += factor * both;

@@ -13,7 +13,8 @@ namespace
 constexpr double at_rest[PlacedMeasure::max_measures] = {};
 }
 
-TransmittedElement::TransmittedElement(const PlacedMeasure &measure, std::shared_ptr<const ForceElement> law, double rest)
+TransmittedElement::TransmittedElement(const PlacedMeasure &measure, std::shared_ptr<const ForceElement> law,
+                                       double rest)
     : measure_(measure), law_(std::move(law)), rest_(rest)
 {
   require(law_->n_measures() == 1, "transmitted element", "number of measures of its law", law_->n_measures(), "1");

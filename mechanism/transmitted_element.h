@@ -9,13 +9,13 @@ namespace gestell::mechanism
 {
 
 /**
- * A law of one measure s that acts through a relative measure s(u) of two places: a spring between two points of turning
- * bodies, a cylinder, a wheel under a chassis.
+ * A law of one measure s that acts through a relative measure s(u) of two places: a spring between two points of
+ * turning bodies, a cylinder, a wheel under a chassis.
  *
  *     p = G^T P(s, s'),     G = ds/du,     s' = G u',     s'' = G u'' + u'^T s'' u'
  *
- * Everything else (history, events, energy, quantities) is the law's.  The tangent holds G: how it turns within a Newton
- * step is of the order of h^2 P/(m |d|) against 1.
+ * Everything else (history, events, energy, quantities) is the law's.  The tangent holds G: how it turns within a
+ * Newton step is of the order of h^2 P/(m |d|) against 1.
  *
  * The law must not hold its measure (true sticking): a held measure has a constant direction.
  *

@@ -118,7 +118,8 @@ AtlasEntry hard_contact()
       "instead. With events located none gains, but what the cut at the end of a contact costs remains, so the step "
       "has to resolve a contact, ω_c h < 0.3, whatever the spectral radius says. Exact propagation with the mean force "
       "along the way does exactly the work that the contact stores, p (u_1 - u_0) = V_0 - V_1, with every stiffness; "
-      "over a kink as exactly as the mean is taken, in 128 pieces. Largest kinetic energy in flight over 4000 steps, relative to the start, and the one at "
+      "over a kink as exactly as the mean is taken, in 128 pieces. Largest kinetic energy in flight over 4000 steps, "
+      "relative to the start, and the one at "
       "the end (the motion is chaotic: only the sizes tell something):",
       {},
       {},

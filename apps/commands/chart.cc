@@ -236,7 +236,7 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   problem.cpu_limit = request.chart.limit > 0. ? request.chart.limit : request.chart.quick ? 5. : 20.;
   if (request.chart.quick)
     problem.repeat_s = 0.1;
-  problem.stop      = &interruption();
+  problem.stop = &interruption();
   if (request.file)
     problem.samples = request.file->times;
   else

@@ -155,8 +155,8 @@ std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, Pe
 
 std::vector<std::string> quick_methods(PeerChoice with_peers)
 {
-  std::vector<std::string> keys = {"bdf-2", "bdf-2-controlled", "newmark", "generalised-alpha",
-                                   "exact-average", "exact-6", "exact-6-controlled"};
+  std::vector<std::string> keys = {"bdf-2",         "bdf-2-controlled", "newmark",           "generalised-alpha",
+                                   "exact-average", "exact-6",          "exact-6-controlled"};
   if (peers::peers_available() && with_peers == PeerChoice::with)
     keys.insert(keys.end(), {"cvode-2", "cvode-5", "ida-5", "arkode-5"});
   return keys;

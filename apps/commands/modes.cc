@@ -34,8 +34,8 @@ int modes_command(const CommonOptions &options)
   const std::filesystem::path folder = results_path(options, scene);
   require_writable(folder);
 
-  ProgressLine          progress(options.quiet);
-  PreparedMachine       prepared = prepare_machine(scene, progress);
+  ProgressLine    progress(options.quiet);
+  PreparedMachine prepared = prepare_machine(scene, progress);
   progress.show("modes");
   Result result = begin_result(scene, "modes", prepared);
   progress.done();

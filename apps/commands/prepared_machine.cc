@@ -142,7 +142,7 @@ ModelFacts model_facts(const PreparedMachine &prepared)
 Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared)
 {
   coupling::Machine &small = prepared.small();
-  Result                   result;
+  Result             result;
   result.scene       = scene.name;
   result.description = scene.description;
   result.version     = version;

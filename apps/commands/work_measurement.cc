@@ -119,8 +119,8 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
   return run;
 }
 
-/// Times a run without samples, short ones several times, and keeps the shortest times: what reading thousands of samples
-/// costs says nothing of the method.
+/// Times a run without samples, short ones several times, and keeps the shortest times: what reading thousands of
+/// samples costs says nothing of the method.
 template <typename Once>
 void time_unsampled(const WorkProblem &problem, WorkRun &run, const Once &once)
 {

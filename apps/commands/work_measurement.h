@@ -25,8 +25,8 @@ struct WorkProblem
   std::vector<double>           samples{};  ///< [s] ascending, after begin; the last one ends the run
   std::vector<coupling::Signal> signals{};
   double                        cpu_limit = 20.; ///< [s] of one run; longer ones are given up
-  double                        repeat_s  = 0.5; ///< [s] a run is timed again without samples, shorter ones for so long; 0: not
-  const std::atomic<bool>      *stop      = nullptr;
+  double repeat_s               = 0.5; ///< [s] a run is timed again without samples, shorter ones for so long; 0: not
+  const std::atomic<bool> *stop = nullptr;
 };
 
 /// What a run gave and what it cost.

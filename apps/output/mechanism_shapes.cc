@@ -17,7 +17,7 @@ constexpr double rod_breadth = 0.08; ///< of its length
 
 // parts of the machine's size
 constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02;
-constexpr double pin_radius   = 0.6; ///< of that of a plate
+constexpr double pin_radius = 0.6; ///< of that of a plate
 
 Vector3d vector(const std::array<double, 3> &x)
 {

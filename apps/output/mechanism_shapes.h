@@ -18,14 +18,15 @@ namespace gestell::apps
  *
  * Rotors and sliders of no size are left out.
  *
- * A planar body of displacements u1, u2 and angle phi is a plate through its centre of mass c and the points x0 where joints
- * and measures take hold of it, with half the breadth `radius`, or a box of `size`; it keeps its form at any angle:
+ * A planar body of displacements u1, u2 and angle phi is a plate through its centre of mass c and the points x0 where
+ * joints and measures take hold of it, with half the breadth `radius`, or a box of `size`; it keeps its form at any
+ * angle:
  *
  *     x = c + u1 e_1 + u2 e_2 + R(axis, phi) (x0 - c).
  *
  * A point is a sphere of `radius` or a box.  What a scene gives no size is drawn in proportion to Scenery::size().
- * Distance joints are round bars between their places, all pins of revolute joints one shape, "joints".  The position of
- * points and planar bodies holds all of their motion; of places the motion of the frame is displacement.
+ * Distance joints are round bars between their places, all pins of revolute joints one shape, "joints".  The position
+ * of points and planar bodies holds all of their motion; of places the motion of the frame is displacement.
  */
 std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorXd &q);
 

@@ -31,7 +31,7 @@ bool is_angle(const Result &result, std::size_t i)
   for (const coupling::Body &body : result.scenery.bodies)
   {
     const bool rotor = body.kind == coupling::BodyKind::rotor, planar = body.kind == coupling::BodyKind::planar;
-    const int  n     = planar || body.kind == coupling::BodyKind::point ? 3 : 1;
+    const int  n = planar || body.kind == coupling::BodyKind::point ? 3 : 1;
     if (const int own = static_cast<int>(i) - body.coordinate; own >= 0 && own < n)
       return rotor || (planar && own == 2);
   }

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
-constexpr double      seen_motion        = 0.02; ///< of the machine's size
+constexpr double      seen_motion = 0.02; ///< of the machine's size
 
 std::string section(const std::string &id, const std::string &title, const std::string &content)
 {

@@ -32,7 +32,8 @@ struct Scenery
 
   bool has_skin() const { return !points.empty(); }
 
-  /// Length [m] of the diagonal of the box around all that can be seen, as the scene describes it; 1 m if there is none.
+  /// Length [m] of the diagonal of the box around all that can be seen, as the scene describes it; 1 m if there is
+  /// none.
   double size() const;
 };
 

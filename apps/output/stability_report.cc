@@ -101,7 +101,8 @@ std::string maps_section(const StabilityStudy &study)
                      "the step h. Above the line at 1 a mode grows.";
   if (!study.modes.empty())
     html += " Ticks at the bottom: modes of the frame (blue) and of the machine with closed contacts (orange) at the "
-            "scene's step, those below omega h = 0.01 left out; under exact propagation the frame's modes have no error. What "
+            "scene's step, those below omega h = 0.01 left out; under exact propagation the frame's modes have no "
+            "error. What "
             "has no damping or period error of its own has no curve there.";
   html += "</p>\n";
   bool first = true;

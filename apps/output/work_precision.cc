@@ -120,8 +120,8 @@ std::vector<std::size_t> pareto_front(const WorkPrecision &chart, int model)
 {
   // A run that the reference does not resolve is at least as accurate as what it does resolve: it beats others, but its
   // own place is not known.
-  const double             resolved = 10. * chart.models[std::size_t(model)].reference_error;
-  const auto               error_of = [&](std::size_t i)
+  const double resolved = 10. * chart.models[std::size_t(model)].reference_error;
+  const auto   error_of = [&](std::size_t i)
   { return usable(chart.points[i]) ? chart.points[i].error : std::max(chart.points[i].error, resolved); };
   std::vector<std::size_t> candidates, front;
   for (std::size_t i = 0; i < chart.points.size(); ++i)

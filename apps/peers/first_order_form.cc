@@ -26,9 +26,9 @@ void condense(const coupling::LinearSolver &solver, const Eigen::SparseMatrix<do
 
 FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
     : system_(system), n_(system.size()), n_u_(int(system.directions().cols())), mass_(system.factorise(1., 0., 0.)),
-      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_),
-      dp_du_(Matrix::Zero(n_u_, n_u_)), dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_),
-      v_(n_), f_(n_), a_(n_), product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
+      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_), dp_du_(Matrix::Zero(n_u_, n_u_)),
+      dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_), v_(n_), f_(n_), a_(n_),
+      product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
 {
   if (system.n_constraints() > 0)
     throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
@@ -143,7 +143,7 @@ bool FirstOrderForm::prepare(double w_M, double w_B, double w_C, double tangent_
     work_.solves += n_u_;
     known_M_ = w_M, known_B_ = w_B, known_C_ = w_C;
   }
-  tangent_         = tangent_v * dp_dv_ + tangent_u * dp_du_;
+  tangent_        = tangent_v * dp_dv_ + tangent_u * dp_du_;
   Matrix &small   = small_.matrix();
   small.noalias() = -tangent_ * S_;
   small.diagonal().array() += 1.;

@@ -90,12 +90,12 @@ private:
   std::unique_ptr<coupling::LinearSolver> mass_, shifted_;
   Matrix                                  Y_M_, S_M_; // M^-1 W [n x n_u], W^T M^-1 W
 
-  double                      gamma_ = 0., known_M_ = 0., known_B_ = 0., known_C_ = 0.; ///< of shifted_
-  Matrix                      Y_, S_, dp_du_, dp_dv_, tangent_;
-  coupling::SmallLu           small_;
-  coupling::LocalState        local_;
-  Vector                      q_, v_, f_, a_, product_, column_, xi_, z_, held_rate_;
-  coupling::IntegrationWork   work_;
+  double                    gamma_ = 0., known_M_ = 0., known_B_ = 0., known_C_ = 0.; ///< of shifted_
+  Matrix                    Y_, S_, dp_du_, dp_dv_, tangent_;
+  coupling::SmallLu         small_;
+  coupling::LocalState      local_;
+  Vector                    q_, v_, f_, a_, product_, column_, xi_, z_, held_rate_;
+  coupling::IntegrationWork work_;
 
   bool   dense_known_ = false; // base matrices for the Jacobians
   Matrix M_, B_, C_, M_inv_B_, M_inv_C_;

@@ -15,8 +15,8 @@ namespace
 using coupling::Body;
 using coupling::BodyKind;
 using mechanism::IdealJoint;
-using mechanism::Placement;
 using mechanism::PlacedMeasure;
+using mechanism::Placement;
 using mechanism::RelativeMeasure;
 using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
@@ -191,7 +191,8 @@ public:
     const auto add        = [&](const Placement &placement, const Body *body, double c)
     {
       if (!body || body->kind == BodyKind::point)
-        throw std::invalid_argument("a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+        throw std::invalid_argument(
+            "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
       const Vector3d a = vector(body->axis);
       for (int i = 0; i < placement.n_measures(); ++i)
         equation.measure.ratios.push_back(

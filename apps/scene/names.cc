@@ -90,9 +90,9 @@ const MeasureRequest &Names::measure(const SceneTable &table, const std::string 
   std::vector<std::string> valid;
   for (const MeasureRequest &measure : measures_)
     valid.push_back(measure.name);
-  throw table.error(key, "there is no measure '" + name + "'" +
-                             (valid.empty() ? "; declare [measure." + written_key(name) + "]"
-                                            : coupling::suggestion(name, valid)));
+  throw table.error(
+      key, "there is no measure '" + name + "'" +
+               (valid.empty() ? "; declare [measure." + written_key(name) + "]" : coupling::suggestion(name, valid)));
 }
 
 std::vector<Names::Coordinate> Names::coordinates() const

@@ -48,8 +48,8 @@ public:
   const std::vector<std::string> &interfaces() const { return interfaces_; }
 
 private:
-  std::vector<std::string> interfaces_;
-  bool                     any_interface_;
+  std::vector<std::string>            interfaces_;
+  bool                                any_interface_;
   std::vector<BodyRequest>            bodies_;
   std::map<std::string, PlaceRequest> places_;
   std::vector<MeasureRequest>         measures_;

@@ -15,8 +15,8 @@ BodyRequest read_body(const SceneTable &table)
 {
   check_thing_name(table);
   BodyRequest body;
-  body.name        = table.name();
-  body.place       = table.place();
+  body.name              = table.name();
+  body.place             = table.place();
   const std::string type = table.choice("type", {"rotor", "slider", "point", "planar"}, "");
   if (type == "point" || type == "planar")
   {
@@ -87,7 +87,8 @@ std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].kind == coupling::BodyKind::rotor || bodies[i].kind == coupling::BodyKind::slider)
-      bodies[i].carrier = names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
+      bodies[i].carrier =
+          names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
   return carriers_first(bodies);
 }
 

@@ -28,7 +28,8 @@ void check_new_name(const SceneTable &table, const Names &names, const Scene &sc
 void check_two_places(const SceneTable &table, const PlaceRequest &from, const PlaceRequest &to)
 {
   if (from.marker == to.marker)
-    throw table.error("to", "lies on '" + to.marker + "' like `from`; it needs two bodies that can move against each other");
+    throw table.error("to",
+                      "lies on '" + to.marker + "' like `from`; it needs two bodies that can move against each other");
 }
 
 double dot(const Vector3 &a, const Vector3 &b)
@@ -93,9 +94,9 @@ struct JointName
   const char *name;
   JointType   type;
 };
-constexpr JointName joint_names[] = {{"revolute", JointType::revolute},   {"spherical", JointType::spherical},
-                                     {"rigid", JointType::rigid},         {"prismatic", JointType::prismatic},
-                                     {"in-plane", JointType::in_plane},   {"distance", JointType::distance},
+constexpr JointName joint_names[] = {{"revolute", JointType::revolute}, {"spherical", JointType::spherical},
+                                     {"rigid", JointType::rigid},       {"prismatic", JointType::prismatic},
+                                     {"in-plane", JointType::in_plane}, {"distance", JointType::distance},
                                      {"gear", JointType::gear}};
 
 JointRequest read_joint(const SceneTable &table, const Names &names)
@@ -110,8 +111,8 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
   for (const JointName &known : joint_names)
     if (known.name == type)
       joint.type = known.type;
-  const bool together = joint.type == JointType::revolute || joint.type == JointType::spherical ||
-                        joint.type == JointType::rigid;
+  const bool together =
+      joint.type == JointType::revolute || joint.type == JointType::spherical || joint.type == JointType::rigid;
   const bool one_point = table.has("at");
   if (one_point && (table.has("at_from") || table.has("at_to")))
     throw table.error("at", "says where the joint is on both bodies; leave out 'at_from' and 'at_to'");
@@ -177,10 +178,10 @@ void read_switches(const SceneTable &scene, Scene &result)
   {
     check_thing_name(table);
     SwitchRequest own;
-    own.place           = table.place();
-    own.request.name    = table.name();
-    own.request.signal  = table.text("when");
-    const bool above    = table.has("above");
+    own.place          = table.place();
+    own.request.name   = table.name();
+    own.request.signal = table.text("when");
+    const bool above   = table.has("above");
     if (above == table.has("below"))
       throw table.error("needs 'above' or 'below', the value at which it is thrown");
     own.request.crossing = above ? coupling::GuardCrossing::rising : coupling::GuardCrossing::falling;

@@ -95,7 +95,7 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   const auto table = scene.optional_table("start");
   if (!table)
     return start;
-  start.place = table->place();
+  start.place            = table->place();
   const std::string rule = table->choice("rule", {"given", "static", "steady"}, "given");
   start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
   if (start.rule != StartRule::steady)

@@ -66,7 +66,7 @@ void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanis
 }
 
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
-                 const RelativeMotion &motion)
+                    const RelativeMotion &motion)
 {
   if (motion.on.empty())
     add_element(scene, table, std::move(element), std::vector<MotionMeasure>{motion.u});

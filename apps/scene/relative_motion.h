@@ -22,8 +22,8 @@ struct RelativeMotion
 };
 
 /**
- * Reads `on`, a measure, or `from`, `to` and `direction` or `about`.  Without either the bodies tell: the axis of the slider, or that of
- * the rotor if the partner is one too or the ground; rotors must share it.
+ * Reads `on`, a measure, or `from`, `to` and `direction` or `about`.  Without either the bodies tell: the axis of the
+ * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
 
@@ -43,7 +43,7 @@ auto checked(const SceneTable &table, Make make)
 
 /// Adds an element of one measure to the scene.
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
-                 const RelativeMotion &motion);
+                    const RelativeMotion &motion);
 /// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion);
 /// Adds an element to the scene.

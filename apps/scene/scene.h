@@ -97,9 +97,9 @@ struct JointRequest
   JointType                                   type = JointType::revolute;
   PlaceRequest                                from, to;
   Vector3                                     axis{};
-  std::optional<double>                       length;      ///< of `distance` [m]; none: as described
-  double                                      ratio  = 1.; ///< of `gear`
-  std::shared_ptr<const mechanism::MotionLaw> law;         ///< of `distance`
+  std::optional<double>                       length;     ///< of `distance` [m]; none: as described
+  double                                      ratio = 1.; ///< of `gear`
+  std::shared_ptr<const mechanism::MotionLaw> law;        ///< of `distance`
   std::string                                 place;
 };
 
@@ -150,7 +150,7 @@ struct ElementRequest
   std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
   std::vector<MotionMeasure>               measures;
-  std::string                              on; ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::string                              on;   ///< a MeasureRequest: the element, a law of one measure, acts on it
   std::vector<LagRequest>                  lags; ///< the element's last measures
 };
 

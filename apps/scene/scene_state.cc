@@ -38,8 +38,8 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
                               "'; give a body or \"frame.NAME.uz\"");
 }
 
-coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &machine,
-                                 const std::vector<NamedValue> &q, const std::vector<NamedValue> &v)
+coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &machine, const std::vector<NamedValue> &q,
+                                 const std::vector<NamedValue> &v)
 {
   coupling::KnownStart known;
   known.state.t = scene.run.options.begin;
@@ -95,8 +95,8 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     try
     {
       if (scene.start.rule == StartRule::rest)
-        state = coupling::static_equilibrium(
-            machine, state, scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none);
+        state = coupling::static_equilibrium(machine, state,
+                                             scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none);
     }
     catch (const std::invalid_argument &e)
     {

@@ -30,8 +30,8 @@ public:
 
   bool has(const std::string &key) const; ///< marks the key as known
 
-  double                number(const std::string &key, const Kind &kind) const;
-  double                number(const std::string &key, const Kind &kind, double fallback) const;
+  double number(const std::string &key, const Kind &kind) const;
+  double number(const std::string &key, const Kind &kind, double fallback) const;
   /// A value of any kind, whose dimension the caller judges.
   Quantity              quantity(const std::string &key) const;
   std::optional<double> optional_number(const std::string &key, const Kind &kind) const;

@@ -167,10 +167,10 @@ void Bdf::restart()
 /// The measures of a point become those of the present instant.
 void Bdf::present(const Point &point)
 {
-  local_.t   = point.t;
-  local_.u   = point.u;
-  local_.v   = point.u_rate;
-  local_.a   = point.a;
+  local_.t      = point.t;
+  local_.u      = point.u;
+  local_.v      = point.u_rate;
+  local_.a      = point.a;
   local_.p      = point.p;
   local_.lambda = point.lambda;
   now_known_    = false;
@@ -278,7 +278,7 @@ void Bdf::cut(double t)
   cut_point_.lambda = base_.lambda;
   if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
     find_implied(cut_point_);
-  cut_              = true;
+  cut_ = true;
   present(cut_point_);
 }
 
@@ -415,8 +415,8 @@ void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
 
 void Bdf::start_value(double t)
 {
-  // One order more for BDF 2: behind an event the acceleration may begin at zero (breaking away from rest), and then the
-  // displacement of the first step is all local error.
+  // One order more for BDF 2: behind an event the acceleration may begin at zero (breaking away from rest), and then
+  // the displacement of the first step is all local error.
   const int          order = options_.order == 2 ? 3 : options_.order;
   const double       h     = options_.step;
   std::vector<Point> table(order, past(0)); // Neville's table, newest column in place

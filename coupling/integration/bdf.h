@@ -23,8 +23,8 @@ namespace gestell::coupling
  *
  * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
  * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not.
- * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as many
- * points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
+ * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as
+ * many points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
  *
  * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
  * max_halvings times; the grid stays as it was.

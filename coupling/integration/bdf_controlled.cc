@@ -60,8 +60,7 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
                              const std::vector<SpectrumLine> &spectrum)
     : system_(system), options_(checked(options, system, spectrum)), scale_(system, spectrum, options_.tolerance),
       limit_(spectrum, system.size() - scale_.massless(), options_.largest_step), implicit_(system, options_.newton),
-      virtual_rates_(system),
-      n_(system.size()), n_u_(system.directions().cols())
+      virtual_rates_(system), n_(system.size()), n_u_(system.directions().cols())
 {
   const Eigen::Index size = 2 * n_ + 4 * n_u_;
   differences_.resize(size);
@@ -162,7 +161,7 @@ void BdfControlled::restart()
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
   z_.tail(n_u_)                   = local_.p;
-  now_known_    = false;
+  now_known_                      = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();

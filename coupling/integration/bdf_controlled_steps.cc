@@ -208,14 +208,14 @@ void BdfControlled::change(int rung, int order)
   since_change_ = 0;
 }
 
-/// Where a force falls with the motion (dp/du > 0), the equation of a step has a pole, I - S dp singular, and near it and
-/// beyond it solutions that have nothing to do with the motion.  All pivots of I - S dp at the begin of the step being
-/// above a quarter, the solution goes at most some four times as far as it should.
+/// Where a force falls with the motion (dp/du > 0), the equation of a step has a pole, I - S dp singular, and near it
+/// and beyond it solutions that have nothing to do with the motion.  All pivots of I - S dp at the begin of the step
+/// being above a quarter, the solution goes at most some four times as far as it should.
 bool BdfControlled::is_sound(double h_beta)
 {
-  const double    inverse = 1. / h_beta, squared = h_beta * h_beta;
-  const StepForm  form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
-  const auto     &S = implicit_.condensed(form, work_).S;
+  const double   inverse = 1. / h_beta, squared = h_beta * h_beta;
+  const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
+  const auto    &S = implicit_.condensed(form, work_).S;
   dp_du_.setZero(); // what sticks writes nothing
   dp_dv_.setZero();
   point(z_begin_, t_end_, local_);

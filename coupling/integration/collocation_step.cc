@@ -58,16 +58,16 @@ public:
     x_begin_  = x;
     begin_at_ = at;
     context_.grow_scale(context_.scale, at.u, at.v, 0.);
-    tried_    = false;
+    tried_          = false;
     expected_until_ = -std::numeric_limits<double>::infinity();
-    h_last_   = 0.;
-    factors_  = nullptr;
+    h_last_         = 0.;
+    factors_        = nullptr;
   }
 
   bool solve(const StepTable &table, LocalState &end) override
   {
-    // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then scales
-    // are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
+    // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then
+    // scales are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
     if (tried_ && lu_.least_pivot() > 0.25 && begin_at_.t + h_ > expected_until_)
     {
       expected_       = reached_;
@@ -100,12 +100,12 @@ public:
     x_begin_.swap(x_end_);
     context_.scale = reached_;
     tried_         = false;
-    begin_at_.u = U_.col(s_ + 1);
-    begin_at_.v = V_.col(s_ + 1);
-    begin_at_.p = P_end_;
+    begin_at_.u    = U_.col(s_ + 1);
+    begin_at_.v    = V_.col(s_ + 1);
+    begin_at_.p    = P_end_;
     begin_at_.t += h_;
-    P_last_     = P_;
-    h_last_     = h_;
+    P_last_ = P_;
+    h_last_ = h_;
   }
 
   void   begin_state(VectorXd &x) const override { x = x_begin_; }
@@ -186,10 +186,8 @@ private:
       if (jacobian)
       {
         system.local_derivatives(node_, node_.p, dp_du_, dp_dv_);
-        lu_.matrix().middleRows(i * n_u_, n_u_).noalias() =
-            -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
-        lu_.matrix().middleRows(i * n_u_, n_u_).noalias() -=
-            dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
+        lu_.matrix().middleRows(i * n_u_, n_u_).noalias() = -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
+        lu_.matrix().middleRows(i * n_u_, n_u_).noalias() -= dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
       }
       else
         system.local_force(node_, node_.p);
@@ -211,7 +209,7 @@ private:
     if (!jacobian)
       return true;
     ++context_.work.newton;
-    factors_ = &table;
+    factors_   = &table;
     factors_h_ = table.h;
     return lu_.factorise(!context_.system->held().empty());
   }
@@ -269,9 +267,9 @@ private:
 
   void finish(const StepTable &table, LocalState &end)
   {
-    h_           = table.h;
-    U_.col(0)    = begin_at_.u;
-    V_.col(0)    = begin_at_.v;
+    h_        = table.h;
+    U_.col(0) = begin_at_.u;
+    V_.col(0) = begin_at_.v;
     end.t     = begin_at_.t + h_;
     P_end_.setZero();
     for (int j = 0; j < s_; ++j)
@@ -281,13 +279,14 @@ private:
     context_.system->local_force(end, end.p);
     ++context_.work.evaluations;
     if (!context_.system->held().empty())
-      context_.accelerate(x_end_, end); // so that the guards of what sticks see its force with the accuracy of the state
+      context_.accelerate(x_end_,
+                          end); // so that the guards of what sticks see its force with the accuracy of the state
     U_.col(s_ + 1) = end.u;
     V_.col(s_ + 1) = end.v;
     defect_        = end.p - P_end_;
     P_end_         = end.p;
     grow_scale(end.u, end.v, table.h);
-    error_ = 0.;
+    error_           = 0.;
     const Index last = s_ * n_u_;
     for (int r = 0; r < n_u_; ++r)
     {

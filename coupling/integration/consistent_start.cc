@@ -13,7 +13,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double closed         = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
+constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
 
 /// A coordinate without mass, or how the solver puts it.
 [[noreturn]] void refuse_singular(const SecondOrderSystem &system, const std::string &method, const std::string &why)
@@ -43,8 +43,8 @@ constexpr double closed         = 1e-10; ///< what joints may be open by, in m o
   int worst = 0;
   g.cwiseAbs().maxCoeff(&worst);
   std::ostringstream message;
-  message << "the joints cannot be closed at t = " << t << " s: " << system.constraint_name(worst)
-          << " stays open by " << g[worst] << " (m or rad); check positions and lengths";
+  message << "the joints cannot be closed at t = " << t << " s: " << system.constraint_name(worst) << " stays open by "
+          << g[worst] << " (m or rad); check positions and lengths";
   throw ConvergenceFailure(message.str());
 }
 

@@ -14,14 +14,15 @@ namespace gestell::coupling
  *     M a = f_t + W p(t, u, u', u'') - B q' - C q.
  *
  * Condensed to the measures, with D = W^T M^-1 W [n_u x n_u]:  u'' = u''_free + D p, which Newton solves where forces
- * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1); so do the
- * multipliers of ideal joints from g'' = G u'' + bias = 0,
+ * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1); so do
+ * the multipliers of ideal joints from g'' = G u'' + bias = 0,
  *
  *     G D G^T lambda = -bias - G (u''_free + D p),
  *
  * whose accuracy is that of q and q', whatever integrator they came from.
  *
- * With many joints the same equations are solved uncondensed, for a and lambda at once, by SaddleMatrix with A = M, f = 1.
+ * With many joints the same equations are solved uncondensed, for a and lambda at once, by SaddleMatrix with A = M, f
+ * = 1.
  *
  * Methods that carry the acceleration from step to step begin with it; M has to be regular for them.
  */
@@ -49,15 +50,15 @@ private:
   static constexpr int    max_iterations = 25;
 
   [[noreturn]] void fail_unconverged(double t) const;
-  void take_up_joints(LocalState &local);
-  void impulse_against(const LocalState &local);
-  void iterate(LocalState &local, IntegrationWork &work);
-  void condense();
-  void size_for_sparse();
-  void iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
-  void factorise_sparse(double t);
-  void move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
-  double largest_acceleration(const Eigen::VectorXd &p);
+  void              take_up_joints(LocalState &local);
+  void              impulse_against(const LocalState &local);
+  void              iterate(LocalState &local, IntegrationWork &work);
+  void              condense();
+  void              size_for_sparse();
+  void              iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
+  void              factorise_sparse(double t);
+  void              move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  double            largest_acceleration(const Eigen::VectorXd &p);
 
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;
@@ -65,8 +66,8 @@ private:
   SmallLu                       jacobian_;
   Eigen::VectorXd               f_, product_, a_free_, correction_, scale_;
   ConstraintJacobian            G_;
-  Eigen::MatrixXd               D_G_;  // D G^T [n_u x n_c]
-  SmallLu                       schur_; // G D G^T
+  Eigen::MatrixXd               D_G_;             // D G^T [n_u x n_c]
+  SmallLu                       schur_;           // G D G^T
   Eigen::VectorXd               g_, rate_, bias_; // [n_c]
   std::unique_ptr<SaddleMatrix> saddle_;          ///< null: condensed
   Eigen::VectorXd               tangent_;         ///< dp/du'' by blocks

@@ -37,7 +37,7 @@ void ConstraintJacobian::times_transposed(const Eigen::MatrixXd &S, Eigen::Matri
 {
   for (std::size_t i = 0; i < blocks_.size(); ++i)
   {
-    const ConstraintBlock &b                      = blocks_[i];
+    const ConstraintBlock &b = blocks_[i];
     product.middleCols(b.first_row, b.n_rows) =
         S.middleCols(b.first_measure, b.n_measures).lazyProduct((*this)[i].transpose());
   }

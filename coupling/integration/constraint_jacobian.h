@@ -33,7 +33,7 @@ public:
 
   const std::vector<ConstraintBlock> &blocks() const { return blocks_; }
   int                                 n_rows() const { return constraint_rows(blocks_); }
-  Block      operator[](std::size_t i) { return {values_.data() + first_[i], blocks_[i].n_rows, blocks_[i].n_measures}; }
+  Block operator[](std::size_t i) { return {values_.data() + first_[i], blocks_[i].n_rows, blocks_[i].n_measures}; }
   ConstBlock operator[](std::size_t i) const
   {
     return {values_.data() + first_[i], blocks_[i].n_rows, blocks_[i].n_measures};

@@ -103,14 +103,14 @@ private:
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
   std::vector<int>            end_group_; ///< and their groups
-  std::vector<int>            virtual_measures_; ///< their rates follow from them and are rounding in short steps: not judged
-  Eigen::VectorXd root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
-  Eigen::VectorXd q_begin_, v_begin_, u_begin_, rate_begin_;
-  Excursions      accepted_, reached_; ///< before and after the step that is considered
-  Excursions      expected_, scale_;   ///< of a step refused; reached or expected
-  double          t_ = 0., expected_until_ = 0.;
-  Eigen::VectorXd inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
-  mutable std::vector<double> sums_, sums_v_, changes_, moved_;      // [groups]
+  std::vector<int> virtual_measures_;     ///< their rates follow from them and are rounding in short steps: not judged
+  Eigen::VectorXd  root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
+  Eigen::VectorXd  q_begin_, v_begin_, u_begin_, rate_begin_;
+  Excursions       accepted_, reached_; ///< before and after the step that is considered
+  Excursions       expected_, scale_;   ///< of a step refused; reached or expected
+  double           t_ = 0., expected_until_ = 0.;
+  Eigen::VectorXd  inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
+  mutable std::vector<double> sums_, sums_v_, changes_, moved_;       // [groups]
 };
 
 /// Frequency [rad/s] of the slowest elastic mode of a spectrum; infinite if there is none.

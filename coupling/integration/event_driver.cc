@@ -131,7 +131,7 @@ double EventDriver::value_at(int guard, double t)
 void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
 {
   const double finest = resolution(high, high - low);
-  const double width = high - low;
+  const double width  = high - low;
   int          side   = 0;
   double       f_low = g_low, f_high = g_high;
   for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
@@ -139,8 +139,8 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
     double t = f_high - f_low > 0. ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
     if (!(t > low && t < high) || k % 8 == 7)
       t = 0.5 * (low + high);
-    const double g = value_at(guard, t);
-    const bool wide = high - low > 1e-3 * width; // below, the slope would be rounding
+    const double g    = value_at(guard, t);
+    const bool   wide = high - low > 1e-3 * width; // below, the slope would be rounding
     if (g < 0.)
     {
       if (wide)

@@ -27,11 +27,11 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
     : system_(system), options_(options), modes_(modal_blocks(system)), context_(system, modes_, options.newton)
 {
   const auto n_u = system.directions().cols();
-  force_ = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)
-                                                   : make_fused_step(context_, options.force);
-  Q_     = reordered(modes_.Q, context_.measures.n_p);
-  V_     = reordered(modes_.V, context_.measures.n_p);
-  step_  = options.step > 0. ? options.step : natural_step(modes_);
+  force_         = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)
+                                                           : make_fused_step(context_, options.force);
+  Q_             = reordered(modes_.Q, context_.measures.n_p);
+  V_             = reordered(modes_.V, context_.measures.n_p);
+  step_          = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(system);
   local_begin_.resize(system);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
@@ -42,8 +42,8 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
 
 void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  x_            = reordered(modes_.state(t, q, v).transpose(), context_.measures.n_p).transpose();
-  local_.t      = t;
+  x_                 = reordered(modes_.state(t, q, v).transpose(), context_.measures.n_p).transpose();
+  local_.t           = t;
   local_.u.noalias() = system_.directions().transpose() * q;
   local_.v.noalias() = system_.directions().transpose() * v;
   local_.p.setZero();

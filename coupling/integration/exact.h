@@ -24,18 +24,18 @@ namespace gestell::coupling
  *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
  *
  * Steps lie on the grid t_begin + k h / 2^r: behind an event a shorter step leads back to it, so that all others share
- * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where the
- * grid allows.
+ * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
+ * the grid allows.
  */
 class Exact : public TimeIntegrator
 {
 public:
   struct Options
   {
-    ForceRule     force        = ForceRule::collocation;
-    int           order        = 6;  ///< of collocation: 2, 4, 6 or 8
-    double        step         = 0.; ///< h [s], the largest one with a tolerance; 0 there: chosen from the lowest mode
-    double        tolerance    = 0.; ///< of the local error in the measures, relative to their largest excursion; 0: fixed
+    ForceRule     force     = ForceRule::collocation;
+    int           order     = 6;  ///< of collocation: 2, 4, 6 or 8
+    double        step      = 0.; ///< h [s], the largest one with a tolerance; 0 there: chosen from the lowest mode
+    double        tolerance = 0.; ///< of the local error in the measures, relative to their largest excursion; 0: fixed
     int           max_halvings = 24;
     NewtonOptions newton;
   };
@@ -46,15 +46,14 @@ public:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
   void advance() override;
 
-  const LocalState      &local() const override { return local_; }
-  const Instant         &instant() const override;
-  double                 step_begin() const override { return t_begin_; }
-  void                   interpolate(double t, LocalState &state) const override;
-  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
-  void                   motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q,
-                                   Eigen::VectorXd &v) const override;
-  void                   cut(double t) override;
-  void                   restart() override;
+  const LocalState &local() const override { return local_; }
+  const Instant    &instant() const override;
+  double            step_begin() const override { return t_begin_; }
+  void              interpolate(double t, LocalState &state) const override;
+  void              interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void cut(double t) override;
+  void restart() override;
   const IntegrationWork &work() const override { return context_.work; }
 
 private:
@@ -71,25 +70,25 @@ private:
     int     rung    = 0;
   };
 
-  Target           next_target() const;
-  const StepTable &table_for(const Target &target);
-  double           spacing(int rung) const { return std::ldexp(step_, -rung); }
-  bool             attempt(const Target &target);
-  void             start_piece();
-  void             turn_harmonics();
+  Target                 next_target() const;
+  const StepTable       &table_for(const Target &target);
+  double                 spacing(int rung) const { return std::ldexp(step_, -rung); }
+  bool                   attempt(const Target &target);
+  void                   start_piece();
+  void                   turn_harmonics();
   const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
-  [[noreturn]] void fail(const std::string &reason) const;
+  [[noreturn]] void      fail(const std::string &reason) const;
 
   const SecondOrderSystem   &system_;
   Options                    options_;
   ModalBlocks                modes_;
   ExactContext               context_;
   std::unique_ptr<ForceStep> force_;
-  RowMatrix                  Q_, V_; ///< [n x 2 n_p]
+  RowMatrix                  Q_, V_;  ///< [n x 2 n_p]
   std::map<int, StepTable>   tables_; ///< by rung
   StepTable                  partial_;
   double                     step_ = 0., t_origin_ = 0., t_begin_ = 0.;
-  double                     t_full_ = 0.; ///< end of the step before it was cut
+  double                     t_full_  = 0.; ///< end of the step before it was cut
   int64_t                    tick_    = 0;
   bool                       on_grid_ = true, cut_ = false, stepped_ = false;
   int                        rung_ = 0;

@@ -63,8 +63,8 @@ ModalMeasures::ModalMeasures(const ModalBlocks &modes, const SecondOrderSystem &
     : blocks(modes.blocks), n_p((int(modes.blocks.size()) + 3) / 4 * 4), n_modal(modes.n_modal)
 {
   blocks.resize(n_p, {ModalBlock::decaying, -1., -1.});
-  const MatrixXd W = MatrixXd(system.directions());
-  MatrixXd       G = MatrixXd::Zero(2 * Index(modes.blocks.size()), modes.Q.rows());
+  const MatrixXd W          = MatrixXd(system.directions());
+  MatrixXd       G          = MatrixXd::Zero(2 * Index(modes.blocks.size()), modes.Q.rows());
   G.topRows(modes.G.rows()) = modes.G;
   read_u                    = reordered(W.transpose() * modes.Q, n_p).transpose();
   read_v                    = reordered(W.transpose() * modes.V, n_p).transpose();
@@ -175,12 +175,10 @@ void StepTable::fill(const ModalMeasures &system, const ForceBasis &basis, doubl
         E(b, 3) = phi[0].a22;
       }
     }
-    S_u.middleRows(i * n_u, n_u).noalias() = system.read_u.transpose() * weighted_.leftCols(n_basis * n_u);
-    S_v.middleRows(i * n_u, n_u).noalias() = system.read_v.transpose() * weighted_.leftCols(n_basis * n_u);
-    row_constant.segment(i * 2 * n_u, n_u).noalias() =
-        system.read_u.transpose() * weighted_.col(n_basis * n_u);
-    row_constant.segment(i * 2 * n_u + n_u, n_u).noalias() =
-        system.read_v.transpose() * weighted_.col(n_basis * n_u);
+    S_u.middleRows(i * n_u, n_u).noalias()           = system.read_u.transpose() * weighted_.leftCols(n_basis * n_u);
+    S_v.middleRows(i * n_u, n_u).noalias()           = system.read_v.transpose() * weighted_.leftCols(n_basis * n_u);
+    row_constant.segment(i * 2 * n_u, n_u).noalias() = system.read_u.transpose() * weighted_.col(n_basis * n_u);
+    row_constant.segment(i * 2 * n_u + n_u, n_u).noalias() = system.read_v.transpose() * weighted_.col(n_basis * n_u);
     if (i + 1 == n_points)
     {
       in       = weighted_.leftCols(n_basis * n_u);
@@ -191,7 +189,7 @@ void StepTable::fill(const ModalMeasures &system, const ForceBasis &basis, doubl
 
 void StepTable::carry(const VectorXd &x, VectorXd &x_end) const
 {
-  const auto n = E.rows();
+  const auto n          = E.rows();
   x_end.head(n).array() = E.col(0).array() * x.head(n).array() + E.col(1).array() * x.tail(n).array();
   x_end.tail(n).array() = E.col(2).array() * x.head(n).array() + E.col(3).array() * x.tail(n).array();
 }
@@ -200,7 +198,7 @@ void carry_inside(const ModalMeasures &system, const ForceBasis &basis, double t
                   VectorXd &x)
 {
   const int    n_p = system.n_p, n_u = int(system.put.cols()), degree = int(basis.l.cols()) - 1;
-  const double share = tau / h;
+  const double share         = tau / h;
   double       factorial[10] = {1.};
   for (int m = 1; m < 10; ++m)
     factorial[m] = factorial[m - 1] * m;

@@ -93,8 +93,8 @@ void ExactContext::grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eig
 {
   constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < u.size(); ++i)
-    grown[i] = std::max({grown[i], std::abs(u[i] - u_begin[i]), h * std::abs(v[i]),
-                         rounding / newton.tolerance * std::abs(u[i])});
+    grown[i] = std::max(
+        {grown[i], std::abs(u[i] - u_begin[i]), h * std::abs(v[i]), rounding / newton.tolerance * std::abs(u[i])});
 }
 
 HermiteNodes::HermiteNodes(std::vector<double> sigma)

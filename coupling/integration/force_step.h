@@ -26,10 +26,11 @@ struct ExactContext
   void grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
                   const Eigen::Ref<const Eigen::VectorXd> &v, double h) const;
 
-  /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps their
-  /// u'' zero.
+  /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps
+  /// their u'' zero.
   void accelerate(const Eigen::VectorXd &x, LocalState &local);
-  /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes only.
+  /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes
+  /// only.
   void project_held(Eigen::VectorXd &x, LocalState &local);
 
 private:

@@ -22,9 +22,9 @@ struct FusedPass
 template <int N>
 void fused_pass(const FusedPass &pass, const double *y_0, const double *p, double *y, double *free)
 {
-  using Packet        = Eigen::Array<double, 4, 1>;
-  using In            = Eigen::Map<const Packet>;
-  using Out           = Eigen::Map<Packet>;
+  using Packet         = Eigen::Array<double, 4, 1>;
+  using In             = Eigen::Map<const Packet>;
+  using Out            = Eigen::Map<Packet>;
   const Eigen::Index n = pass.E->rows(), column = 2 * n;
   const double      *E = pass.E->data(), *F = pass.F->data(), *C = pass.read->data(), *c = pass.constant->data();
   Packet             sum[2 * N];
@@ -52,7 +52,7 @@ void fused_pass(const FusedPass &pass, const double *y_0, const double *p, doubl
 /// For any number of measures.
 inline void fused_pass_any(const FusedPass &pass, const double *y_0, const double *p, double *y, double *free)
 {
-  const Eigen::Index n = pass.E->rows(), n_f = pass.F->cols(), n_r = pass.read->cols();
+  const Eigen::Index                     n = pass.E->rows(), n_f = pass.F->cols(), n_r = pass.read->cols();
   const Eigen::Map<const Eigen::ArrayXd> x_1(y_0, n), x_2(y_0 + n, n);
   Eigen::Map<Eigen::VectorXd>            out(y, 2 * n), result(free, n_r);
   out = *pass.constant;

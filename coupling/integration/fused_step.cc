@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
-constexpr int    pieces_at_kinks     = 128; ///< of the way of a step: the energy of a contact is met to some 1e-5
+constexpr int    pieces_at_kinks     = 128;  ///< of the way of a step: the energy of a contact is met to some 1e-5
 constexpr double noticeable          = 1e-2; ///< departure of a law from a parabola, relative to its force
 
 /**
@@ -176,13 +176,20 @@ private:
     double *y = y_end_.data(), *free = free_.data();
     switch (n_u_)
     {
-    case 1: return fused_pass<1>(pass, y_0, p, y, free);
-    case 2: return fused_pass<2>(pass, y_0, p, y, free);
-    case 3: return fused_pass<3>(pass, y_0, p, y, free);
-    case 4: return fused_pass<4>(pass, y_0, p, y, free);
-    case 5: return fused_pass<5>(pass, y_0, p, y, free);
-    case 6: return fused_pass<6>(pass, y_0, p, y, free);
-    default: return fused_pass_any(pass, y_0, p, y, free);
+    case 1:
+      return fused_pass<1>(pass, y_0, p, y, free);
+    case 2:
+      return fused_pass<2>(pass, y_0, p, y, free);
+    case 3:
+      return fused_pass<3>(pass, y_0, p, y, free);
+    case 4:
+      return fused_pass<4>(pass, y_0, p, y, free);
+    case 5:
+      return fused_pass<5>(pass, y_0, p, y, free);
+    case 6:
+      return fused_pass<6>(pass, y_0, p, y, free);
+    default:
+      return fused_pass_any(pass, y_0, p, y, free);
     }
   }
 
@@ -228,8 +235,8 @@ private:
     return false;
   }
 
-  /// After mean_of_law(1): the law at the ends of the way is not what its values and slope at the second Gauss point and
-  /// the value at the first say of it, up to the second degree.
+  /// After mean_of_law(1): the law at the ends of the way is not what its values and slope at the second Gauss point
+  /// and the value at the first say of it, up to the second degree.
   bool kink_on_the_way()
   {
     end_.u = node_.u;
@@ -249,7 +256,8 @@ private:
       const double second = way_.p[r], bend = (first_.p[r] - second + slope * distance) / (distance * distance);
       const double at_end = second + slope * far + bend * far * far, way = 1. - far;
       const double at_begin = second - slope * way + bend * way * way;
-      const double size = std::max({std::abs(first_.p[r]), std::abs(second), std::abs(end_.p[r]), std::abs(at_begin_.p[r])});
+      const double size =
+          std::max({std::abs(first_.p[r]), std::abs(second), std::abs(end_.p[r]), std::abs(at_begin_.p[r])});
       if (std::max(std::abs(at_end - end_.p[r]), std::abs(at_begin - at_begin_.p[r])) > noticeable * size)
         return true;
     }
@@ -274,14 +282,14 @@ private:
         mean_of_law(pieces_at_kinks);
     }
     change_ -= p_;
-    MatrixXd &J   = lu_.matrix();
-    J.noalias()   = -dp_du_.lazyProduct(S_u_);
+    MatrixXd &J = lu_.matrix();
+    J.noalias() = -dp_du_.lazyProduct(S_u_);
     J.noalias() -= dp_dv_.lazyProduct(S_v_);
     J.diagonal().array() += 1.;
     for (const HeldMeasure &held : system.held())
     {
-      change_[held.measure]     = held.rate - node_.v[held.measure];
-      J.row(held.measure) = S_v_.row(held.measure);
+      change_[held.measure] = held.rate - node_.v[held.measure];
+      J.row(held.measure)   = S_v_.row(held.measure);
     }
   }
 
@@ -301,7 +309,7 @@ private:
       double size = 0.;
       for (int r = 0; r < n_u_; ++r)
       {
-        const double du = std::max(std::abs(S_u_(r, r)), h_ * std::abs(S_v_(r, r))) * std::abs(change_[r]);
+        const double du    = std::max(std::abs(S_u_(r, r)), h_ * std::abs(S_v_(r, r))) * std::abs(change_[r]);
         const double scale = std::max(context_.scale[r], h_ * std::abs(node_.v[r]));
         if (du != 0.)
           size = std::max(size, du / std::max(scale, du));

@@ -23,12 +23,12 @@ InterpolationWeights hermite_weights(const double *t_i, int n, double t)
         slope_own += inverse;
         L *= (t - t_i[j]) * inverse;
       }
-    const double d            = t - t_i[i];
-    weights.lagrange[i]       = L;
-    weights.value[i]          = (1. - 2. * d * slope_own) * L * L;
-    weights.slope[i]          = d * L * L;
-    weights.rate_value[i]     = -2. * slope_own * L * L + (1. - 2. * d * slope_own) * 2. * L * slope_here;
-    weights.rate_slope[i]     = L * L + d * 2. * L * slope_here;
+    const double d        = t - t_i[i];
+    weights.lagrange[i]   = L;
+    weights.value[i]      = (1. - 2. * d * slope_own) * L * L;
+    weights.slope[i]      = d * L * L;
+    weights.rate_value[i] = -2. * slope_own * L * L + (1. - 2. * d * slope_own) * 2. * L * slope_here;
+    weights.rate_slope[i] = L * L + d * 2. * L * slope_here;
   }
   return weights;
 }

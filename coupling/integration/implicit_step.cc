@@ -10,11 +10,11 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double rounding            = 8. * std::numeric_limits<double>::epsilon();
-constexpr double joint_rounding      = 8.;   ///< times that of one number: several terms, enlarged by levers
-constexpr double share_of_joints     = 1e-3; ///< of the tolerance
-constexpr double finest_tolerance    = 1e-13;
-constexpr double weak_lever          = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
+constexpr double rounding         = 8. * std::numeric_limits<double>::epsilon();
+constexpr double joint_rounding   = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double share_of_joints  = 1e-3; ///< of the tolerance
+constexpr double finest_tolerance = 1e-13;
+constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
 } // namespace
 
 namespace
@@ -148,8 +148,8 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local)
 {
   const double left = rounding / options_.tolerance;
   for (Eigen::Index i = 0; i < scale_.size(); ++i)
-    scale_[i] = std::max({scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]),
-                          left * std::abs(local.u[i])});
+    scale_[i] = std::max(
+        {scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]), left * std::abs(local.u[i])});
   double of_joints = 0.;
   for (std::size_t b = 0; b < G_.blocks().size(); ++b)
   {
@@ -220,7 +220,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
-    singular_ = !jacobian_.factorise(!held.empty());
+    singular_   = !jacobian_.factorise(!held.empty());
     if (singular_)
       return false;
     jacobian_.solve_in_place(correction_);

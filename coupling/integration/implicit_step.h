@@ -13,9 +13,9 @@ namespace gestell::coupling
 
 struct NewtonOptions
 {
-  double tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
-  int    max_iterations = 25;
-  JointSolver joints    = JointSolver::automatic; ///< of systems with ideal joints
+  double      tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
+  int         max_iterations = 25;
+  JointSolver joints         = JointSolver::automatic; ///< of systems with ideal joints
 };
 
 /**
@@ -42,17 +42,18 @@ struct StepForm
  *     xi = W^T x_free + S p(xi),
  *
  * which is (5.5.3/7) in the measures; x = x_free + Y p follows.  A measure that is held has xi given by its rate and p
- * as unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their measures: Newton's
- * matrix is bordered,
+ * as unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their measures:
+ * Newton's matrix is bordered,
  *
  *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g,
  *
- * and solved by its Schur complement w_u G (I - S p')^-1 S G^T [n_c x n_c], which scales with the step by itself.  How G
- * turns within an iteration (lambda g'') is left out of it: that is of the order of h^2 lambda/m against 1.
+ * and solved by its Schur complement w_u G (I - S p')^-1 S G^T [n_c x n_c], which scales with the step by itself.  How
+ * G turns within an iteration (lambda g'') is left out of it: that is of the order of h^2 lambda/m against 1.
  *
  * One factorisation of A and n_u solves per StepForm, kept for later use.
  *
- * With many joints all that is dense is too much.  Newton then works on motion and multipliers at once, with SaddleMatrix:
+ * With many joints all that is dense is too much.  Newton then works on motion and multipliers at once, with
+ * SaddleMatrix:
  *
  *     K [dx, f d_lambda, f d_p_h] = [f_x + f W p - A x,  -g/w_u,  xi_h - W_h^T x],     xi = W^T x,
  *
@@ -69,17 +70,17 @@ public:
   {
     StepForm                      form;
     std::unique_ptr<LinearSolver> solver; ///< null, and Y, S empty, if is_sparse()
-    Eigen::MatrixXd               Y; // [n x n_u]
-    Eigen::MatrixXd               S; // [n_u x n_u]
+    Eigen::MatrixXd               Y;      // [n x n_u]
+    Eigen::MatrixXd               S;      // [n_u x n_u]
   };
   const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
   /// True: solve() wants a prediction of the whole x, too.
   bool is_sparse() const { return saddle_ != nullptr; }
 
-  /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures, local.lambda that of joints;
-  /// base holds u_0, v_0, a_0 and the time t.  local is the solution on return.  If is_sparse(), x is the prediction
-  /// that counts.
+  /// Solves for x [n].  local.u holds the prediction on entry, local.p that of held measures, local.lambda that of
+  /// joints; base holds u_0, v_0, a_0 and the time t.  local is the solution on return.  If is_sparse(), x is the
+  /// prediction that counts.
   /// @throws ConvergenceFailure
   void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
              LocalState &local, IntegrationWork &work);
@@ -90,16 +91,16 @@ public:
 private:
   static constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
 
-  bool take_up_joints(const Condensed &condensed, const LocalState &local);
-  void grow_scale(const StepForm &form, const LocalState &local);
-  bool iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
-  void size_for_sparse();
-  bool iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
-                      LocalState &local, IntegrationWork &work);
-  bool factorise_sparse(IntegrationWork &work);
-  void add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const;
+  bool   take_up_joints(const Condensed &condensed, const LocalState &local);
+  void   grow_scale(const StepForm &form, const LocalState &local);
+  bool   iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
+  void   size_for_sparse();
+  bool   iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
+                        LocalState &local, IntegrationWork &work);
+  bool   factorise_sparse(IntegrationWork &work);
+  void   add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const;
   double size_of_correction() const;
-  void motion(const StepForm &form, const LocalState &base, LocalState &local) const;
+  void   motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
 
   const SecondOrderSystem                   &system_;
@@ -117,7 +118,7 @@ private:
   std::unique_ptr<SaddleMatrix>              saddle_;            ///< null: condensed
   Eigen::VectorXd                            tangent_;           ///< p' by blocks
   Eigen::VectorXd                            y_;                 ///< [n + n_c + n_h] residual, then correction
-  double                                     contraction_; ///< of Newton's corrections, as seen last
+  double                                     contraction_;       ///< of Newton's corrections, as seen last
 };
 
 /// Tells which measures that stick leave their forces undetermined.

@@ -17,8 +17,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double finest = 1e-13; ///< tolerances below are rounding
-constexpr double newton_part = 1e-2; ///< Newton's tolerance in units of that of the error
+constexpr double finest      = 1e-13; ///< tolerances below are rounding
+constexpr double newton_part = 1e-2;  ///< Newton's tolerance in units of that of the error
 
 template <typename Value>
 void require(bool valid, const std::string &method, const char *parameter, Value value, const char *needed)
@@ -70,8 +70,8 @@ std::string method_name(const MethodOptions &o)
 
 void check_method(const MethodOptions &o)
 {
-  const std::string name = method_name(o);
-  const bool controllable = o.method == Method::bdf || o.method == Method::exact;
+  const std::string name         = method_name(o);
+  const bool        controllable = o.method == Method::bdf || o.method == Method::exact;
   require(o.step >= 0. && std::isfinite(o.step), name, "step [s]", o.step, "positive");
   require(o.tolerance >= 0. && o.tolerance < 1., name, "tolerance", o.tolerance, "between 0 and 1");
   require(o.tolerance == 0. || controllable, name, "tolerance", o.tolerance,

@@ -32,12 +32,12 @@ enum class ForceRule
 struct MethodOptions
 {
   Method        method       = Method::bdf;
-  int           order        = 2;    ///< bdf: 1..6, the highest with a tolerance; exact by collocation: 2, 4, 6, 8
-  double        beta         = 0.25; ///< newmark, >= 0
-  double        gamma        = 0.5;  ///< newmark
-  double        theta        = 1.4;  ///< wilson, >= 1
+  int           order        = 2;     ///< bdf: 1..6, the highest with a tolerance; exact by collocation: 2, 4, 6, 8
+  double        beta         = 0.25;  ///< newmark, >= 0
+  double        gamma        = 0.5;   ///< newmark
+  double        theta        = 1.4;   ///< wilson, >= 1
   double        alpha        = -0.05; ///< hht, in [-1/3, 0]
-  double        rho_inf      = 0.8;  ///< generalised alpha, in [0, 1]
+  double        rho_inf      = 0.8;   ///< generalised alpha, in [0, 1]
   ForceRule     force        = ForceRule::collocation;
   double        step         = 0.; ///< [s]; fixed, or the largest one if a tolerance is given
   double        tolerance    = 0.; ///< of the local error, relative to the scales of the motion; 0: fixed step

@@ -18,11 +18,11 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double no_stiffness   = 1e-13; ///< eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
-constexpr double no_coupling    = 1e-13; ///< off-diagonal of the modal damping against its diagonals
-constexpr double no_damping     = 1e-13; ///< modal damping against the largest
-constexpr double resonance      = 1e-8;  ///< |i Omega - lambda| / Omega below which the forced motion has no digits left
-constexpr double coinciding     = 1e10;  ///< condition of the eigenvectors
+constexpr double no_stiffness = 1e-13; ///< eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
+constexpr double no_coupling  = 1e-13; ///< off-diagonal of the modal damping against its diagonals
+constexpr double no_damping   = 1e-13; ///< modal damping against the largest
+constexpr double resonance    = 1e-8;  ///< |i Omega - lambda| / Omega below which the forced motion has no digits left
+constexpr double coinciding   = 1e10;  ///< condition of the eigenvectors
 constexpr double critical_ratio = 1e-12; ///< distance kept from critical damping, where two eigenvectors coincide
 
 [[noreturn]] void refuse(const std::string &reason)
@@ -75,9 +75,9 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
   MatrixXd                                                 R = orthonormal(motions_without_stiffness(C), M);
   if (R.cols() > 1) // apart: those that B lets go and those it damps
     R = R * Eigen::SelfAdjointEigenSolver<MatrixXd>(R.transpose() * B * R).eigenvectors();
-  modes.n_free                                               = int(R.cols());
-  modes.Phi                                                  = solver.eigenvectors();
-  modes.omega = solver.eigenvalues().unaryExpr([](double x) { return std::sqrt(std::max(0., x)); });
+  modes.n_free = int(R.cols());
+  modes.Phi    = solver.eigenvectors();
+  modes.omega  = solver.eigenvalues().unaryExpr([](double x) { return std::sqrt(std::max(0., x)); });
   if (R.cols() == 0)
     return modes;
   modes.omega.head(R.cols()).setZero();
@@ -109,9 +109,9 @@ void add_real_mode(const VectorXd &phi, const VectorXd &M_phi, double omega, dou
   if (omega == 0. && delta == 0.)
   {
     to.blocks.push_back({ModalBlock::free, 0., 0.});
-    to.Q.col(column)         = phi;
-    to.V.col(column + 1)     = phi;
-    to.from_q.row(column)    = M_phi;
+    to.Q.col(column)          = phi;
+    to.V.col(column + 1)      = phi;
+    to.from_q.row(column)     = M_phi;
     to.from_v.row(column + 1) = M_phi;
     return;
   }
@@ -149,12 +149,12 @@ void add_real_mode(const VectorXd &phi, const VectorXd &M_phi, double omega, dou
 void add_coupled_modes(const MatrixXd &Phi, const MatrixXd &M_Phi, const VectorXd &omega, const MatrixXd &D,
                        Assembly &to)
 {
-  const auto   n = Phi.cols();
+  const auto   n   = Phi.cols();
   Eigen::Index n_0 = 0; // without stiffness, first
   while (n_0 < n && omega[n_0] == 0.)
     ++n_0;
   const auto n_s = n - n_0, size = n_s + n;
-  MatrixXd   A = MatrixXd::Zero(size, size);
+  MatrixXd   A              = MatrixXd::Zero(size, size);
   A.bottomRightCorner(n, n) = -D;
   for (Eigen::Index i = 0; i < n_s; ++i)
   {
@@ -218,11 +218,11 @@ void add_coupled_modes(const MatrixXd &Phi, const MatrixXd &M_Phi, const VectorX
       displacement(j, n_complex + Eigen::Index(i)) = velocity(j, n_complex + Eigen::Index(i)) / real[i];
 
   // All columns, the zero eigenvalues last.
-  const auto total = size + n_0;
+  const auto total   = size + n_0;
   MatrixXd   all_eta = MatrixXd::Zero(n, total), all_rate = MatrixXd::Zero(n, total);
-  all_eta.leftCols(size)                     = displacement;
+  all_eta.leftCols(size) = displacement;
   all_eta.topRightCorner(n_0, n_0).setIdentity();
-  all_rate.leftCols(size)                    = velocity;
+  all_rate.leftCols(size) = velocity;
   MatrixXd from_eta = MatrixXd::Zero(total, n), from_rate = MatrixXd::Zero(total, n);
   for (Eigen::Index i = 0; i < n_s; ++i)
     from_eta.col(n_0 + i).head(size) = inverse.col(i) * omega[n_0 + i];
@@ -246,7 +246,7 @@ void add_coupled_modes(const MatrixXd &Phi, const MatrixXd &M_Phi, const VectorX
 /// Forced motion x_p = Re((i Omega - Lambda)^-1 G F e^(i Omega t)) of one harmonic: columns for cos and sin.
 void add_harmonic(const Excitation::Harmonic &harmonic, ModalBlocks &to, Eigen::Index column)
 {
-  const double omega = harmonic.omega;
+  const double omega  = harmonic.omega;
   VectorXd     cosine = VectorXd::Zero(to.G.rows()), sine = cosine;
   for (const Excitation::Entry &entry : harmonic.load)
   {
@@ -276,16 +276,16 @@ void add_harmonic(const Excitation::Harmonic &harmonic, ModalBlocks &to, Eigen::
                  "another method";
       refuse(message.str());
     }
-    const Eigen::Matrix2d K = Lambda * Lambda + omega * omega * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d K   = Lambda * Lambda + omega * omega * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d f_c = cosine.segment<2>(2 * b), f_s = sine.segment<2>(2 * b);
-    c.segment<2>(2 * b)       = K.fullPivLu().solve(-Lambda * f_c - omega * f_s);
-    s.segment<2>(2 * b)       = (Lambda * c.segment<2>(2 * b) + f_c) / omega;
+    c.segment<2>(2 * b) = K.fullPivLu().solve(-Lambda * f_c - omega * f_s);
+    s.segment<2>(2 * b) = (Lambda * c.segment<2>(2 * b) + f_c) / omega;
   }
-  const auto modal         = to.G.rows();
-  to.Q.col(column)         = to.Q.leftCols(modal) * c;
-  to.Q.col(column + 1)     = to.Q.leftCols(modal) * s;
-  to.V.col(column)         = omega * to.Q.col(column + 1);
-  to.V.col(column + 1)     = -omega * to.Q.col(column);
+  const auto modal     = to.G.rows();
+  to.Q.col(column)     = to.Q.leftCols(modal) * c;
+  to.Q.col(column + 1) = to.Q.leftCols(modal) * s;
+  to.V.col(column)     = omega * to.Q.col(column + 1);
+  to.V.col(column + 1) = -omega * to.Q.col(column);
 }
 
 } // namespace
@@ -346,12 +346,12 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system)
                       D(coupled, coupled), assembly);
 
   ModalBlocks result;
-  const auto &harmonics = system.excitation().harmonics();
-  const auto  n_x       = 2 * (n + Eigen::Index(harmonics.size()));
-  result.blocks         = assembly.blocks;
-  result.n_modal        = int(n);
-  result.Q              = MatrixXd::Zero(n, n_x);
-  result.V              = MatrixXd::Zero(n, n_x);
+  const auto &harmonics    = system.excitation().harmonics();
+  const auto  n_x          = 2 * (n + Eigen::Index(harmonics.size()));
+  result.blocks            = assembly.blocks;
+  result.n_modal           = int(n);
+  result.Q                 = MatrixXd::Zero(n, n_x);
+  result.V                 = MatrixXd::Zero(n, n_x);
   result.Q.leftCols(2 * n) = assembly.Q;
   result.V.leftCols(2 * n) = assembly.V;
   result.from_q            = assembly.from_q;

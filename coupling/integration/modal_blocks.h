@@ -40,9 +40,9 @@ struct ModalBlock
 struct ModalBlocks
 {
   std::vector<ModalBlock> blocks;
-  int                     n_modal = 0; ///< blocks of the system itself; those of harmonics follow
-  Eigen::MatrixXd         Q, V;        ///< [n x 2 n_b]
-  Eigen::MatrixXd         G;           ///< [2 n_modal x n]
+  int                     n_modal = 0;    ///< blocks of the system itself; those of harmonics follow
+  Eigen::MatrixXd         Q, V;           ///< [n x 2 n_b]
+  Eigen::MatrixXd         G;              ///< [2 n_modal x n]
   Eigen::MatrixXd         from_q, from_v; ///< x = from_q q + from_v q' of the modal blocks [2 n_modal x n]
   std::vector<double>     harmonics;      ///< omega of the blocks behind the modal ones
 

@@ -63,9 +63,10 @@ Newmark::Newmark(const SecondOrderSystem &system, const Options &options)
 {
   if (system.n_constraints() > 0 && (options.beta == 0. || options.gamma <= 0.5))
     throw std::invalid_argument(
-        options.beta == 0. ? "central differences: the position of ideal joints depends on no unknown of the step; take bdf"
-                           : "Newmark: without numerical damping the forces of ideal joints oscillate from step to step "
-                             "for ever; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0");
+        options.beta == 0.
+            ? "central differences: the position of ideal joints depends on no unknown of the step; take bdf"
+            : "Newmark: without numerical damping the forces of ideal joints oscillate from step to step "
+              "for ever; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0");
   for (Eigen::VectorXd *x : {&f_, &mean_, &product_, &x_})
     x->setZero(system.size());
   base_.resize(system);

@@ -63,8 +63,8 @@ inline double reciprocal(double z)
   return 1. / z;
 }
 
-constexpr double inverse_factorial[] = {1.,         1.,         1. / 2.,     1. / 6.,      1. / 24.,     1. / 120.,
-                                        1. / 720.,  1. / 5040., 1. / 40320., 1. / 362880., 1. / 3628800.};
+constexpr double inverse_factorial[] = {1.,        1.,         1. / 2.,     1. / 6.,      1. / 24.,     1. / 120.,
+                                        1. / 720., 1. / 5040., 1. / 40320., 1. / 362880., 1. / 3628800.};
 
 /// phi_0 .. phi_k of a number: backwards from a series where |z| is small, forwards elsewhere.
 template <typename Number>
@@ -78,8 +78,8 @@ void phi_of(const Number &z, int k, Number *phi)
   {
     // phi_k = sum_m z^m/(k + m)!, and phi_i-1 = z phi_i + 1/(i - 1)!
     Number term = z, sum = z;
-    term        = scaled(z, inverse_factorial[k] / (k + 1));
-    sum         = term + inverse_factorial[k];
+    term = scaled(z, inverse_factorial[k] / (k + 1));
+    sum  = term + inverse_factorial[k];
     for (int m = 2; m < 60; ++m)
     {
       term = scaled(term * z, 1. / (k + m));

@@ -37,7 +37,8 @@ enum class JointSolver
  * few fill-in (CAMD), serves while G turns.  A coordinate on which very many joints act (a frame) would couple all of
  * them, and comes after them.  KLU (Davis & Palamadai Natarajan, ACM TOMS 37(3), 2010): made for matrices of a few
  * numbers per row, without dense kernels and their overhead; klu_refactor() allocates nothing; unsymmetric p', as
- * friction has, is no other case.  A factor with other pivots is made (and memory taken) only where the kept ones fail or a step did.
+ * friction has, is no other case.  A factor with other pivots is made (and memory taken) only where the kept ones fail
+ * or a step did.
  */
 class SaddleMatrix
 {

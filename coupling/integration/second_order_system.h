@@ -97,8 +97,8 @@ public:
   /// M, B, C as dense matrices [n x n], for integrators that work in the modes of the base system; false: too large.
   virtual bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const;
 
-  /// M, B, C as sparse matrices [n x n] that are cheap to factorise anew in every step, for systems of many joints; false:
-  /// there are no such, and joints are solved condensed to the measures.
+  /// M, B, C as sparse matrices [n x n] that are cheap to factorise anew in every step, for systems of many joints;
+  /// false: there are no such, and joints are solved condensed to the measures.
   virtual bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                Eigen::SparseMatrix<double> &C) const;
 
@@ -115,8 +115,8 @@ public:
                                  Eigen::MatrixXd &dp_dv) const = 0;
   /// The force elements, joints not among them, in the order of local_tangent_blocks(); needed with sparse_matrices().
   virtual const std::vector<ForceBlock> &force_blocks() const;
-  /// As local_tangent(), where n_u^2 numbers are too many: the blocks of dp, column by column, one behind the other; that
-  /// of a held measure is zero.
+  /// As local_tangent(), where n_u^2 numbers are too many: the blocks of dp, column by column, one behind the other;
+  /// that of a held measure is zero.
   virtual void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                                     Eigen::VectorXd &blocks) const;
   /// Measures that stick in the branches that are active now; changed by start(), transition(), restore_history().
@@ -146,7 +146,8 @@ public:
   virtual void constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const;
   /// What g' = G u' + rate and g'' = G u'' + bias have beyond the first terms, [n_c] each.
   virtual void constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const;
-  /// Somebody looks at the multipliers: those of index 3 carry rounding enlarged by 1/h^2, and are found from g'' = 0 then.
+  /// Somebody looks at the multipliers: those of index 3 carry rounding enlarged by 1/h^2, and are found from g'' = 0
+  /// then.
   virtual bool wants_multipliers() const { return false; }
   /// Joint and direction of row i, for messages: "crank pin, along x".
   virtual std::string constraint_name(int i) const;

@@ -25,13 +25,13 @@ public:
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
 
-  /// False: singular, which is when a pivot is rounding of the row it stands in; or, where nothing sticks and `redundant`
-  /// rows cannot be, only when it is zero.
+  /// False: singular, which is when a pivot is rounding of the row it stands in; or, where nothing sticks and
+  /// `redundant` rows cannot be, only when it is zero.
   bool factorise(bool redundant = true)
   {
     constexpr double rounding = 1e-14;
     const int        n        = static_cast<int>(pivot_.size());
-    least_ = n > 0 ? a_(0, 0) : 1.;
+    least_                    = n > 0 ? a_(0, 0) : 1.;
     row_size_.setZero();
     for (int j = 0; redundant && j < n; ++j)
       row_size_ = row_size_.cwiseMax(a_.col(j).cwiseAbs());
@@ -48,7 +48,7 @@ public:
       }
       pivot_[k] = pivot;
       idle_[k]  = below == 0.;
-      failed_ = k;
+      failed_   = k;
       if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
         return false;
       least_ = std::min(least_, pivot == k ? a_(k, k) : -1.);
@@ -71,8 +71,8 @@ public:
     return true;
   }
 
-  /// Of the matrix factorised last; negative where rows were interchanged.  For I - S dp above 1/4: its solution goes at
-  /// most some four times as far as the motion, as it may near the pole that a force has that falls with the motion.
+  /// Of the matrix factorised last; negative where rows were interchanged.  For I - S dp above 1/4: its solution goes
+  /// at most some four times as far as the motion, as it may near the pole that a force has that falls with the motion.
   double least_pivot() const { return least_; }
 
   /// Where factorise() found the matrix singular: a column that depends on those before it.

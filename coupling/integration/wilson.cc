@@ -19,8 +19,9 @@ Wilson::Wilson(const SecondOrderSystem &system, const Options &options)
     : OneStep(system, "Wilson", checked(options).step, options.max_halvings, options.newton), theta_(options.theta)
 {
   if (system.n_constraints() > 0)
-    throw std::invalid_argument("Wilson: it closes ideal joints at t + theta h, so that they drift apart at the ends of "
-                                "its steps; take bdf or generalised-alpha");
+    throw std::invalid_argument(
+        "Wilson: it closes ideal joints at t + theta h, so that they drift apart at the ends of "
+        "its steps; take bdf or generalised-alpha");
   for (Eigen::VectorXd *x : {&f_, &q_, &v_, &product_, &x_})
     x->setZero(system.size());
   for (LocalState *state : {&base_, &ahead_})

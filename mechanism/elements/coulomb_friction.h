@@ -95,7 +95,7 @@ private:
   }
 
   static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[1]); }
-  double engagement(double t, bool by_history, const double *history) const
+  double             engagement(double t, bool by_history, const double *history) const
   {
     const Profile &e = parameters_.engagement;
     return e.value(by_history ? piece_of(history) : e.piece_at(t), t);

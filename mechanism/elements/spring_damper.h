@@ -30,7 +30,7 @@ public:
   void law(const Measures<Number> &m, const double *, Number *p) const
   {
     const auto &[c, b, F_0, u_0] = parameters_;
-    p[0] = -(F_0 + c * (m.u[0] - u_0) + b * m.v[0]);
+    p[0]                         = -(F_0 + c * (m.u[0] - u_0) + b * m.v[0]);
   }
 
   void                  engaged(const double *u, double *K, double *D) const override;

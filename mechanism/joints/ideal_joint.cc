@@ -40,8 +40,8 @@ void IdealJoint::constraint(const LocalMotion &motion, const double *history, do
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
-    const auto      s = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G + i, n_c).s;
-    g[i]              = s - equation.offset - (equation.driven ? f : 0.);
+    const auto      s        = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G + i, n_c).s;
+    g[i]                     = s - equation.offset - (equation.driven ? f : 0.);
   }
 }
 
@@ -55,8 +55,8 @@ void IdealJoint::constraint_rates(const LocalMotion &motion, const double *histo
   for (int i = 0; i < n_constraints(); ++i)
   {
     const Equation &equation = equations_[i];
-    bias[i] = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G).bias;
-    rate[i] = 0.;
+    bias[i]                  = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G).bias;
+    rate[i]                  = 0.;
     if (!equation.driven)
       continue;
     rate[i] = -f.rate;

@@ -12,8 +12,8 @@ namespace gestell::mechanism
 {
 
 /**
- * An ideal joint between two places on two bodies: equations g(t, u) = s(u) - f(t) = 0 of their measures u = (u_1, u_2),
- * in relative measures s such as a . (x_2 - x_1) or |x_2 - x_1|.
+ * An ideal joint between two places on two bodies: equations g(t, u) = s(u) - f(t) = 0 of their measures u = (u_1,
+ * u_2), in relative measures s such as a . (x_2 - x_1) or |x_2 - x_1|.
  *
  * f is constant, or follows a MotionLaw: then the joint is a drive, whose work is an input.  The multiplier lambda_i is
  * the force [N] (torque [N m]) that drives s up: of `along` the force on body 2 along a, of `distance` the push of the
@@ -26,10 +26,10 @@ class IdealJoint : public ForceElement
 public:
   struct Equation
   {
-    std::string     name;            ///< for messages and signals: "fx"
-    std::string     unit = "N";      ///< of its multiplier
-    RelativeMeasure measure;         ///< s
-    double          offset = 0.;     ///< f(t) = offset, + law(t) if driven
+    std::string     name;        ///< for messages and signals: "fx"
+    std::string     unit = "N";  ///< of its multiplier
+    RelativeMeasure measure;     ///< s
+    double          offset = 0.; ///< f(t) = offset, + law(t) if driven
     bool            driven = false;
   };
 
@@ -43,23 +43,22 @@ public:
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
 
-  void        constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
-  void        constraint_rates(const LocalMotion &motion, const double *history, double *rate,
-                               double *bias) const override;
-  double      constraint_size() const override;
-  void        geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  void   constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
+  void   constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const override;
+  double constraint_size() const override;
+  void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
   std::string constraint_name(int i) const override { return equations_[i].name; }
 
   Work work() const override { return law_ ? Work::input : Work::dissipated; }
 
   /// History, corners and commands are those of the law.
-  int                n_history() const override { return law_ ? law_->n_history() : 0; }
-  void               start(const LocalMotion &motion, double *history) const override;
-  int                n_guards(const double *history) const override;
-  std::vector<Guard> guards(const double *history) const override;
-  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void               transition(int i, const LocalMotion &motion, double *history) const override;
-  bool               command(const std::string &order, const LocalMotion &motion, double *history) const override;
+  int                      n_history() const override { return law_ ? law_->n_history() : 0; }
+  void                     start(const LocalMotion &motion, double *history) const override;
+  int                      n_guards(const double *history) const override;
+  std::vector<Guard>       guards(const double *history) const override;
+  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                     transition(int i, const LocalMotion &motion, double *history) const override;
+  bool                     command(const std::string &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
 
   /// Signals: every multiplier by the name of its equation, then "resultant": of all that are forces.

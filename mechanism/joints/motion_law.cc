@@ -50,9 +50,9 @@ BrakedMotion::BrakedMotion(const Parameters &parameters) : parameters_(parameter
   require(std::abs(sum - 1.) < 1e-9, "braked motion", "sum of the shares of its ramps", sum, "1");
   std::sort(corners_.begin(), corners_.end());
   const double same = 1e-12 * corners_.back();
-  corners_.erase(std::unique(corners_.begin(), corners_.end(),
-                             [same](double a, double b) { return std::abs(a - b) <= same; }),
-                 corners_.end());
+  corners_.erase(
+      std::unique(corners_.begin(), corners_.end(), [same](double a, double b) { return std::abs(a - b) <= same; }),
+      corners_.end());
 }
 
 void BrakedMotion::start(double t, double *history) const
@@ -82,8 +82,8 @@ PrescribedMotion BrakedMotion::at(double t, const double *history) const
     break;
   }
   PrescribedMotion motion{x + v * tau, v, 0.};
-  const double     middle = ended ? tau
-                                  : 0.5 * ((stage > 0 ? corners_[stage - 1] : 0.) + corners_[stage]); // tells which ramps act
+  const double     middle =
+      ended ? tau : 0.5 * ((stage > 0 ? corners_[stage - 1] : 0.) + corners_[stage]); // tells which ramps act
   for (const Ramp &part : ramps)
   {
     const double at = (tau - part.delay) / T, now = (middle - part.delay) / T;

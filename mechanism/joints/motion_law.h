@@ -13,8 +13,8 @@ struct PrescribedMotion
 };
 
 /**
- * A prescribed motion, smooth between corners.  Where it stands (which stage, since when, from where) is history, as that
- * of a ForceElement: corners and commands lead from one stage to the next.
+ * A prescribed motion, smooth between corners.  Where it stands (which stage, since when, from where) is history, as
+ * that of a ForceElement: corners and commands lead from one stage to the next.
  */
 class MotionLaw
 {
@@ -79,12 +79,12 @@ public:
   /// @throws std::invalid_argument for a duration that is not positive, or shares that do not add up to one
   explicit BrakedMotion(const Parameters &parameters);
 
-  int                      n_history() const override { return 3; } ///< corners passed since the order, t_brake, f there
-  void                     start(double t, double *history) const override;
-  PrescribedMotion         at(double t, const double *history) const override;
-  bool                     next_corner(const double *history, double &t, std::string &name) const override;
-  void                     pass_corner(double t, double *history) const override;
-  bool                     command(const std::string &order, double t, double *history) const override;
+  int              n_history() const override { return 3; } ///< corners passed since the order, t_brake, f there
+  void             start(double t, double *history) const override;
+  PrescribedMotion at(double t, const double *history) const override;
+  bool             next_corner(const double *history, double &t, std::string &name) const override;
+  void             pass_corner(double t, double *history) const override;
+  bool             command(const std::string &order, double t, double *history) const override;
   std::vector<std::string> commands() const override { return {"brake"}; }
 
 private:

@@ -1,4 +1,5 @@
-// The mobile crane, built in a scene from bodies, joints, wheels and a switch, against its reference (tests/reference/crane).
+// The mobile crane, built in a scene from bodies, joints, wheels and a switch, against its reference
+// (tests/reference/crane).
 
 #include "coupling/modes.h"
 #include "tests/apps/csv_table.h"
@@ -24,7 +25,7 @@ std::string with_step(const std::string &step)
 /// Largest deviation of the times of all events from those of the reference.
 double event_error(const SceneRun &run, const std::string &wheels)
 {
-  const CsvTable           events(reference + "events.csv");
+  const CsvTable   events(reference + "events.csv");
   std::vector<int> rows;
   for (int i = 0; i < events.rows(); ++i)
     if (events.text(i, "wheel_model") == wheels)
@@ -34,7 +35,7 @@ double event_error(const SceneRun &run, const std::string &wheels)
                                                     {"cylinder braking_ends", "brake_end"},
                                                     {"rear lift_off", "lift_off_rear"},
                                                     {"rear touch_down", "touch_down_rear"}};
-  double error = 0.;
+  double                                   error = 0.;
   for (std::size_t i = 0; i < std::min(rows.size(), run.result.events.size()); ++i)
   {
     const auto &event = run.result.events[i];
@@ -82,7 +83,8 @@ TEST(Crane, ErrorsFallWithTheSquareOfTheStep)
 
 TEST(Crane, GeneralisedAlphaFindsTheSame)
 {
-  const SceneRun run("crane_minimal.toml", {"run.method=\"generalised-alpha\"", "run.rho_inf=0.9", with_step("0.2 ms")});
+  const SceneRun run("crane_minimal.toml",
+                     {"run.method=\"generalised-alpha\"", "run.rho_inf=0.9", with_step("0.2 ms")});
   EXPECT_LT(event_error(run, "bilateral"), 1e-6);
   EXPECT_LT(peak_error(run, "bilateral"), 1e-5);
 }
@@ -97,12 +99,13 @@ TEST(Crane, TyresThatLiftOff)
 // Equilibrium and drift are given as numbers in the reference: q to 16 digits, v to 12.
 TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
 {
-  const apps::Scene scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
-                                             {"start.rule=\"static\"", "start.drift=true"});
+  const apps::Scene scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+                                               {"start.rule=\"static\"", "start.drift=true"});
   coupling::Machine machine = apps::build_machine(scene);
   const auto        start   = apps::initial_state(scene, machine);
-  const auto        lift = machine.measure("q1").evaluate(start.q, start.v), rope = machine.measure("q3").evaluate(start.q, start.v);
-  const int         pitch = machine.coordinate("chassis.angle");
+  const auto        lift    = machine.measure("q1").evaluate(start.q, start.v),
+             rope           = machine.measure("q3").evaluate(start.q, start.v);
+  const int pitch           = machine.coordinate("chassis.angle");
   EXPECT_NEAR(lift.s, -0.0417471501960756, 1e-13);
   EXPECT_NEAR(start.q[pitch], -0.0110552957824447, 1e-13);
   EXPECT_NEAR(rope.s, 0., 1e-13);
@@ -113,15 +116,14 @@ TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
 // Stage 3 of the reference: the cylinder stands at 2.752989795 m, the load hangs at rest.
 TEST(Crane, NaturalFrequenciesAboutItsEquilibrium)
 {
-  const apps::Scene scene =
-      apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
-                       {"start.rule=\"static\"", "joint.cylinder.length=\"2.752989795 m\""});
+  const apps::Scene scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+                                               {"start.rule=\"static\"", "joint.cylinder.length=\"2.752989795 m\""});
   coupling::Machine machine = apps::build_machine(scene);
   const auto        modes   = coupling::coupled_modes(machine, apps::modes_configuration(scene, machine), {}, 20);
   // frequency [Hz] undamped and damped, damping ratio; q4 is given to 1e-9 m, which moves frequencies by some 1e-9
-  const double expected[3][3] = {{0.404110925659008, 0.404116784280382, 0.0040894005004324},
-                                 {1.24538338664754, 1.24458868789087, 0.0351425609221216},
-                                 {2.60460937346, 2.59659464702923, 0.0783594082436467}};
+  const double                expected[3][3] = {{0.404110925659008, 0.404116784280382, 0.0040894005004324},
+                                                {1.24538338664754, 1.24458868789087, 0.0351425609221216},
+                                                {2.60460937346, 2.59659464702923, 0.0783594082436467}};
   std::vector<coupling::Mode> vibrating; // the load moves freely out of the plane
   for (const auto &mode : modes)
     if (mode.frequency_hz > 0.01 && std::abs(mode.shape[machine.coordinate("load.uy")]) < 1e-6)

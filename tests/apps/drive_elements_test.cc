@@ -123,9 +123,10 @@ TEST_P(Drives, WithADynamicCharacteristicVibrateAgainstTheirRotor)
 
 TEST(DynamicMotor, StartsSteadilyWithItsStationaryTorque)
 {
-  const SceneRun motion = run(rotor(3., "20 ms") + "T = \"motor.torque\"\nS = \"motor.stationary_torque\"\n" + motor,
-                              {"start={ rule = \"steady\", angles = { shaft = 0 }, speeds = { shaft = 150 }, driver = \"shaft\" }",
-                               "element.load={ type = \"force profile\", from = \"shaft\", profile = -100 }"});
+  const SceneRun motion =
+      run(rotor(3., "20 ms") + "T = \"motor.torque\"\nS = \"motor.stationary_torque\"\n" + motor,
+          {"start={ rule = \"steady\", angles = { shaft = 0 }, speeds = { shaft = 150 }, driver = \"shaft\" }",
+           "element.load={ type = \"force profile\", from = \"shaft\", profile = -100 }"});
   EXPECT_NEAR(motion.signal("T").max, motion.signal("S").max, 1e-2);
   EXPECT_GT(motion.signal("T").min, 100.);
 }
@@ -148,7 +149,8 @@ TEST(DynamicMotor, IsRefusedByMethodsThatNeedMass)
 TEST(DynamicMotor, WithAShortTimeConstantIsTheStationaryOne)
 {
   const SceneRun stationary("press_minimal.toml");
-  const SceneRun dynamic("press_minimal.toml", {"element.motor.type=dynamic motor", "element.motor.time_constant=1 us"});
+  const SceneRun dynamic("press_minimal.toml",
+                         {"element.motor.type=dynamic motor", "element.motor.time_constant=1 us"});
   EXPECT_EQ(dynamic.n, stationary.n + 1);
   EXPECT_NEAR(dynamic.signal("F_P").max, stationary.signal("F_P").max, 1e-6 * stationary.signal("F_P").max);
   EXPECT_NEAR(dynamic.signal("M_mot").max, stationary.signal("M_mot").max, 1e-4 * stationary.signal("M_mot").max);

@@ -154,7 +154,7 @@ depth      = "30 mm"
 v = { slide = "2 m/s" }
 )",
                               settings);
-  const double rise = 0.5e-3, drawn = (100. - 0.5 * 2e4 * rise) / 2e4;
+  const double   rise = 0.5e-3, drawn = (100. - 0.5 * 2e4 * rise) / 2e4;
   EXPECT_NEAR(motion.signal("x").max, 5e-3 + rise + drawn, 1e-8);
   EXPECT_NEAR(motion.signal("v").final, -2e4 / std::sqrt(4e7 * 50.), 1e-5);
   EXPECT_NEAR(motion.result.energy.dissipated, 2e4 * drawn, 1e-3 * 2e4 * drawn);

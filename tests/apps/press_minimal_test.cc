@@ -125,11 +125,11 @@ TEST(PressMinimal, EnergyIsBalancedToTheSecondOrderOfTheStep)
 
 TEST(PressMinimal, FrequenciesMeetTheReference)
 {
-  const Scene             scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
+  const Scene       scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
   coupling::Machine machine = build_machine(scene);
-  const auto     modes = coupling::coupled_modes(machine, modes_configuration(scene, machine), scene.modes.open, 5);
-  const CsvTable reference(source + "/tests/reference/press/modes.csv");
-  int            j = 0;
+  const auto        modes = coupling::coupled_modes(machine, modes_configuration(scene, machine), scene.modes.open, 5);
+  const CsvTable    reference(source + "/tests/reference/press/modes.csv");
+  int               j = 0;
   for (int row = 0; row < reference.rows(); ++row)
     if (reference.text(row, "position") == "20deg_before_BDC")
     {
@@ -147,11 +147,11 @@ TEST(PressMinimal, FrequenciesMeetTheReference)
 
 TEST(PressMinimal, OpenPlayMeetsTheReferenceToo)
 {
-  const Scene             scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
+  const Scene       scene   = read_scene(source + "/apps/scenes/press_minimal.toml");
   coupling::Machine machine = build_machine(scene);
-  const auto              modes   = coupling::coupled_modes(machine, modes_configuration(scene, machine), {"rod"}, 5);
-  const CsvTable          reference(source + "/tests/reference/press/modes.csv");
-  int                     j = 0;
+  const auto        modes   = coupling::coupled_modes(machine, modes_configuration(scene, machine), {"rod"}, 5);
+  const CsvTable    reference(source + "/tests/reference/press/modes.csv");
+  int               j = 0;
   for (int row = 0; row < reference.rows(); ++row)
     if (reference.text(row, "position") == "20deg_before_BDC_gap_open")
     {

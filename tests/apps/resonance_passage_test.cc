@@ -39,7 +39,7 @@ TEST(ResonancePassage, PeaksMeetTheExactOnes)
     for (const std::string wave : {"cos", "sin"})
     {
       const double time = row.number("t_peak_" + wave + "*omega0"), peak = row.number("peak_" + wave);
-      const auto   x    = run(passage(zeta, alpha, wave, time + 20.)).signal("x");
+      const auto   x       = run(passage(zeta, alpha, wave, time + 20.)).signal("x");
       const double largest = std::max(x.max, -x.min), at = x.max > -x.min ? x.t_max : x.t_min;
       // 0.1 % is asked for; the tolerance of the step leaves less than 1e-5.
       EXPECT_NEAR(largest, peak, 1e-5 * peak) << wave << ", zeta " << zeta << ", alpha " << alpha;

@@ -1,5 +1,5 @@
-// Steps of the integrators on the synthetic reduced frames of apps/scenes/benchmark, beside a plain condensed BDF2 with a
-// dense Newton in the interface's coordinates, and beside a dense 200 x 200 product on the same machine.
+// Steps of the integrators on the synthetic reduced frames of apps/scenes/benchmark, beside a plain condensed BDF2 with
+// a dense Newton in the interface's coordinates, and beside a dense 200 x 200 product on the same machine.
 
 #include "apps/scene/build_machine.h"
 #include "apps/scene/scene.h"
@@ -22,14 +22,14 @@ constexpr long   steps = 20000; // of one run: 0.2 s of motion
 
 coupling::Machine frame(int m)
 {
-  return apps::build_machine(apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/benchmark/m" +
-                                              std::to_string(m) + ".toml"));
+  return apps::build_machine(
+      apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/benchmark/m" + std::to_string(m) + ".toml"));
 }
 
 void step(benchmark::State &state, coupling::MethodOptions method)
 {
-  coupling::Machine machine = frame(static_cast<int>(state.range(0)));
-  method.step               = h;
+  coupling::Machine machine       = frame(static_cast<int>(state.range(0)));
+  method.step                     = h;
   const auto           integrator = coupling::make_integrator(machine, method);
   const VectorXd       rest       = VectorXd::Zero(machine.size());
   coupling::LocalState local;
@@ -75,15 +75,15 @@ void plain_condensed_bdf2(benchmark::State &state)
   const int         n = machine.size(), n_N = machine.n_interface(), n_L = n - n_N;
   MatrixXd          M, B, C;
   machine.dense_matrices(M, B, C);
-  const double   b = 2. / 3. * h;
-  const MatrixXd A = M + b * B + b * b * C;
+  const double   b          = 2. / 3. * h;
+  const MatrixXd A          = M + b * B + b * b * C;
   const VectorXd inverse_LL = A.bottomRightCorner(n_L, n_L).diagonal().cwiseInverse();
   const MatrixXd G          = inverse_LL.asDiagonal() * A.bottomLeftCorner(n_L, n_N);
   const MatrixXd A_red      = A.topLeftCorner(n_N, n_N) - A.topRightCorner(n_N, n_L) * G;
   const MatrixXd W = MatrixXd(machine.directions()), W_N = W.topRows(n_N);
   const auto     n_u = W.cols();
 
-  VectorXd             q(n), q_1(n), q_2(n), w_1(n), w_2(n), h_q(n), h_w(n), f(n), load(n), product(n), q_N(n_N), r(n_N);
+  VectorXd q(n), q_1(n), q_2(n), w_1(n), w_2(n), h_q(n), h_w(n), f(n), load(n), product(n), q_N(n_N), r(n_N);
   coupling::LocalState local;
   machine.gather(0., VectorXd::Zero(n), VectorXd::Zero(n), VectorXd::Zero(n), local);
   MatrixXd                      dp = MatrixXd::Zero(n_u, n_u), J(n_N, n_N);
@@ -100,10 +100,10 @@ void plain_condensed_bdf2(benchmark::State &state)
       done = 0;
     }
     ++done;
-    h_q    = (4. / 3.) * q_1 - (1. / 3.) * q_2;
-    h_w    = (4. / 3.) * w_1 - (1. / 3.) * w_2;
-    g      = (4. / 3.) * u_1 - (1. / 3.) * u_2;
-    g_rate = (4. / 3.) * v_1 - (1. / 3.) * v_2;
+    h_q     = (4. / 3.) * q_1 - (1. / 3.) * q_2;
+    h_w     = (4. / 3.) * w_1 - (1. / 3.) * w_2;
+    g       = (4. / 3.) * u_1 - (1. / 3.) * u_2;
+    g_rate  = (4. / 3.) * v_1 - (1. / 3.) * v_2;
     local.t = double(done) * h;
     machine.excitation().at(local.t, load);
     machine.mass_times(h_q, f);
@@ -125,8 +125,8 @@ void plain_condensed_bdf2(benchmark::State &state)
       if (step.cwiseAbs().maxCoeff() <= 1e-10 * (1e-6 + q_N.cwiseAbs().maxCoeff()))
         break;
     }
-    q.head(n_N)           = q_N;
-    q.tail(n_L)           = inverse_LL.cwiseProduct(f.tail(n_L));
+    q.head(n_N) = q_N;
+    q.tail(n_L) = inverse_LL.cwiseProduct(f.tail(n_L));
     q.tail(n_L).noalias() -= G * q_N;
     machine.stiffness_times(q, product);
     w_2 = w_1;
@@ -160,6 +160,9 @@ BENCHMARK_CAPTURE(step, bdf2, bdf2())->Arg(20)->Arg(50)->Arg(200)->Iterations(20
 BENCHMARK_CAPTURE(step, exact_linear, exact(ForceRule::linear))->Arg(20)->Arg(50)->Arg(200)->Iterations(200000);
 BENCHMARK_CAPTURE(step, exact_average, exact(ForceRule::average))->Arg(20)->Arg(50)->Arg(200)->Iterations(200000);
 BENCHMARK_CAPTURE(step, exact_collocation_6, exact(ForceRule::collocation))
-    ->Arg(20)->Arg(50)->Arg(200)->Iterations(200000);
+    ->Arg(20)
+    ->Arg(50)
+    ->Arg(200)
+    ->Iterations(200000);
 
 } // namespace

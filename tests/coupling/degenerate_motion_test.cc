@@ -86,18 +86,18 @@ TEST(Simulation, ThatGrowsBeyondAllNumbersStopsAndSaysSo)
   const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
   machine.add_linear("spring", {{x, 1.}}, 100., 0., 0., 0., "N");
   machine.finish();
-  RunOptions run     = options(Method::central_difference, 0.3); // omega h = 3
-  run.end            = 500.;
-  run.force_unstable = true;
+  RunOptions run         = options(Method::central_difference, 0.3); // omega h = 3
+  run.end                = 500.;
+  run.force_unstable     = true;
   const RunResult result = simulate(machine, {0., Vector::Ones(1), Vector::Zero(1)}, run, {});
   EXPECT_NE(result.failure.find("beyond all numbers"), std::string::npos) << result.failure;
 }
 
 TEST(Simulation, AMassThatSticksCostsNoSearchForKinks)
 {
-  Machine    machine = rubbed(1, 1.);
-  RunOptions run     = options(Method::exact, 1e-3, ForceRule::average);
-  run.end            = 0.1; // 10 N sin(4 t) stays below 6 N
+  Machine    machine     = rubbed(1, 1.);
+  RunOptions run         = options(Method::exact, 1e-3, ForceRule::average);
+  run.end                = 0.1; // 10 N sin(4 t) stays below 6 N
   const RunResult result = simulate(machine, rest, run, {});
   EXPECT_LT(result.work.evaluations, 10 * result.work.steps);
 }

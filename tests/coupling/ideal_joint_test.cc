@@ -121,8 +121,8 @@ Errors four_bar_errors(int N, const MethodOptions &method)
   static const auto rows    = read_reference("dae/a02_n_four_bar.csv");
   Machine           machine = n_four_bar(N);
   const auto        v       = swinging_four_bars(machine);
-  Errors errors;
-  int    found = 0;
+  Errors            errors;
+  int               found = 0;
   run(machine, Eigen::VectorXd::Zero(machine.size()), v, method, 2., 0.25,
       [&](double t, const Machine &m, const auto &q, const auto &v, const auto &local)
       {
@@ -130,10 +130,9 @@ Errors four_bar_errors(int N, const MethodOptions &method)
           if (r.number("N") == N && std::abs(r.number("t") - t) < 1e-9)
           {
             ++found;
-            errors.q = std::max(errors.q, std::abs(value(m, "crank 0.angle", q, v, local) +
-                                                   r.number("phi_clockwise_from_upright")));
-            errors.v =
-                std::max(errors.v, std::abs(value(m, "crank 0.speed", q, v, local) + r.number("phi_dot")) / 6.);
+            errors.q = std::max(
+                errors.q, std::abs(value(m, "crank 0.angle", q, v, local) + r.number("phi_clockwise_from_upright")));
+            errors.v = std::max(errors.v, std::abs(value(m, "crank 0.speed", q, v, local) + r.number("phi_dot")) / 6.);
           }
       });
   EXPECT_EQ(found, 9);
@@ -183,7 +182,7 @@ Errors slider_crank_errors(const std::string &name, const MethodOptions &method)
   const auto        p       = slider_crank_case(name);
   Machine           machine = slider_crank(p);
   const auto        v       = slider_crank_velocity(p, name == "crank1" ? 30. : 5.);
-  Errors errors, largest;
+  Errors            errors, largest;
   run(machine, Eigen::VectorXd::Zero(machine.size()), v, method, 0.5, 0.1,
       [&](double t, const Machine &m, const auto &q, const auto &v, const auto &local)
       {
@@ -260,12 +259,12 @@ TEST(Assembly, ClosesJointsAndKeepsWhatIsGiven)
   coupling::KnownStart known;
   known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
   known.q_given.assign(machine.size(), 0);
-  known.v_given = known.q_given;
-  const int angle = machine.coordinate("crank 1.angle");
+  known.v_given        = known.q_given;
+  const int angle      = machine.coordinate("crank 1.angle");
   known.state.q[angle] = -0.7;
   known.state.v[angle] = -2.;
   known.q_given[angle] = known.v_given[angle] = 1;
-  const auto start = coupling::assemble(machine, known);
+  const auto start                            = coupling::assemble(machine, known);
   EXPECT_EQ(start.q[angle], -0.7);
   EXPECT_EQ(start.v[angle], -2.);
   for (const std::string crank : {"crank 0", "crank 2"}) // parallel, on the branch nearest to the drawing

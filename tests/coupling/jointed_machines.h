@@ -83,7 +83,7 @@ inline Machine pendulum()
   Machine machine;
   machine.set_gravity({0., -9.81, 0.});
   machine.add_point("bob", 1., {-1., 0., 0.});
-  const auto                      ground = machine.place("ground", {0., 0., 0.}), bob = machine.place("bob", {-1., 0., 0.});
+  const auto ground = machine.place("ground", {0., 0., 0.}), bob = machine.place("bob", {-1., 0., 0.});
   mechanism::IdealJoint::Equation rod;
   rod.name         = "force";
   rod.measure.form = RelativeMeasure::Form::distance;
@@ -135,16 +135,16 @@ inline Eigen::VectorXd swinging_four_bars(const Machine &machine)
 /// A03: Andrews' squeezer in its start position, driven by 0.033 N m.
 inline Machine andrews_squeezer()
 {
-  const double m[]  = {.04325, .00365, .02373, .00706, .07050, .00706, .05498},
-               I[]  = {2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5};
-  const double xa = -.06934, ya = -.00227, xb = -.03635, yb = .03273, xc = .014, yc = .072, d = .028, da = .0115, e = .02,
-               ea = .01421, rr = .007, ra = .00092, ss = .035, sa = .01874, sb = .01043, sc = .018, sd = .02, ta = .02308,
-               tb = .00916, u = .04, ua = .01228, ub = .00449, zf = .02, zt = .04, fa = .01421;
+  const double m[] = {.04325, .00365, .02373, .00706, .07050, .00706, .05498},
+               I[] = {2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5};
+  const double xa = -.06934, ya = -.00227, xb = -.03635, yb = .03273, xc = .014, yc = .072, d = .028, da = .0115,
+               e = .02, ea = .01421, rr = .007, ra = .00092, ss = .035, sa = .01874, sb = .01043, sc = .018, sd = .02,
+               ta = .02308, tb = .00916, u = .04, ua = .01228, ub = .00449, zf = .02, zt = .04, fa = .01421;
   const double beta = -0.0617138900142764496358948458001, Theta = 0., gamma = 0.455279819163070380255912382449,
                Phi = 0.222668390165885884674473185609, delta = 0.487364979543842550225598953530, Omega = -Phi,
                epsilon = 1.23054744454982119249735015568;
-  const auto c = [](double x) { return std::cos(x); };
-  const auto s = [](double x) { return std::sin(x); };
+  const auto       c   = [](double x) { return std::cos(x); };
+  const auto       s   = [](double x) { return std::sin(x); };
   const PlanePoint O{}, A{xa, ya}, B0{xb, yb}, C{xc, yc};
   const double     bT = beta + Theta, Pd = Phi + delta, Oe = Omega + epsilon;
   const PlanePoint pin{rr * c(beta), rr * s(beta)};
@@ -219,12 +219,13 @@ inline Machine slider_crank(const SliderCrankParameters &p, double friction = 0.
 /// Its velocities for an angular velocity omega [rad/s] of the crank, slider guided.
 inline Eigen::VectorXd slider_crank_velocity(const SliderCrankParameters &p, double omega)
 {
-  const double    psi = -std::asin(p.r * std::sin(p.phi) / p.l);
+  const double    psi      = -std::asin(p.r * std::sin(p.phi) / p.l);
   const double    psi_rate = -p.r * std::cos(p.phi) * omega / (p.l * std::cos(psi));
   const double    px = -p.r * std::sin(p.phi) * omega, py = p.r * std::cos(p.phi) * omega;
   const double    ex = px - p.l * std::sin(psi) * psi_rate;
   Eigen::VectorXd v(9);
-  v << p.centre_1 * px, p.centre_1 * py, omega, px + p.centre_2 * (ex - px), py * (1. - p.centre_2), psi_rate, ex, 0., 0.;
+  v << p.centre_1 * px, p.centre_1 * py, omega, px + p.centre_2 * (ex - px), py * (1. - p.centre_2), psi_rate, ex, 0.,
+      0.;
   return v;
 }
 

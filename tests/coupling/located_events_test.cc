@@ -90,11 +90,11 @@ std::vector<Event> run(SecondOrderSystem &system, const MethodOptions &method, c
 MethodOptions exact(double tolerance)
 {
   MethodOptions method;
-  method.method             = Method::exact;
-  method.order              = 6;
-  method.step               = 0.02;
-  method.tolerance          = tolerance;
-  method.newton.tolerance   = 1e-13;
+  method.method           = Method::exact;
+  method.order            = 6;
+  method.step             = 0.02;
+  method.tolerance        = tolerance;
+  method.newton.tolerance = 1e-13;
   return method;
 }
 
@@ -153,9 +153,9 @@ Machine rubbing_mass(const Rubbing &r)
   machine.add_linear("spring", {{x, 1.}}, 100., r.c, 0., 0., "N");
   if (r.F != 0.)
     machine.add_load("drive", {{x, 1.}}, 0., {{r.Omega, r.F, M_PI / 2.}}, "N");
-  machine.attach("belt",
-                 std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{r.R, r.R0, r.belt}),
-                 {{{x, 1.}}});
+  machine.attach(
+      "belt", std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{r.R, r.R0, r.belt}),
+      {{{x, 1.}}});
   machine.finish();
   return machine;
 }
@@ -179,8 +179,7 @@ TEST_P(StickSlip, EventsAreRightToTheNanosecond)
   const Rubbing &r        = GetParam();
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
-  const auto     found    = times(
-      run(machine, exact(1e-12), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
+  const auto     found = times(run(machine, exact(1e-12), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-9) << i;
@@ -191,7 +190,7 @@ TEST_P(StickSlip, Bdf2FindsTheSameEvents)
   const Rubbing &r        = GetParam();
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
-  const auto found = times(run(machine, bdf2(1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
+  const auto     found = times(run(machine, bdf2(1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-4 * r.end) << i; // the phase of BDF2 lags by (omega h)^2/3 = 3e-7

@@ -13,7 +13,7 @@ long allocations = 0;
 } // namespace
 
 // Eigen and operator new both take their memory by malloc; glibc keeps its own under another name.
-extern "C" void *__libc_malloc(std::size_t size);
+extern "C" void                                        *__libc_malloc(std::size_t size);
 extern "C" __attribute__((visibility("default"))) void *malloc(std::size_t size)
 {
   ++allocations;

@@ -79,12 +79,7 @@ TEST(Run, ForcesAtRowsAreThoseOfTheBranchTheyLieOn)
   for (std::size_t i = 0; i < result.rows.size(); i += result.columns.size())
   {
     const double x = result.rows[i + 1], p = result.rows[i + 2];
-    EXPECT_NEAR(p,
-                x > gap    ? wall * (x - gap)
-                : x < -gap ? wall * (x + gap)
-                           : 0.,
-                1e-6 * wall * gap)
-        << result.rows[i];
+    EXPECT_NEAR(p, x > gap ? wall * (x - gap) : x < -gap ? wall * (x + gap) : 0., 1e-6 * wall * gap) << result.rows[i];
   }
 }
 

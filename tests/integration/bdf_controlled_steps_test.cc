@@ -170,15 +170,15 @@ TEST(BdfControlled, BeginsFromRestWhateverPowerTheLoadGrowsWith)
 
 TEST(BdfControlled, IsNotDeceivedByStepsNearThePoleOfAFallingCharacteristic)
 {
-  // u'' = k u = cosh: where h_b^2 k comes near 1, a trial step is large without bound, and refused.  k over one octave of
-  // steps, so that some come near.
+  // u'' = k u = cosh: where h_b^2 k comes near 1, a trial step is large without bound, and refused.  k over one octave
+  // of steps, so that some come near.
   for (const double tolerance : {1e-4, 1e-6})
     for (int i = 0; i < 50; ++i)
     {
-      const double k = 1024. * std::pow(4., (i + 0.5) / 50.), w = std::sqrt(k - 1e-6);
-      const auto   system = oscillator(1., 0., 1e-6,
-                                     [k](double u, double, double &p, double &dp_du, double &dp_dv)
-                                     {
+      const double           k = 1024. * std::pow(4., (i + 0.5) / 50.), w = std::sqrt(k - 1e-6);
+      const auto             system = oscillator(1., 0., 1e-6,
+                                                 [k](double u, double, double &p, double &dp_du, double &dp_dv)
+                                                 {
                                        p     = k * u;
                                        dp_du = k;
                                        dp_dv = 0.;

@@ -26,11 +26,11 @@ SmallSystem driven_chain()
   SmallSystem system(M, B, C);
   system.set_load(
       [=](double t) -> Vector
-  {
-    const Eigen::Vector2d q(std::sin(2. * t), std::exp(-t)), v(2. * std::cos(2. * t), -std::exp(-t)),
-        a(-4. * std::sin(2. * t), std::exp(-t));
-    return M * a + B * v + C * q;
-  });
+      {
+        const Eigen::Vector2d q(std::sin(2. * t), std::exp(-t)), v(2. * std::cos(2. * t), -std::exp(-t)),
+            a(-4. * std::sin(2. * t), std::exp(-t));
+        return M * a + B * v + C * q;
+      });
   return system;
 }
 

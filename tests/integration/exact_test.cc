@@ -44,7 +44,8 @@ std::pair<double, double> free_motion(double w, double zeta, double q0, double v
   const std::complex<double> root = std::sqrt(std::complex<double>(zeta * zeta - 1.));
   const std::complex<double> a = w * (-zeta + root), b = w * (-zeta - root);
   const std::complex<double> A = (v0 - b * q0) / (a - b), B = q0 - A;
-  return {(A * std::exp(a * t) + B * std::exp(b * t)).real(), (A * a * std::exp(a * t) + B * b * std::exp(b * t)).real()};
+  return {(A * std::exp(a * t) + B * std::exp(b * t)).real(),
+          (A * a * std::exp(a * t) + B * b * std::exp(b * t)).real()};
 }
 
 TEST(Exact, FreeVibrationHasNoErrorAtAnyStep)
@@ -90,7 +91,8 @@ TEST(Exact, CoupledDampingAndHarmonicsAreExact)
   {
     q.setZero(2);
     v.setZero(2);
-    for (const auto &[omega, load] : {std::pair(20., Eigen::Vector2cd(100., 0.)), std::pair(33., Eigen::Vector2cd(0., -40. * i))})
+    for (const auto &[omega, load] :
+         {std::pair(20., Eigen::Vector2cd(100., 0.)), std::pair(33., Eigen::Vector2cd(0., -40. * i))})
     {
       const Eigen::Matrix2cd K = (C - omega * omega * M).cast<std::complex<double>>() + i * omega * B;
       const Eigen::Vector2cd Q = K.inverse() * load * std::exp(i * omega * t);
@@ -204,15 +206,16 @@ class ExactOrder : public ::testing::TestWithParam<Rule>
 
 TEST_P(ExactOrder, ErrorFallsWithThePowerOfTheStep)
 {
-  const auto   [force, order, h] = GetParam();
-  const Vector fine = states(ForceRule::collocation, 8, 0.005);
+  const auto [force, order, h] = GetParam();
+  const Vector fine            = states(ForceRule::collocation, 8, 0.005);
   const double coarse = (states(force, order, h) - fine).norm(), half = (states(force, order, 0.5 * h) - fine).norm();
   EXPECT_NEAR(std::log2(coarse / half), order, order < 8 ? 0.1 : 0.2) << coarse << " " << half;
 }
 INSTANTIATE_TEST_SUITE_P(Rules, ExactOrder,
                          ::testing::Values(Rule{ForceRule::average, 2, 0.01}, Rule{ForceRule::linear, 2, 0.01},
                                            Rule{ForceRule::collocation, 2, 0.01}, Rule{ForceRule::collocation, 4, 0.01},
-                                           Rule{ForceRule::collocation, 6, 0.025}, Rule{ForceRule::collocation, 8, 0.05}));
+                                           Rule{ForceRule::collocation, 6, 0.025},
+                                           Rule{ForceRule::collocation, 8, 0.05}));
 
 TEST(Exact, DenseOutputOfTheWholeMotionIsThatOfAStepEndingThere)
 {
@@ -288,7 +291,7 @@ TEST(Exact, AverageForceKeepsTheEnergyOfARattlingMassWithoutEvents)
     {
       exact.advance();
       const double d = std::max(0., std::abs(exact.local().u[0]) - gap), v = exact.local().v[0];
-      largest        = std::max(largest, v * v + k * d * d);
+      largest = std::max(largest, v * v + k * d * d);
     }
     EXPECT_LT(largest, 1.1) << omega_h; // 128 pieces meet the work at a kink to some 1e-5, some 1000 times
   }

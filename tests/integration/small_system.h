@@ -54,7 +54,7 @@ public:
   }
   std::vector<coupling::SpectrumLine> spectrum() const override { return {}; }
   const coupling::Excitation         &excitation() const override { return excitation_; }
-  bool dense_matrices(Matrix &mass, Matrix &damping, Matrix &stiffness) const override
+  bool                                dense_matrices(Matrix &mass, Matrix &damping, Matrix &stiffness) const override
   {
     mass = M, damping = B, stiffness = C;
     return true;
@@ -108,12 +108,12 @@ public:
   }
   std::string coordinate_name(int i) const override { return "q" + std::to_string(i); }
 
-  Matrix                        M, B, C;
-  Eigen::SparseMatrix<double>   W;
-  Law                           law;
-  bool                          watched     = false;
-  double                        level       = 0.;
-  int                           transitions = 0;
+  Matrix                      M, B, C;
+  Eigen::SparseMatrix<double> W;
+  Law                         law;
+  bool                        watched     = false;
+  double                      level       = 0.;
+  int                         transitions = 0;
 
 private:
   coupling::Excitation excitation_;

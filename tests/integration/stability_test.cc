@@ -214,7 +214,7 @@ TEST(Stability, OvershootOfBdfIsThatOfTheIntegratorItself)
       {
         const SmallSystem system(Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1),
                                  Eigen::MatrixXd::Constant(1, 1, omega * omega));
-        MethodOptions method;
+        MethodOptions     method;
         method.order          = order;
         method.step           = 1.;
         const auto integrator = make_integrator(system, method);

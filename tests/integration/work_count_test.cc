@@ -49,21 +49,22 @@ TEST_P(WorkCount, HoldsEveryLookAtTheForces)
   EXPECT_GE(integrator->work().steps, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Methods, WorkCount,
-    ::testing::Values(of(Method::bdf), of(Method::bdf, 4), of(Method::bdf, 5, ForceRule::collocation, 1e-6),
-                      of(Method::newmark), of(Method::hht), of(Method::generalised_alpha), of(Method::wilson),
-                      of(Method::central_difference), of(Method::exact, 2, ForceRule::average),
-                      of(Method::exact, 2, ForceRule::linear), of(Method::exact, 6),
-                      of(Method::exact, 6, ForceRule::collocation, 1e-6)),
-    [](const auto &info)
-    {
-      std::string name;
-      for (const char c : method_name(info.param) + (info.param.tolerance > 0. ? "controlled" : ""))
-        if (std::isalnum(static_cast<unsigned char>(c)))
-          name += c;
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Methods, WorkCount,
+                         ::testing::Values(of(Method::bdf), of(Method::bdf, 4),
+                                           of(Method::bdf, 5, ForceRule::collocation, 1e-6), of(Method::newmark),
+                                           of(Method::hht), of(Method::generalised_alpha), of(Method::wilson),
+                                           of(Method::central_difference), of(Method::exact, 2, ForceRule::average),
+                                           of(Method::exact, 2, ForceRule::linear), of(Method::exact, 6),
+                                           of(Method::exact, 6, ForceRule::collocation, 1e-6)),
+                         [](const auto &info)
+                         {
+                           std::string name;
+                           for (const char c :
+                                method_name(info.param) + (info.param.tolerance > 0. ? "controlled" : ""))
+                             if (std::isalnum(static_cast<unsigned char>(c)))
+                               name += c;
+                           return name;
+                         });
 
 } // namespace
 } // namespace gestell::tests

@@ -130,7 +130,7 @@ std::vector<Switch> switches()
   all.push_back({"table_v_on", over_v, numbers(2.), probe1(0., 0.5, 2.), 0, "next_segment"});
   all.push_back({"table_v_back", over_v, numbers(3.), probe1(0., 0.5, -2.), 1, "previous_segment"});
   all.push_back({"table_t_on", over_t, numbers(1.), probe1(0., 2.), 0, "next_segment"});
-  const Formula u    = Formula::variable(FormulaForce::displacement), v = Formula::variable(FormulaForce::rate);
+  const Formula u = Formula::variable(FormulaForce::displacement), v = Formula::variable(FormulaForce::rate);
   const auto    bent = std::make_shared<FormulaForce>(
       FormulaForce::Parameters{-80. * max(u - 0.3, 0.) * (1. + v) + power(v, 2.) * abs(u - 0.4)});
   all.push_back({"formula_up", bent, Eigen::Vector3d(-1., -1., 0.), probe1(0.3, 2.), 0, "max_1_rises"});

@@ -22,7 +22,7 @@ void read_blanking_force(const SceneTable &table, const Names &names, Scene &sce
   sheet.elastic_stiffness    = table.positive("elastic_stiffness", kind::stiffness);
   sheet.contact_at           = table.number("contact_at", kind::length);
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::BlankingForce>(sheet); }),
-              motion);
+                 motion);
 }
 
 } // namespace gestell::apps

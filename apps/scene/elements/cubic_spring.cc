@@ -13,7 +13,7 @@ void read_cubic_spring(const SceneTable &table, const Names &names, Scene &scene
   spring.stiffness = table.number("stiffness", turns ? kind::torsional_stiffness : kind::stiffness, spring.stiffness);
   spring.cubic     = table.number("cubic", turns ? kind::torsional_cubic_stiffness : kind::cubic_stiffness);
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CubicSpring>(spring); }),
-              motion);
+                 motion);
 }
 
 } // namespace gestell::apps

@@ -16,7 +16,8 @@ void read_drawing_force(const SceneTable &table, const Names &names, Scene &scen
   sheet.stiffness  = table.positive("stiffness", kind::stiffness);
   sheet.contact_at = table.number("contact_at", kind::length, sheet.contact_at);
   sheet.depth      = table.positive("depth", kind::length, sheet.depth);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DrawingForce>(sheet); }), motion);
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DrawingForce>(sheet); }),
+                 motion);
 }
 
 } // namespace gestell::apps

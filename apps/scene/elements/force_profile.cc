@@ -15,7 +15,8 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
   if (!table.has("profile"))
     throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
   const auto profile = read_profile(table, "profile", level_profile(kind, kind.example), from);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }), motion);
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }),
+                 motion);
 }
 
 } // namespace gestell::apps

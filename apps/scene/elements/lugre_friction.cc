@@ -8,8 +8,8 @@ namespace gestell::apps
 /// Measures: displacement or angle of `from` against `to`; the force of the bristles, a lag.
 void read_lugre_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto  motion    = read_relative_motion(table, names);
-  const bool  turns     = motion.rotation;
+  const auto motion = read_relative_motion(table, names);
+  const bool turns  = motion.rotation;
   refuse_measure(table, motion); // it has a state besides
   const Kind &force     = turns ? kind::torque : kind::force;
   const Kind &stiffness = turns ? kind::torsional_stiffness : kind::stiffness;

@@ -22,9 +22,9 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
     scene.linear.push_back({table.name(), motion.u, stiffness, damping, preload, rest, motion.force_unit()});
   else
     add_element_on(scene, table,
-                std::make_shared<mechanism::SpringDamper>(
-                    mechanism::SpringDamper::Parameters{stiffness, damping, preload, rest}),
-                motion);
+                   std::make_shared<mechanism::SpringDamper>(
+                       mechanism::SpringDamper::Parameters{stiffness, damping, preload, rest}),
+                   motion);
 }
 
 } // namespace gestell::apps
