@@ -28,7 +28,7 @@ struct Signal
   double      scale    = 1.;
   double      offset   = 0.;
   int         load     = -1; ///< external load
-  std::string from;          ///< an event, by the name of its object: extremes count from there on; empty: always
+  std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
   int         measure = -1;  ///< of add_measure(), whose value (quantity 0) or rate (1) it is
 };
 
@@ -276,6 +276,8 @@ public:
   std::string coordinate_name(int i) const override;
 
 private:
+  void refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const;
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -1,5 +1,6 @@
 #include "coupling/machine_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -194,9 +195,12 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
     }
     return placed;
   }
-  const bool turns  = on && on->kind == BodyKind::rotor;
-  const bool slides = on && on->kind == BodyKind::slider;
-  if (slides && own.translation[0].size() <= 1 && own.translation[1].size() <= 1 && own.translation[2].size() <= 1)
+  const bool turns            = on && on->kind == BodyKind::rotor;
+  const bool slides           = on && on->kind == BodyKind::slider;
+  const auto own_motion_alone = [&](const Measure &u)
+  { return std::all_of(u.begin(), u.end(), [&](const auto &term) { return term.first == on->coordinate; }); };
+  refuse_far_turning(name, turns ? across(own.rotation, on->axis) : own.rotation);
+  if (slides && std::all_of(own.translation.begin(), own.translation.end(), own_motion_alone))
     add({{on->coordinate, 1.}}, vector(on->axis), zero); // guided by the ground
   else
     for (int d = 0; d < 3; ++d)
@@ -212,6 +216,24 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
   else
     placed.placement = Placement(vector(at), centre, linear);
   return placed;
+}
+
+/// A carrier's rotation is taken as small: one that turns by any angle would stretch what it carries.
+void Machine::refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const
+{
+  for (const Body &body : parts_->bodies)
+  {
+    const int angle = body.kind == BodyKind::rotor    ? body.coordinate
+                      : body.kind == BodyKind::planar ? body.coordinate + 2
+                                                      : -1;
+    for (const Measure &u : rotation)
+      for (const auto &[coordinate, weight] : u)
+        if (coordinate == angle && body.name != name)
+          throw std::invalid_argument(
+              "\"" + name + "\" is carried by \"" + body.name +
+              "\", which turns by any angle, so that joints and measures cannot follow it; let it "
+              "be a planar body with a joint instead");
+  }
 }
 
 Vector3 Machine::position(const std::string &name) const
@@ -254,7 +276,12 @@ void Machine::add_point_mass(const std::string &name, const std::string &marker_
                              const Vector3 &inertia, const Vector3 &offset)
 {
   check_mass(mass, "point mass \"" + name + "\": mass [kg]");
-  const Marker          &at = marker(marker_name);
+  const Marker &at = marker(marker_name);
+  for (const Body &body : parts_->bodies)
+    if (body.name == marker_name && body.kind == BodyKind::planar && offset != Vector3{})
+      throw std::invalid_argument("point mass \"" + name + "\": an offset on \"" + marker_name +
+                                  "\" would turn with it, which a constant mass matrix cannot tell; give the body this "
+                                  "mass and inertia, or declare a body of its own with a rigid joint");
   std::array<Measure, 3> moved;
   for (int d = 0; d < 3; ++d)
   {
@@ -275,9 +302,9 @@ void Machine::draw(const std::string &body_name, const Vector3 &position, double
     if (body.name == body_name)
     {
       body.position = position;
-      if (body.kind == BodyKind::rotor && body.marker.translation[0].empty() && body.marker.translation[1].empty() &&
-          body.marker.translation[2].empty())
-        body.centre = position; // on the ground nothing else tells where it turns
+      if ((body.kind == BodyKind::rotor || body.kind == BodyKind::slider) && position != Vector3{} &&
+          !parts_->moves_with_frame(body.marker))
+        body.centre = parts_->positions[body.name] = position; // no interface tells where it is
       body.radius = radius;
       body.size   = size;
       return;

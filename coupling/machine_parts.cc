@@ -120,6 +120,16 @@ Vector3 Machine::Parts::position_of(const std::string &marker) const
   return found == positions.end() ? Vector3{} : found->second;
 }
 
+bool Machine::Parts::moves_with_frame(const Marker &marker) const
+{
+  for (const auto &motion : {marker.translation, marker.rotation})
+    for (const Measure &u : motion)
+      for (const auto &term : u)
+        if (term.first < n_frame)
+          return true;
+  return false;
+}
+
 void Machine::Parts::finish()
 {
   const int n       = size();

@@ -121,6 +121,7 @@ struct Machine::Parts
   void    add_loads(double mass, const std::array<Measure, 3> &translation);
   void    add_mass(double mass, const std::array<Measure, 3> &translation);
   Vector3 position_of(const std::string &marker) const;
+  bool    moves_with_frame(const Marker &marker) const;
 
   void                          finish();
   void                          assemble_dense(int n);

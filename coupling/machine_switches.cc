@@ -75,7 +75,8 @@ void Machine::Parts::add_watches()
       own.watched         = static_cast<int>(elements.size());
       const auto watching = own.signal.measure >= 0 ? measures[own.signal.measure].measures
                                                     : std::vector<Measure>{own.signal.on_q, own.signal.on_v};
-      elements.push_back({request.name, std::make_shared<Watch>(static_cast<int>(watching.size())), watching});
+      elements.push_back(
+          {"switch " + request.name, std::make_shared<Watch>(static_cast<int>(watching.size())), watching});
     }
     switches.push_back(own);
   }
@@ -85,9 +86,10 @@ void Machine::Parts::place_switches()
 {
   for (PlacedSwitch &own : switches)
   {
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      if (elements[e].name == own.request.element)
-        own.target = static_cast<int>(e);
+    const auto target =
+        std::find_if(elements.begin(), elements.end(),
+                     [&](const ElementPlacement &element) { return element.name == own.request.element; });
+    own.target  = static_cast<int>(target - elements.begin());
     own.history = static_cast<int>(history.size());
     history.conservativeResize(history.size() + 1);
     history[own.history] = 0.;

@@ -253,6 +253,8 @@ private:
 
 InitialState steady_start(Machine &machine, const SteadyStart &start)
 {
+  if (machine.n_constraints() > 0)
+    throw std::invalid_argument("a steady start does not close ideal joints; use rule = \"given\" or \"static\"");
   const Kinematics kinematics = kinematics_of(machine, start);
   InitialState     state      = kinematics.state;
   Equilibrium      equilibrium(machine, kinematics);

@@ -107,7 +107,12 @@ public:
   std::vector<Vector3d> directions() const
   {
     if (const Body *body = pair_.planar())
-      return {vector(body->e_1), vector(body->e_2)};
+    {
+      std::vector<Vector3d> plane{vector(body->e_1), vector(body->e_2)};
+      if (partner_leaves_plane(*body))
+        plane.push_back(vector(body->axis));
+      return plane;
+    }
     return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   }
 
@@ -116,6 +121,16 @@ public:
     if (const Body *body = pair_.planar())
       return {vector(body->axis)};
     return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  }
+
+  /// A point, or a body of another plane, has to be held in this one too; a frame and what it carries does not, as the
+  /// plane cannot yield.
+  bool partner_leaves_plane(const Body &planar) const
+  {
+    const Body *partner = pair_.on_first == &planar ? pair_.on_second : pair_.on_first;
+    return partner && (partner->kind == BodyKind::point ||
+                       (partner->kind == BodyKind::planar &&
+                        std::abs(vector(partner->axis).dot(vector(planar.axis))) < 1. - 1e-12));
   }
 
   void coincide()
@@ -127,6 +142,9 @@ public:
 
   void no_rotation()
   {
+    for (const Body *body : {pair_.on_first, pair_.on_second})
+      if (body && body->kind == BodyKind::point)
+        return; // it has no rotation to compare with
     int number = 0;
     for (const Vector3d &a : axes_of_rotation())
     {

@@ -33,9 +33,10 @@ void EventDetection::at(const LocalState &from, const LocalState &to, double s, 
   state.t = from.t + s * h;
   state.u = ((1. + 2. * s) * r * r) * from.u + (s * s * (3. - 2. * s)) * to.u + (h * s * r * r) * from.v -
             (h * s * s * r) * to.v;
-  state.v = (6. * s * r / h) * (to.u - from.u) + (r * (1. - 3. * s)) * from.v + (s * (3. * s - 2.)) * to.v;
-  state.a = r * from.a + s * to.a;
-  state.p = r * from.p + s * to.p;
+  state.v      = (6. * s * r / h) * (to.u - from.u) + (r * (1. - 3. * s)) * from.v + (s * (3. * s - 2.)) * to.v;
+  state.a      = r * from.a + s * to.a;
+  state.p      = r * from.p + s * to.p;
+  state.lambda = r * from.lambda + s * to.lambda;
 }
 
 double EventDetection::value(int guard, const LocalState &from, const LocalState &to, double share)

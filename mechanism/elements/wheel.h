@@ -33,8 +33,9 @@ public:
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const Number u = -m.u[0], force = parameters_.stiffness * u - parameters_.damping * m.v[0];
-    const bool stands = parameters_.bilateral || (m.by_history ? history[0] != 0. : value(u) > 0. && value(force) > 0.);
-    p[0]              = stands ? force : Number(0. * force);
+    const bool   stands =
+        parameters_.bilateral || (m.by_history ? history[0] != 0. : value(u) >= 0. && value(force) >= 0.);
+    p[0] = stands ? force : Number(0. * force);
   }
 
   /// history: 1 in contact, 0 free.

@@ -59,14 +59,14 @@ void BrakedMotion::start(double t, double *history) const
 {
   history[passed] = -1.;
   history[begin]  = t;
-  history[from]   = parameters_.speed * t;
+  history[from]   = 0.;
 }
 
 PrescribedMotion BrakedMotion::at(double t, const double *history) const
 {
   const auto &[v, family, T, ramps] = parameters_;
   if (history[passed] < 0.)
-    return {v * t, v, 0.};
+    return {v * (t - history[begin]), v, 0.};
   // Inside the stage that history names, smoothly continued; behind the last corner at rest.
   const auto   stage = std::size_t(history[passed]);
   const bool   ended = stage >= corners_.size();
@@ -121,7 +121,7 @@ bool BrakedMotion::command(const std::string &order, double t, double *history) 
     return false;
   if (history[passed] >= 0.)
     return true; // brakes already
-  history[from]   = parameters_.speed * t;
+  history[from]   = parameters_.speed * (t - history[begin]);
   history[begin]  = t;
   history[passed] = 0.;
   return true;

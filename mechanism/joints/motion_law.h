@@ -34,12 +34,17 @@ public:
   virtual std::vector<std::string> commands() const { return {}; }
 };
 
-/// f(t) = speed t
+/// f(t) = speed (t - t_start)
 class ConstantSpeed : public MotionLaw
 {
 public:
   explicit ConstantSpeed(double speed) : speed_(speed) {}
-  PrescribedMotion at(double t, const double *) const override { return {speed_ * t, speed_, 0.}; }
+  int              n_history() const override { return 1; } ///< t_start
+  void             start(double t, double *history) const override { history[0] = t; }
+  PrescribedMotion at(double t, const double *history) const override
+  {
+    return {speed_ * (t - history[0]), speed_, 0.};
+  }
 
 private:
   double speed_;
@@ -79,12 +84,12 @@ public:
   /// @throws std::invalid_argument for a duration that is not positive, or shares that do not add up to one
   explicit BrakedMotion(const Parameters &parameters);
 
-  int              n_history() const override { return 3; } ///< corners passed since the order, t_brake, f there
-  void             start(double t, double *history) const override;
-  PrescribedMotion at(double t, const double *history) const override;
-  bool             next_corner(const double *history, double &t, std::string &name) const override;
-  void             pass_corner(double t, double *history) const override;
-  bool             command(const std::string &order, double t, double *history) const override;
+  int  n_history() const override { return 3; } ///< corners passed since the order; t_brake, before it t_start; f there
+  void start(double t, double *history) const override;
+  PrescribedMotion         at(double t, const double *history) const override;
+  bool                     next_corner(const double *history, double &t, std::string &name) const override;
+  void                     pass_corner(double t, double *history) const override;
+  bool                     command(const std::string &order, double t, double *history) const override;
   std::vector<std::string> commands() const override { return {"brake"}; }
 
 private:
