@@ -316,8 +316,8 @@ void Recorder::finish()
                                "\" on, which did not happen: its extremes are those of the end");
     look_anew(i);
   }
-  const double residual = result_.energy.residual, rounding = 1e-9 * std::abs(energy_.at_begin());
-  if (residual <= std::max(0.01 * turned_over_, rounding))
+  const double residual = result_.energy.residual, negligible = 1e-6 * std::abs(energy_.at_begin());
+  if (residual <= std::max(0.01 * turned_over_, negligible))
     return;
   const std::string open =
       "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";

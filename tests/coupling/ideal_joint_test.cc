@@ -84,7 +84,9 @@ void expect_order(const std::string &method, double expected, const Errors &coar
   EXPECT_NEAR(order(coarse.q, fine.q), expected, 0.15) << method << ": positions " << fine.q;
   EXPECT_NEAR(order(coarse.v, fine.v), expected, 0.15) << method << ": velocities " << fine.v;
   if (coarse.force > 0.)
+  {
     EXPECT_NEAR(order(coarse.force, fine.force), expected, 0.15) << method << ": reactions " << fine.force;
+  }
 }
 
 Errors pendulum_errors(const MethodOptions &method)
