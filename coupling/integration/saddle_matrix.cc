@@ -19,7 +19,6 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr double dependent        = 1e-14; ///< pivot of an equation of unit length: rounding, as in SmallLu
 constexpr double pivot_preference = 1e-4;  ///< of the diagonal, where it is not that much smaller than the column
 constexpr int    many_equations   = 24;    ///< on one coordinate: it is eliminated after them
-constexpr int few_measures = 40; ///< condensed at any rate: small machines, and what their runs gave, stay as they are
 constexpr double per_fill  = 8.; ///< time of a multiplication with indices against one in a dense row
 
 template <typename Use>
@@ -75,8 +74,6 @@ std::unique_ptr<SaddleMatrix> SaddleMatrix::for_joints(const SecondOrderSystem &
     return nullptr;
   if (solver == JointSolver::sparse)
     return std::make_unique<SaddleMatrix>(system);
-  if (n_u < few_measures)
-    return nullptr;
   try
   {
     auto sparse = std::make_unique<SaddleMatrix>(system);
