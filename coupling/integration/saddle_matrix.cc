@@ -19,7 +19,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr double dependent        = 1e-14; ///< pivot of an equation of unit length: rounding, as in SmallLu
 constexpr double pivot_preference = 1e-4;  ///< of the diagonal, where it is not that much smaller than the column
 constexpr int    many_equations   = 24;    ///< on one coordinate: it is eliminated after them
-constexpr double per_fill  = 8.; ///< time of a multiplication with indices against one in a dense row
+constexpr double per_fill         = 8.;    ///< time of a multiplication with indices against one in a dense row
 
 template <typename Use>
 void for_column(const Sparse &W, int column, const Use &use)
