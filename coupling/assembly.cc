@@ -1,5 +1,7 @@
 #include "coupling/assembly.h"
 
+#include "coupling/dense_matrices.h"
+
 #include <Eigen/QR>
 
 #include <cmath>
@@ -44,7 +46,7 @@ private:
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
     machine_.constraints(local_, g_, G_);
     residual.resize(n_c_ + Eigen::Index(demands.size()));
-    rows.setZero(residual.size(), machine_.size());
+    rows.resize(residual.size(), machine_.size());
     if (rates)
     {
       machine_.constraint_rates(local_, rate_, bias_);
@@ -52,11 +54,7 @@ private:
       G_.add_product(1., local_.v, g_);
     }
     residual.head(n_c_) = g_;
-    const auto &W       = machine_.directions();
-    for (std::size_t b = 0; b < G_.blocks().size(); ++b)
-      for (int k = 0; k < G_.blocks()[b].n_measures; ++k)
-        for (Eigen::SparseMatrix<double>::InnerIterator it(W, G_.blocks()[b].first_measure + k); it; ++it)
-          rows.block(G_.blocks()[b].first_row, it.row(), G_.blocks()[b].n_rows, 1) += it.value() * G_[b].col(k);
+    rows.topRows(n_c_)  = joint_jacobian(machine_, G_);
     Eigen::VectorXd gradient;
     for (std::size_t i = 0; i < demands.size(); ++i)
     {

@@ -100,15 +100,20 @@ Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &st
   return W * local * W.transpose();
 }
 
+Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G)
+{
+  Eigen::MatrixXd rows(G.n_rows(), machine.size());
+  G.times(Eigen::MatrixXd(machine.directions().transpose()), rows);
+  return rows;
+}
+
 Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state)
 {
   const int          n = machine.size(), n_c = machine.n_constraints();
   ConstraintJacobian G(machine.constraint_blocks());
   Eigen::VectorXd    g(n_c);
   machine.constraints(state, g, G);
-  Eigen::MatrixXd rows(n_c, n);
-  G.times(Eigen::MatrixXd(machine.directions().transpose()), rows);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(joint_jacobian(machine, G).transpose());
   const Eigen::MatrixXd                       Q = qr.householderQ();
   return Q.rightCols(n - qr.rank());
 }

@@ -18,6 +18,9 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
 /// Geometric stiffness W K_g W^T [n x n] of all elements and joints at a motion with its forces and multipliers.
 Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state);
 
+/// G W^T [n_c x n]: the equations of the joints in the coordinates of the machine.
+Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G);
+
 /// Orthonormal columns [n x n - rank] that span the motions the joints leave free at a motion, G W^T Z = 0.
 Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state);
 

@@ -136,6 +136,7 @@ struct Machine::Parts
   std::string                   coordinate_name(int i) const;
   double                        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
+  Signal                        signal(const std::string &name, const std::string &path) const;
 
   double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }
   const double *history_of(const PlacedElement &part) const { return history.data() + part.first_history; }

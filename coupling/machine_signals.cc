@@ -141,21 +141,31 @@ std::vector<std::string> Machine::signal_paths() const
   return paths;
 }
 
-Signal Machine::signal(const std::string &name, const std::string &path) const
+Signal Machine::Parts::signal(const std::string &name, const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
   const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" alone names nothing
-  const auto        signals  = parts_->signals();
-  const auto        found    = signals.find(positive);
-  if (found == signals.end())
+  const auto        known    = signals();
+  const auto        found    = known.find(positive);
+  if (found == known.end())
+  {
+    std::vector<std::string> paths;
+    for (const auto &entry : known)
+      paths.push_back(entry.first);
     throw std::invalid_argument("signal \"" + name + "\": there is no \"" + positive + "\"" +
-                                suggestion(positive, signal_paths()));
+                                suggestion(positive, paths));
+  }
   Signal signal = found->second;
   signal.name   = name;
   if (minus)
     signal.scale = -1.;
   return signal;
+}
+
+Signal Machine::signal(const std::string &name, const std::string &path) const
+{
+  return parts_->signal(name, path);
 }
 
 int Machine::coordinate(const std::string &name) const

@@ -58,16 +58,12 @@ void Machine::add_switch(const Switch &request)
 /// Elements of no force for switches whose signal is a motion: its measures, or the two sums on q and q'.
 void Machine::Parts::add_watches()
 {
-  const auto known = signals();
   switches.clear();
   for (const Switch &request : switch_requests)
   {
-    const bool   minus = !request.signal.empty() && request.signal[0] == '-';
     PlacedSwitch own;
     own.request = request;
-    own.signal  = known.at(minus ? request.signal.substr(request.signal.find_first_not_of("- ")) : request.signal);
-    if (minus)
-      own.signal.scale = -1.;
+    own.signal  = signal(request.name, request.signal);
     if (own.signal.element >= 0)
       own.watched = own.signal.element;
     else

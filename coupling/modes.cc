@@ -70,10 +70,7 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
   add_damping(modes, B, result);
   return result;
 }
-} // namespace
 
-namespace
-{
 /// In the motions that the joints leave free, with the geometric stiffness of joints and elements: what makes a load on
 /// a rope swing.
 std::vector<Mode> jointed_modes(const Machine &machine, const Eigen::VectorXd &q, const Eigen::MatrixXd &B,

@@ -101,8 +101,7 @@ private:
     }
     G_.set_forces(lambda_, local_.p);
     machine_.geometric(local_, geometric);
-    MatrixXd A(n_c_, n_);
-    G_.times(MatrixXd(W.transpose()), A);
+    const MatrixXd A = joint_jacobian(machine_, G_);
     saddle.setZero(n_ + n_c_, n_ + n_c_);
     saddle.topLeftCorner(n_, n_)      = C_ + W * (geometric - dp) * W.transpose();
     saddle.topRightCorner(n_, n_c_)   = -A.transpose();

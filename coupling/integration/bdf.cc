@@ -290,15 +290,9 @@ void Bdf::multistep(double t)
   Point &to = points_[(newest_ + 1) % capacity];
   try
   {
-    // Prediction by extrapolation of the measures, one order above what the first points give.
-    if (n_past_ >= 3)
-      local_.u = 3. * (past(0).u - past(1).u) + past(2).u;
-    else if (n_past_ == 2)
-      local_.u = 2. * past(0).u - past(1).u;
-    else
-      local_.u = past(0).u + options_.step * past(0).u_rate;
+    predict(&Point::u, &Point::u_rate, local_.u);
     if (implicit_.is_sparse())
-      predict(options_.step, to.q);
+      predict(&Point::q, &Point::v, to.q);
     formula_step(options_.order, points, t, options_.step, to);
   }
   catch (const ConvergenceFailure &)
@@ -311,15 +305,15 @@ void Bdf::multistep(double t)
     find_implied(past(0));
 }
 
-/// As the prediction of the measures in multistep().
-void Bdf::predict(double step, Eigen::VectorXd &q)
+/// By extrapolation, one order above what the first points give.
+void Bdf::predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const
 {
   if (n_past_ >= 3)
-    q = 3. * (past(0).q - past(1).q) + past(2).q;
+    to = 3. * (past(0).*x - past(1).*x) + past(2).*x;
   else if (n_past_ == 2)
-    q = 2. * past(0).q - past(1).q;
+    to = 2. * past(0).*x - past(1).*x;
   else
-    q = past(0).q + step * past(0).v;
+    to = past(0).*x + options_.step * past(0).*rate;
 }
 
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)

@@ -79,7 +79,7 @@ private:
   void         start_value(double t);
   void         euler_chain(const Point &from, double length, int n, Point &to);
   void         divided_step(const Point &from, double length, int halvings, Point &to);
-  void         predict(double step, Eigen::VectorXd &q);
+  void         predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const;
   void         formula_step(int order, const Point *const *past, double t, double step, Point &to);
   void         load(double t);
   void         present(const Point &point);

@@ -15,10 +15,7 @@ constexpr double joint_rounding   = 8.;   ///< times that of one number: several
 constexpr double share_of_joints  = 1e-3; ///< of the tolerance
 constexpr double finest_tolerance = 1e-13;
 constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
-} // namespace
 
-namespace
-{
 bool is_held(const std::vector<HeldMeasure> &held, Eigen::Index measure)
 {
   for (const HeldMeasure &h : held)

@@ -1,7 +1,6 @@
 // Stop, dry friction and table force: from the scene to the motion, against solutions by hand.
 
-#include "scene_text.h"
-#include "tests/apps/scene_run.h"
+#include "scene_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -13,36 +12,12 @@ namespace
 {
 
 using test::complaint;
-using Settings = std::vector<std::string>;
-
-SceneRun run(const std::string &scene, const Settings &overrides = {})
-{
-  const test::SceneFolder folder;
-  return SceneRun(folder.write("scene.toml", scene), overrides);
-}
-
 std::string with(std::string scene, const std::string &piece, const std::string &replacement)
 {
   const auto found = scene.find(piece);
   if (found == std::string::npos)
     throw std::logic_error("the scene has no \"" + piece + "\"");
   return scene.replace(found, piece.size(), replacement);
-}
-
-void expect_complaint(const std::string &scene, const std::string &words)
-{
-  const std::string said = complaint(scene);
-  EXPECT_NE(said.find(words), std::string::npos) << "said: " << said << "\nnot: " << words;
-}
-
-/// Time of the n-th event of a kind, from 0.
-double time_of(const SceneRun &motion, const std::string &kind, int n = 0)
-{
-  for (const coupling::Event &event : motion.result.events)
-    if (event.kind == kind && n-- == 0)
-      return event.t;
-  ADD_FAILURE() << "no event " << kind;
-  return std::nan("");
 }
 
 // The default method with a small step, and exact propagation with controlled steps.

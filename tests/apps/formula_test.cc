@@ -2,8 +2,7 @@
 
 #include "apps/scene/parse_expression.h"
 #include "coupling/dense_matrices.h"
-#include "scene_text.h"
-#include "tests/apps/scene_run.h"
+#include "scene_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +16,6 @@ namespace
 {
 
 using namespace apps;
-using Settings = std::vector<std::string>;
 
 // --- reading
 
@@ -167,21 +165,6 @@ TEST(FormulaText, OfEverySizeIsReadOrRefused)
 }
 
 // --- the element
-
-SceneRun run(const std::string &scene, const Settings &overrides = {})
-{
-  const test::SceneFolder folder;
-  return SceneRun(folder.write("scene.toml", scene), overrides);
-}
-
-double time_of(const SceneRun &motion, const std::string &kind, int n = 0)
-{
-  for (const coupling::Event &event : motion.result.events)
-    if (event.kind == kind && n-- == 0)
-      return event.t;
-  ADD_FAILURE() << "no event " << kind;
-  return std::nan("");
-}
 
 const std::string slider = R"([parameters]
 gap = "10 mm"

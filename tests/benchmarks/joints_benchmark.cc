@@ -44,28 +44,23 @@ void four_bar_steps(benchmark::State &state, JointSolver solver)
   state.counters["newton/step"]   = double(work.newton) / double(work.steps);
   state.counters["factored/step"] = double(work.factorisations) / double(work.steps);
 }
-BENCHMARK_CAPTURE(four_bar_steps, automatic, JointSolver::automatic)
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(20)
-    ->Arg(40)
-    ->Arg(80)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(four_bar_steps, sparse, JointSolver::sparse)
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(5)
-    ->Arg(10)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(four_bar_steps, condensed, JointSolver::condensed)
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(20)
-    ->Arg(40)
-    ->Unit(benchmark::kMicrosecond);
+/// N = 1, 2, 5, 10 and further where a step is cheap enough.
+void up_to_10(benchmark::internal::Benchmark *b)
+{
+  b->Unit(benchmark::kMicrosecond)->Arg(1)->Arg(2)->Arg(5)->Arg(10);
+}
+void up_to_40(benchmark::internal::Benchmark *b)
+{
+  up_to_10(b);
+  b->Arg(20)->Arg(40);
+}
+void up_to_80(benchmark::internal::Benchmark *b)
+{
+  up_to_40(b);
+  b->Arg(80);
+}
+BENCHMARK_CAPTURE(four_bar_steps, automatic, JointSolver::automatic)->Apply(up_to_80);
+BENCHMARK_CAPTURE(four_bar_steps, sparse, JointSolver::sparse)->Apply(up_to_10);
+BENCHMARK_CAPTURE(four_bar_steps, condensed, JointSolver::condensed)->Apply(up_to_40);
 
 } // namespace
