@@ -90,34 +90,52 @@ private:
   MatrixXd A_inverse_;
 };
 
+bool is_ascending(const std::vector<int> &order)
+{
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (order[i] != int(i))
+      return false;
+  return true;
+}
+
 /// (5.5.3/4-7) for a diagonal A_LL:  G = A_LL^-1 A_LN,  q_N = A_red^-1 (f_N - G^T f_L),  q_L = A_LL^-1 f_L - G q_N.
 class CondensedSolver final : public LinearSolver
 {
 public:
   CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const std::vector<int> &order)
-      : order_(order), inverse_LL_(A_LL.cwiseInverse()), G_(inverse_LL_.asDiagonal() * A_LN),
-        A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order)), f_(order.size()), x_(order.size())
+      : order_(order), sorted_(is_ascending(order)), inverse_LL_(A_LL.cwiseInverse()),
+        G_(inverse_LL_.asDiagonal() * A_LN), A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order)),
+        f_(order.size()), x_(order.size()), f_N_(A_NN.rows())
   {
   }
 
   void solve(const VectorXd &f, VectorXd &x) const override
   {
-    const auto n_L = inverse_LL_.size(), n_N = f_.size() - n_L;
+    if (sorted_)
+      return solve_sorted(f, x);
     for (Eigen::Index i = 0; i < f_.size(); ++i)
       f_(i) = f(order_[i]);
-    f_.head(n_N).noalias() -= G_.transpose() * f_.tail(n_L);
-    x_.head(n_N).noalias() = A_red_inverse_ * f_.head(n_N);
-    x_.tail(n_L)           = inverse_LL_.cwiseProduct(f_.tail(n_L));
-    x_.tail(n_L).noalias() -= G_ * x_.head(n_N);
+    solve_sorted(f_, x_);
     for (Eigen::Index i = 0; i < x_.size(); ++i)
       x(order_[i]) = x_(i);
   }
 
 private:
-  std::vector<int> order_; // N, then L
+  void solve_sorted(const VectorXd &f, VectorXd &x) const
+  {
+    const auto n_N = f_N_.size(), n_L = inverse_LL_.size();
+    f_N_ = f.head(n_N);
+    f_N_.noalias() -= G_.transpose() * f.tail(n_L);
+    x.head(n_N).noalias() = A_red_inverse_ * f_N_;
+    x.tail(n_L)           = inverse_LL_.cwiseProduct(f.tail(n_L));
+    x.tail(n_L).noalias() -= G_ * x.head(n_N);
+  }
+
+  std::vector<int> order_;  // N, then L
+  bool             sorted_; // in the order of the coordinates
   VectorXd         inverse_LL_;
   MatrixXd         G_, A_red_inverse_;
-  mutable VectorXd f_, x_;
+  mutable VectorXd f_, x_, f_N_;
 };
 
 std::vector<int> rest_then_modal(int n, const std::vector<int> &L)
@@ -149,7 +167,7 @@ void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
 } // namespace
 
 DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const std::vector<int> &modal_coordinates)
-    : M_(M), B_(B), C_(C), order_(rest_then_modal(int(M.rows()), modal_coordinates)),
+    : M_(M), B_(B), C_(C), order_(rest_then_modal(int(M.rows()), modal_coordinates)), sorted_(is_ascending(order_)),
       n_N_(int(M.rows() - modal_coordinates.size())), x_(M.rows()), y_(M.rows())
 {
   const auto n_L = Eigen::Index(modal_coordinates.size());
@@ -179,11 +197,20 @@ DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 
 void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
 {
-  const auto n = x_.size(), n_L = n - n_N_;
-  for (Eigen::Index i = 0; i < n; ++i)
+  if (sorted_)
+    return multiply_sorted(A, x, y);
+  for (Eigen::Index i = 0; i < x_.size(); ++i)
     x_(i) = x(order_[i]);
-  const auto x_N = x_.head(n_N_), x_L = x_.tail(n_L);
-  auto       y_N = y_.head(n_N_), y_L = y_.tail(n_L);
+  multiply_sorted(A, x_, y_);
+  for (Eigen::Index i = 0; i < y_.size(); ++i)
+    y(order_[i]) = y_(i);
+}
+
+void DenseBase::multiply_sorted(const Blocks &A, const VectorXd &x, VectorXd &y) const
+{
+  const auto n_L = x.size() - n_N_;
+  const auto x_N = x.head(n_N_), x_L = x.tail(n_L);
+  auto       y_N = y.head(n_N_), y_L = y.tail(n_L);
 
   y_N.noalias() = A.NN * x_N;
   if (A.LL.size() > 0)
@@ -195,8 +222,6 @@ void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
     y_N.noalias() += A.LN.transpose() * x_L;
     y_L.noalias() += A.LN * x_N;
   }
-  for (Eigen::Index i = 0; i < n; ++i)
-    y(order_[i]) = y_(i);
 }
 
 void DenseBase::mass_times(const VectorXd &x, VectorXd &y) const

@@ -59,10 +59,12 @@ private:
   };
   Blocks blocks_of(const Eigen::MatrixXd &A) const;
   void   multiply(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+  void   multiply_sorted(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const; ///< in the order (N, L)
 
   Eigen::MatrixXd         M_, B_, C_;
-  std::vector<int>        order_; // N, then L
-  int                     n_N_ = 0;
+  std::vector<int>        order_;          // N, then L
+  bool                    sorted_ = false; // that is the order of the coordinates
+  int                     n_N_    = 0;
   Blocks                  mass_, damping_, stiffness_;
   mutable Eigen::VectorXd x_, y_; // in the order (N, L)
 };

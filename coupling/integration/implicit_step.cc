@@ -23,6 +23,25 @@ bool is_held(const std::vector<HeldMeasure> &held, Eigen::Index measure)
       return true;
   return false;
 }
+
+/// J = -S dp for an S of a few rows and a dp that is mostly zero.
+void subtract_product(const Eigen::MatrixXd &S, const Eigen::MatrixXd &dp, Eigen::MatrixXd &J)
+{
+  const Eigen::Index n = S.rows();
+  for (Eigen::Index j = 0; j < n; ++j)
+  {
+    double *column = J.data() + n * j;
+    for (Eigen::Index k = 0; k < n; ++k)
+      column[k] = 0.;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (const double factor = dp(i, j); factor != 0.)
+      {
+        const double *of_S = S.data() + n * i;
+        for (Eigen::Index k = 0; k < n; ++k)
+          column[k] -= factor * of_S[k];
+      }
+  }
+}
 } // namespace
 
 void fail_singular(const SecondOrderSystem &system, double t)
@@ -147,6 +166,8 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local)
   for (Eigen::Index i = 0; i < scale_.size(); ++i)
     scale_[i] = std::max(
         {scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]), left * std::abs(local.u[i])});
+  if (G_.n_rows() == 0)
+    return;
   double of_joints = 0.;
   for (std::size_t b = 0; b < G_.blocks().size(); ++b)
   {
@@ -204,16 +225,10 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     }
 
     Eigen::MatrixXd &jacobian = jacobian_.matrix();
+    subtract_product(condensed.S, dp_, jacobian);
     for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
-    {
-      auto column = jacobian.col(j);
-      column.setZero();
-      for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
-        if (dp_(i, j) != 0.)
-          column.noalias() -= dp_(i, j) * condensed.S.col(i);
       if (!is_held(held, j)) // adding 1 and taking it away again would round a small S away
-        column[j] += 1.;
-    }
+        jacobian(j, j) += 1.;
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
