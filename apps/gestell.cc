@@ -79,6 +79,31 @@ CLI::App *add_chart(CLI::App &program, CommonOptions &options, ChartCommandOptio
   return command;
 }
 
+CLI::App *add_modes(CLI::App &program, CommonOptions &options, ModesCommandOptions &modes)
+{
+  CLI::App *command = add_command(
+      program, "modes", "natural frequencies and shapes of the frame and of the coupled machine",
+      "gestell modes apps/scenes/press_minimal.toml\n  gestell modes apps/scenes/press_minimal.toml --along crank",
+      "SCENE", options);
+  CLI::Option *along = command->add_option("--along", modes.along,
+                                           "follow them along a coordinate: a body, a measure or a driven joint");
+  const auto   add   = [&](const std::string &name, auto &value, const std::string &text)
+  { return command->add_option(name, value, text)->needs(along); };
+  add("--from", modes.from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)");
+  add("--to", modes.to, "last position (default one turn further)");
+  add("--positions", modes.positions, "how many, both ends included (default 73: every 5 deg of a turn)");
+  add("--configuration", modes.configuration,
+      "equilibrium (default): standing still under weights and springs; or undeformed")
+      ->check(CLI::IsMember({"equilibrium", "undeformed"}));
+  add("--hold", modes.hold, "coordinates that do not vibrate, such as a held drive")->delimiter(',');
+  add("--speed", modes.speed, "speed whose orders excite, such as \"30 1/min\" (default: at the start)");
+  add("--orders", modes.orders, "highest order (default 10)")->check(above_zero());
+  add("--band", modes.band, "how near an order comes to be told (default \"5 %\")");
+  command->add_option("--geometric", modes.geometric, "on (default) or off: geometric stiffness of forces that turn")
+      ->check(CLI::IsMember({"on", "off"}));
+  return command;
+}
+
 /// The scene may be left out.
 CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityCommandOptions &stability)
 {
@@ -103,12 +128,11 @@ int main(int argc, char **argv)
 
   CommonOptions       options;
   MeshCommandOptions  mesh;
+  ModesCommandOptions modes_options;
   ChartCommandOptions chart_options;
-  CLI::App           *run = add_command(program, "run", "simulate a scene in time",
-                                        "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
-  CLI::App           *modes =
-      add_command(program, "modes", "natural frequencies and shapes of the frame and of the coupled machine",
-                  "gestell modes apps/scenes/press_minimal.toml", "SCENE", options);
+  CLI::App           *run   = add_command(program, "run", "simulate a scene in time",
+                                          "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
+  CLI::App           *modes = add_modes(program, options, modes_options);
   CLI::App *reduce = add_command(program, "reduce", "build (or reuse) the reduced frame and report its error estimate",
                                  "gestell reduce apps/scenes/press.toml --set reduction.modes=40", "SCENE", options);
   CLI::App *check  = add_command(program, "check", "validate a scene without computing",
@@ -139,7 +163,7 @@ int main(int argc, char **argv)
     if (run->parsed())
       return run_command(options);
     if (modes->parsed())
-      return modes_command(options);
+      return modes_command(options, modes_options);
     if (reduce->parsed())
       return reduce_command(options);
     if (chart->parsed())

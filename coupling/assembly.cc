@@ -45,6 +45,8 @@ private:
   {
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
     machine_.constraints(local_, g_, G_);
+    for (const auto &[row, shift] : known_.shifts)
+      g_[row] -= shift;
     residual.resize(n_c_ + Eigen::Index(demands.size()));
     rows.resize(residual.size(), machine_.size());
     if (rates)

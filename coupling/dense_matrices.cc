@@ -92,11 +92,92 @@ void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::
          { placement.element->stiffest(u, K.data(), D.data()); });
 }
 
-Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state)
+namespace
+{
+
+/// Stiff or damping somewhere near u: a cubic spring is neither where it is relaxed.
+bool is_structure(const mechanism::ForceElement &element, const Eigen::VectorXd &u)
+{
+  constexpr double beside = 1e-3; // m or rad
+  const auto       k      = u.size();
+  Eigen::MatrixXd  K(k, k), D(k, k);
+  for (const double shift : {0., beside, -beside})
+  {
+    const Eigen::VectorXd at = u.array() + shift;
+    element.engaged(at.data(), K.data(), D.data());
+    if (!K.isZero(0.) || !D.isZero(0.))
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u, Acting acting)
+{
+  Eigen::VectorXd acts  = Eigen::VectorXd::Ones(u.size());
+  int             first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int k = placement.element->n_measures();
+    if (acting == Acting::structure && placement.element->n_constraints() == 0 &&
+        !is_structure(*placement.element, u.segment(first, k)))
+      acts.segment(first, k).setZero();
+    first += k;
+  }
+  return acts;
+}
+
+namespace
+{
+
+/// v^T g'' w of the position function of an element, by polarisation of its quadratic form.
+double closure_curvature(const mechanism::ForceElement &element, const double *u, const Eigen::VectorXd &v,
+                         const Eigen::VectorXd &w)
+{
+  Eigen::VectorXd       gradient(v.size());
+  const Eigen::VectorXd sum = v + w, difference = v - w;
+  double                g, of_sum, of_difference;
+  element.closure(u, sum.data(), g, gradient.data(), of_sum);
+  element.closure(u, difference.data(), g, gradient.data(), of_difference);
+  return 0.25 * (of_sum - of_difference);
+}
+
+/// K -= P g'' for each element with a position function, p = P grad g.
+void add_turning_closures(const Machine &machine, const LocalState &state, Eigen::MatrixXd &K)
+{
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(state.u.size());
+  machine.local_force(state, p);
+  int first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int             k    = placement.element->n_measures();
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(k);
+    Eigen::VectorXd       gradient(k);
+    double                g, curvature;
+    const double         *u = state.u.data() + first;
+    if (placement.element->closure(u, rest.data(), g, gradient.data(), curvature))
+    {
+      const double P = p.segment(first, k).dot(gradient) / gradient.squaredNorm();
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+          K(first + i, first + j) -=
+              P * closure_curvature(*placement.element, u, Eigen::VectorXd::Unit(k, i), Eigen::VectorXd::Unit(k, j));
+    }
+    first += k;
+  }
+}
+
+} // namespace
+
+Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state, Acting acting)
 {
   Eigen::MatrixXd local;
   machine.geometric(state, local);
-  const auto &W = machine.directions();
+  add_turning_closures(machine, state, local);
+  const Eigen::VectorXd acts = acting_measures(machine, state.u, acting);
+  local                      = acts.asDiagonal() * local * acts.asDiagonal();
+  const auto &W              = machine.directions();
   return W * local * W.transpose();
 }
 
@@ -107,13 +188,18 @@ Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian 
   return rows;
 }
 
-Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state)
+Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, const std::vector<int> &fixed)
 {
-  const int          n = machine.size(), n_c = machine.n_constraints();
+  const int          n = machine.size(), n_c = machine.n_constraints(), n_f = int(fixed.size());
   ConstraintJacobian G(machine.constraint_blocks());
   Eigen::VectorXd    g(n_c);
   machine.constraints(state, g, G);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(joint_jacobian(machine, G).transpose());
+  Eigen::MatrixXd held(n_c + n_f, n);
+  held.topRows(n_c) = joint_jacobian(machine, G);
+  held.bottomRows(n_f).setZero();
+  for (int i = 0; i < n_f; ++i)
+    held(n_c + i, fixed[i]) = 1.;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held.transpose());
   const Eigen::MatrixXd                       Q = qr.householderQ();
   return Q.rightCols(n - qr.rank());
 }

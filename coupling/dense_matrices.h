@@ -15,14 +15,27 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine);
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
 
-/// Geometric stiffness W K_g W^T [n x n] of all elements and joints at a motion with its forces and multipliers.
-Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state);
+/// Which elements have forces.
+enum class Acting
+{
+  everything,
+  structure ///< not those that are no structure, ForceElement::engaged() being zero: technological forces, drives
+};
+
+/// 1 for the measures [n_u] of elements and joints that act at u [n_u], 0 for the others.
+Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u, Acting acting);
+
+/// Geometric stiffness W K_g W^T [n x n] of elements and joints at a motion with its forces and multipliers; of an
+/// element with a position function g(u), whose force is P grad g, K_g = -P g''.
+Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state,
+                                    Acting acting = Acting::everything);
 
 /// G W^T [n_c x n]: the equations of the joints in the coordinates of the machine.
 Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G);
 
-/// Orthonormal columns [n x n - rank] that span the motions the joints leave free at a motion, G W^T Z = 0.
-Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state);
+/// Orthonormal columns [n x n - rank] that span the motions the joints leave free at a motion, G W^T Z = 0, with the
+/// coordinates `fixed` at rest.
+Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, const std::vector<int> &fixed = {});
 
 /// The same of all elements in the stiffest branch of their laws.
 void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,

@@ -55,8 +55,10 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
 
 /// @param loads M R [n x 3], the load of a unit acceleration; the effective mass of a mode v is (v . load)^2.
 std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
-                           const Eigen::MatrixXd &loads, int n_modes)
+                           const Eigen::MatrixXd &loads, int n_modes, bool damped = true)
 {
+  if (M.rows() == 0) // everything is held
+    return {};
   const DenseModes  modes = dense_modes(C, M);
   std::vector<Mode> result(std::min<Eigen::Index>(n_modes, modes.omega.size()));
   for (std::size_t j = 0; j < result.size(); ++j)
@@ -67,28 +69,19 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
     for (int d = 0; d < 3; ++d)
       result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
   }
-  add_damping(modes, B, result);
+  if (damped)
+    add_damping(modes, B, result);
   return result;
 }
 
-/// In the motions that the joints leave free, with the geometric stiffness of joints and elements: what makes a load on
-/// a rope swing.
-std::vector<Mode> jointed_modes(const Machine &machine, const Eigen::VectorXd &q, const Eigen::MatrixXd &B,
-                                const Eigen::MatrixXd &C, int n_modes)
+/// Multipliers of the joints as the machine moves on from rest.
+Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
   Eigen::VectorXd       a    = zero;
-  LocalState            local;
-  local.resize(machine);
-  machine.gather(0., q, zero, zero, local);
-  IntegrationWork work;
+  IntegrationWork       work;
   ConsistentStart(machine, "modes").solve(q, zero, a, local, work);
-  const Eigen::MatrixXd Z = free_motions(machine, local), K = C + geometric_stiffness(machine, local);
-  std::vector<Mode>     modes = modes_of(Z.transpose() * dense_mass(machine) * Z, Z.transpose() * B * Z,
-                                         Z.transpose() * K * Z, Z.transpose() * machine.translation_loads(), n_modes);
-  for (Mode &mode : modes)
-    mode.shape = Z * mode.shape;
-  return modes;
+  return local.lambda;
 }
 } // namespace
 
@@ -100,18 +93,37 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
   return modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes);
 }
 
-std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
-                                int n_modes)
+std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
+                                   int n_modes)
 {
   if (machine.full_frame())
     throw std::invalid_argument("modes: the machine has " + std::to_string(machine.size()) +
                                 " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
-  Eigen::MatrixXd stiffness, damping;
-  engaged_matrices(machine, q, open, stiffness, damping);
-  if (machine.n_constraints() > 0)
-    return jointed_modes(machine, q, dense_damping(machine) + damping, dense_stiffness(machine) + stiffness, n_modes);
-  return modes_of(dense_mass(machine), dense_damping(machine) + damping, dense_stiffness(machine) + stiffness,
-                  machine.translation_loads(), n_modes);
+  Eigen::MatrixXd K, B;
+  engaged_matrices(machine, q, linearisation.open, K, B);
+  K += dense_stiffness(machine);
+  B += dense_damping(machine);
+
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  LocalState            local;
+  local.resize(machine);
+  machine.gather(0., q, zero, zero, local);
+  const bool jointed = machine.n_constraints() > 0;
+  if (linearisation.geometric == GeometricStiffness::included)
+  {
+    if (jointed)
+      local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
+    K += geometric_stiffness(machine, local, linearisation.acting);
+  }
+  if (!jointed && linearisation.fixed.empty())
+    return modes_of(dense_mass(machine), B, K, machine.translation_loads(), n_modes, linearisation.damping);
+  const Eigen::MatrixXd Z = free_motions(machine, local, linearisation.fixed);
+  std::vector<Mode>     modes =
+      modes_of(Z.transpose() * dense_mass(machine) * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
+               Z.transpose() * machine.translation_loads(), n_modes, linearisation.damping);
+  for (Mode &mode : modes)
+    mode.shape = Z * mode.shape;
+  return modes;
 }
 
 } // namespace gestell::coupling

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "coupling/machine.h"
+#include "coupling/dense_matrices.h"
+
+#include <optional>
 
 namespace gestell::coupling
 {
@@ -17,10 +19,40 @@ struct Mode
 /// gives its lowest n_modes.
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes);
 
-/// Modes of the coupled machine linearised at q: base system plus engaged elements (all but those named in `open`),
-/// without geometric stiffness.  With ideal joints: in the motions they leave free, with the geometric stiffness of the
-/// forces that act at q.  Shapes in the machine's coordinates.
-std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
-                                int n_modes);
+enum class GeometricStiffness
+{
+  included, ///< of forces that turn with the motion: a load on a rope swings
+  left_out
+};
+
+/// How a machine is linearised.
+struct Linearisation
+{
+  std::vector<std::string>       open{}; ///< elements that are not engaged
+  GeometricStiffness             geometric = GeometricStiffness::included;
+  std::vector<int>               fixed{};                     ///< coordinates at rest
+  Acting                         acting = Acting::everything; ///< whose forces are geometric stiffness
+  std::optional<Eigen::VectorXd> multipliers{};               ///< [n_c] of joints; none: as it moves on from rest
+  bool                           damping = true;              ///< false: undamped frequencies and shapes only
+};
+
+/**
+ * Modes of the coupled machine linearised at q, shapes in the machine's coordinates:
+ *
+ *     (Z^T K Z - omega^2 Z^T M Z) y = 0,     v = Z y,     v^T M v = 1,     K = C + K_engaged + K_geometric,
+ *
+ * where Z spans the motions that joints and fixed coordinates leave free.  Joints have to be closed at q.
+ *
+ * Source: docs/theory/joints.md (6).
+ * @throws std::invalid_argument for a name in `open` that no element has, and on an unreduced frame
+ */
+std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
+                                   int n_modes);
+/// The same with the elements named in `open` not engaged, and geometric stiffness.
+inline std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q,
+                                       const std::vector<std::string> &open, int n_modes)
+{
+  return linearised_modes(machine, q, Linearisation{open}, n_modes);
+}
 
 } // namespace gestell::coupling

@@ -18,6 +18,7 @@ namespace
 constexpr int    most_iterations = 50, most_parts = 64;
 constexpr double converged = 1e-13; ///< correction, against the size of q
 constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
+constexpr double balanced  = 1e-9;  ///< residual beside its forces that counts as none along a free motion
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -25,18 +26,28 @@ using Eigen::VectorXd;
 class Equilibrium
 {
 public:
-  Equilibrium(Machine &machine, const InitialState &from)
-      : machine_(machine), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t), q_(from.q),
-        lambda_(VectorXd::Zero(n_c_)), zero_(VectorXd::Zero(n_)), G_(machine.constraint_blocks()),
-        C_(dense_stiffness(machine)), load_(n_)
+  /// @param held  what is kept where it is, or null; see held_equilibrium()
+  Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr)
+      : machine_(machine), held_(held), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t), q_(from.q),
+        zero_(VectorXd::Zero(n_)), G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
   {
     local_.resize(machine);
     machine.gather(t_, q_, zero_, zero_, local_);
     machine.start(local_);
-    machine.excitation().at(t_, load_);
+    acts_ = acting_measures(machine, local_.u, held ? Acting::structure : Acting::everything);
+    if (held)
+      load_ = machine.excitation().constant();
+    else
+      machine.excitation().at(t_, load_);
+    for (int i = machine.n_frame(); held && i < n_; ++i)
+      if (held->q_given[i])
+        given_.push_back(i);
+    n_g_    = held ? int(given_.size() + held->measures.size()) : 0;
+    lambda_ = VectorXd::Zero(n_c_ + n_g_);
   }
 
   const VectorXd &q() const { return q_; }
+  VectorXd        multipliers() const { return lambda_.head(n_c_); }
 
   void solve()
   {
@@ -81,15 +92,15 @@ private:
     VectorXd residual;
     lambda_.setZero();
     evaluate(share, saddle, residual);
-    if (n_c_ > 0)
-      lambda_ = saddle.topRightCorner(n_, n_c_).colPivHouseholderQr().solve(-residual.head(n_));
+    if (lambda_.size() > 0)
+      lambda_ = saddle.topRightCorner(n_, lambda_.size()).colPivHouseholderQr().solve(-residual.head(n_));
   }
 
   void evaluate(double share, MatrixXd &saddle, VectorXd &residual)
   {
     const auto &W = machine_.directions();
     machine_.gather(t_, q_, zero_, zero_, local_);
-    local_.lambda = lambda_;
+    local_.lambda = lambda_.head(n_c_);
     VectorXd g(n_c_);
     machine_.constraints(local_, g, G_);
     MatrixXd dp = MatrixXd::Zero(W.cols(), W.cols()), geometric;
@@ -99,41 +110,90 @@ private:
       local_.p[held.measure] = 0.;
       dp.row(held.measure).setZero();
     }
-    G_.set_forces(lambda_, local_.p);
+    local_.p = acts_.cwiseProduct(local_.p);
+    dp       = acts_.asDiagonal() * dp;
+    G_.set_forces(local_.lambda, local_.p);
     machine_.geometric(local_, geometric);
-    const MatrixXd A = joint_jacobian(machine_, G_);
-    saddle.setZero(n_ + n_c_, n_ + n_c_);
-    saddle.topLeftCorner(n_, n_)      = C_ + W * (geometric - dp) * W.transpose();
-    saddle.topRightCorner(n_, n_c_)   = -A.transpose();
-    saddle.bottomLeftCorner(n_c_, n_) = A;
-    residual.resize(n_ + n_c_);
-    residual.head(n_)   = C_ * q_ - share * load_ - W * local_.p;
-    residual.tail(n_c_) = g;
+    const int n_l = n_c_ + n_g_;
+    MatrixXd  A(n_l, n_);
+    VectorXd  open(n_l);
+    A.topRows(n_c_) = joint_jacobian(machine_, G_);
+    open.head(n_c_) = g;
+    if (held_)
+      hold(A, open);
+    saddle.setZero(n_ + n_l, n_ + n_l);
+    saddle.topLeftCorner(n_, n_)     = C_ + W * (acts_.asDiagonal() * geometric - dp) * W.transpose();
+    saddle.topRightCorner(n_, n_l)   = -A.transpose();
+    saddle.bottomLeftCorner(n_l, n_) = A;
+    residual.resize(n_ + n_l);
+    residual.head(n_)  = C_ * q_ - share * load_ - W * local_.p - A.bottomRows(n_g_).transpose() * lambda_.tail(n_g_);
+    residual.tail(n_l) = open;
+  }
+
+  /// Rows of what is held, behind those of the joints.
+  void hold(MatrixXd &A, VectorXd &open)
+  {
+    for (const auto &[row, shift] : held_->shifts)
+      open[row] -= shift;
+    int row = n_c_;
+    for (const int i : given_)
+    {
+      A.row(row)  = VectorXd::Unit(n_, i).transpose();
+      open[row++] = q_[i] - held_->state.q[i];
+    }
+    VectorXd gradient;
+    for (const auto &[name, value] : held_->measures)
+    {
+      open[row]    = machine_.measure(name).evaluate(q_, zero_, &gradient).s - value;
+      A.row(row++) = gradient.transpose();
+    }
   }
 
   /// Scaled to rows and columns of equal size: stiffnesses beside cosines.
   VectorXd solution(const MatrixXd &saddle, const VectorXd &right) const
   {
-    VectorXd scale(n_ + n_c_);
+    const int size = int(saddle.rows());
+    VectorXd  scale(size);
     for (int i = 0; i < n_; ++i)
       scale[i] = 1. / std::sqrt(std::max(saddle.col(i).head(n_).cwiseAbs().maxCoeff(), 1.));
-    for (int i = n_; i < n_ + n_c_; ++i)
+    for (int i = n_; i < size; ++i)
     {
       const double row = saddle.row(i).head(n_).cwiseProduct(scale.head(n_).transpose()).cwiseAbs().maxCoeff();
       scale[i]         = row > 0. ? 1. / row : 1.;
     }
-    Eigen::FullPivLU<MatrixXd> lu(scale.asDiagonal() * saddle * scale.asDiagonal());
+    const MatrixXd             scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
+    const VectorXd             forces = scale.asDiagonal() * right;
+    Eigen::FullPivLU<MatrixXd> lu;
     lu.setThreshold(singular);
-    if (!lu.isInvertible())
+    lu.compute(scaled);
+    if (lu.isInvertible())
+      return scale.asDiagonal() * lu.solve(forces);
+    if (held_)
     {
-      int            worst  = 0;
-      const VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
-      motion.head(n_).cwiseAbs().maxCoeff(&worst);
-      throw std::invalid_argument("there is no static equilibrium: the motion of " + machine_.coordinate_name(worst) +
-                                  " has neither stiffness nor weight that holds it here; hold it, start from another "
-                                  "position, or with rule = \"given\"");
+      const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
+      if ((scaled * x - forces).norm() <= balanced * forces.norm())
+        return scale.asDiagonal() * x;
+      // Open play gives no stiffness: closed elements show the way through it.
+      const MatrixXd way = scale.asDiagonal() * with_closed_chains(saddle) * scale.asDiagonal();
+      lu.compute(way);
+      if (lu.isInvertible())
+        return scale.asDiagonal() * lu.solve(forces);
+      lu.compute(scaled);
     }
-    return scale.asDiagonal() * lu.solve(scale.asDiagonal() * right);
+    int            worst  = 0;
+    const VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
+    motion.head(n_).cwiseAbs().maxCoeff(&worst);
+    throw std::invalid_argument("there is no static equilibrium: the motion of " + machine_.coordinate_name(worst) +
+                                " has neither stiffness nor weight that holds it here; hold it, start from another "
+                                "position, or with rule = \"given\"");
+  }
+
+  MatrixXd with_closed_chains(MatrixXd saddle) const
+  {
+    MatrixXd stiffness, damping;
+    engaged_matrices(machine_, q_, {}, stiffness, damping);
+    saddle.topLeftCorner(n_, n_) = C_ + stiffness;
+    return saddle;
   }
 
   bool newton(double share)
@@ -151,7 +211,7 @@ private:
       // A long way is gone in parts: another equilibrium lies behind the next turn.
       const double part = size > 0.5 ? 0.5 / size : 1.;
       q_ += part * delta.head(n_);
-      lambda_ += part * delta.tail(n_c_);
+      lambda_ += part * delta.tail(lambda_.size());
       if (part == 1. && (size <= converged * scale || (size < 1e-9 * scale && size > 0.3 * before)))
         return true;
       before = size;
@@ -160,12 +220,14 @@ private:
   }
 
   Machine           &machine_;
-  int                n_, n_c_;
+  const KnownStart  *held_;
+  int                n_, n_c_, n_g_ = 0; ///< coordinates; equations of joints, and of what is held
+  std::vector<int>   given_;             ///< held coordinates
   double             t_;
   VectorXd           q_, lambda_, zero_;
   ConstraintJacobian G_;
   MatrixXd           C_;
-  VectorXd           load_;
+  VectorXd           load_, acts_;
   LocalState         local_;
 };
 
@@ -182,6 +244,13 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
   state.q            = equilibrium.q();
   state.v            = drift == Drift::quasistatic ? equilibrium.drift() : Eigen::VectorXd::Zero(machine.size()).eval();
   return state;
+}
+
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position)
+{
+  Equilibrium equilibrium(machine, position.state, &position);
+  equilibrium.solve();
+  return {equilibrium.q(), equilibrium.multipliers()};
 }
 
 } // namespace gestell::coupling

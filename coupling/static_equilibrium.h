@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/steady_start.h"
+#include "coupling/assembly.h"
 
 namespace gestell::coupling
 {
@@ -23,5 +23,22 @@ enum class Drift
  * @throws std::invalid_argument if a motion has neither stiffness nor weight to hold it, or no equilibrium is found
  */
 InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift);
+
+struct HeldEquilibrium
+{
+  Eigen::VectorXd q;      ///< [n]
+  Eigen::VectorXd lambda; ///< [n_c] multipliers of the joints
+};
+
+/**
+ * The same with the machine held where it is asked for: given coordinates of bodies and measures keep their values,
+ * driven joints stand where `position.shifts` has them; what holds them takes up any force.  Of loads that vary with
+ * time the constant part acts; technological forces and drives rest (Acting::structure), for the machine stands still.
+ * A motion without stiffness along which no force acts stays where it is.
+ *
+ * @param position  assembled: its state is where the search begins, chains that play opens just touching
+ * @throws std::invalid_argument as static_equilibrium()
+ */
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position);
 
 } // namespace gestell::coupling

@@ -1,5 +1,6 @@
 #include "coupling/steady_start.h"
 
+#include "coupling/closed_chains.h"
 #include "coupling/dense_matrices.h"
 
 #include <Eigen/QR>
@@ -13,66 +14,6 @@ namespace gestell::coupling
 
 namespace
 {
-
-/// Closed elements linearised at q: g + J dq = 0, and the acceleration of the closure along v, v^T g'' v.
-struct Closures
-{
-  Eigen::VectorXd g, curvature; // [n_c]
-  Eigen::MatrixXd J;            // [n_c x n]
-};
-
-Closures closures(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
-{
-  const auto                  &W = machine.directions();
-  const Eigen::VectorXd        u = W.transpose() * q, u_rate = W.transpose() * v;
-  std::vector<double>          values, curvatures;
-  std::vector<Eigen::VectorXd> rows;
-  int                          first = 0;
-  for (const ElementPlacement &placement : machine.elements())
-  {
-    const int           k = placement.element->n_measures();
-    std::vector<double> gradient(k);
-    double              g, curvature;
-    if (placement.element->closure(u.data() + first, u_rate.data() + first, g, gradient.data(), curvature))
-    {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(machine.size());
-      for (int j = 0; j < k; ++j)
-        row += gradient[j] * Eigen::VectorXd(W.col(first + j));
-      rows.push_back(row);
-      values.push_back(g);
-      curvatures.push_back(curvature);
-    }
-    first += k;
-  }
-  Closures result;
-  result.g         = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  result.curvature = Eigen::Map<Eigen::VectorXd>(curvatures.data(), static_cast<Eigen::Index>(curvatures.size()));
-  result.J.resize(static_cast<Eigen::Index>(rows.size()), machine.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    result.J.row(static_cast<Eigen::Index>(i)) = rows[i];
-  return result;
-}
-
-std::vector<int> slider_coordinates(const Machine &machine)
-{
-  std::vector<int> sliders;
-  for (const Body &body : machine.bodies())
-    if (body.kind == BodyKind::slider)
-      sliders.push_back(body.coordinate);
-  return sliders;
-}
-
-/// Least change of the sliders alone that satisfies J x = b.
-Eigen::VectorXd slider_solution(const Eigen::MatrixXd &J, const Eigen::VectorXd &b, const std::vector<int> &sliders)
-{
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(J.cols());
-  if (sliders.empty() || J.rows() == 0)
-    return x;
-  const Eigen::MatrixXd own   = J(Eigen::all, sliders);
-  const Eigen::VectorXd least = own.completeOrthogonalDecomposition().solve(b);
-  x(sliders)                  = least;
-  return x;
-}
 
 /// Positions given by angles, and the state kinematics makes of them.
 struct Kinematics
@@ -111,15 +52,10 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
     result.driver = machine.body(start.driver).coordinate;
   check_driver(start, result);
 
-  const std::vector<int> sliders = slider_coordinates(machine);
-  for (int i = 0; i < 20; ++i)
-  {
-    const Closures chain = closures(machine, q, v);
-    q += slider_solution(chain.J, -chain.g, sliders);
-  }
+  close_chains(machine, q);
   const Closures chain = closures(machine, q, v);
-  v += slider_solution(chain.J, -chain.J * v, sliders);
-  result.acceleration = slider_solution(chain.J, -closures(machine, q, v).curvature, sliders);
+  v += slider_solution(machine, chain.J, -chain.J * v);
+  result.acceleration = slider_solution(machine, chain.J, -closures(machine, q, v).curvature);
   return result;
 }
 

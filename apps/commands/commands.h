@@ -50,6 +50,20 @@ struct ChartCommandOptions
   double                   limit   = 0.;     ///< [s] of CPU time for one run; 0: 20, quick 5
 };
 
+/// `gestell modes`: about one position, or along a coordinate.
+struct ModesCommandOptions
+{
+  std::string              along;                ///< coordinate; empty: one position
+  std::string              from, to;             ///< "100 deg", plain numbers in SI; empty: one turn of an angle
+  int                      positions     = 73;   ///< both ends included
+  std::string              geometric     = "on"; ///< "on" or "off"
+  std::string              configuration = "equilibrium"; ///< or "undeformed"
+  std::vector<std::string> hold;                          ///< coordinates at rest in the linearised machine
+  std::string              speed;                         ///< of the excitation; empty: that of the scene's start
+  int                      orders = 10;                   ///< multiples of it that are looked at
+  std::string              band   = "5 %";                ///< how near an order comes to count
+};
+
 struct StabilityCommandOptions
 {
   std::vector<double> zetas = {0., 0.01, 0.05}; ///< damping ratios of the maps
@@ -59,7 +73,7 @@ struct StabilityCommandOptions
 
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.
 int run_command(const CommonOptions &options);
-int modes_command(const CommonOptions &options);
+int modes_command(const CommonOptions &options, const ModesCommandOptions &modes);
 int reduce_command(const CommonOptions &options);
 int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh);
 int check_command(const CommonOptions &options);

@@ -1,4 +1,5 @@
 #include "apps/commands/commands.h"
+#include "apps/commands/modes_along.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
 #include "apps/output/result_folder.h"
@@ -27,7 +28,7 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
 }
 } // namespace
 
-int modes_command(const CommonOptions &options)
+int modes_command(const CommonOptions &options, const ModesCommandOptions &modes)
 {
   const Scene scene = read_scene(options.input, options.overrides);
   check_scene(scene);
@@ -37,7 +38,15 @@ int modes_command(const CommonOptions &options)
   ProgressLine    progress(options.quiet);
   PreparedMachine prepared = prepare_machine(scene, progress);
   progress.show("modes");
-  Result result = begin_result(scene, "modes", prepared);
+  const auto geometric =
+      modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
+  Result result = begin_result(scene, "modes", prepared, geometric);
+  if (!modes.along.empty())
+  {
+    result.along = modes_along_result(scene, prepared, modes, progress);
+    for (const std::string &warning : along_warnings(*result.along))
+      result.warnings.push_back(warning);
+  }
   progress.done();
   result.wall_s           = progress.wall_seconds();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
@@ -51,8 +60,11 @@ int modes_command(const CommonOptions &options)
 
   print_modes("frame as supported, interface free", result.frame_modes);
   print_modes("coupled machine", result.coupled_modes);
+  if (result.along)
+    print_along(*result.along);
   if (beside_a_run)
-    std::cout << folder.string() << " holds a run, which is kept: only modes.csv and frame_modes.pvd were written\n";
+    std::cout << folder.string()
+              << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
   return exit_done;

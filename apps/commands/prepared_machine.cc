@@ -139,7 +139,8 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   return facts;
 }
 
-Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared)
+Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
+                    coupling::GeometricStiffness geometric)
 {
   coupling::Machine &small = prepared.small();
   Result             result;
@@ -150,7 +151,8 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.model       = model_facts(prepared);
   result.frame_modes = coupling::frame_modes(small, scene.modes.number);
   result.coupled_modes =
-      coupling::coupled_modes(small, modes_configuration(scene, small), scene.modes.open, scene.modes.number);
+      coupling::linearised_modes(small, modes_configuration(scene, small),
+                                 coupling::Linearisation{scene.modes.open, geometric}, scene.modes.number);
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;

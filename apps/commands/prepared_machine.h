@@ -38,6 +38,7 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress,
 ModelFacts model_facts(const PreparedMachine &prepared);
 
 /// What modes, run and reduce write alike: scene, version, model, modes, scenery.
-Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared);
+Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
+                    coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
 
 } // namespace gestell::apps

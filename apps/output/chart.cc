@@ -91,7 +91,7 @@ std::string segment(const char *style, double x0, double y0, double x1, double y
 std::string axes(const LineChart &chart, const Frame &f)
 {
   std::string svg;
-  for (const double x : nice_ticks(f.x0, f.x1, 8))
+  for (const double x : chart.x_ticks.empty() ? nice_ticks(f.x0, f.x1, 8) : chart.x_ticks)
     svg += segment("grid", f.px(x), f.top, f.px(x), f.bottom) +
            svg_text(f.px(x), f.bottom + 17., short_text(x, 6), "tick", "middle");
   for (const double y : nice_ticks(f.y0, f.y1, 6))
@@ -124,6 +124,45 @@ std::string event_lines(const LineChart &chart, const Frame &f)
       free_from = x + half + 2.;
     }
     svg += "</g>\n";
+  }
+  return svg;
+}
+
+/// Names only where they do not collide, the lowest first.
+std::string level_lines(const LineChart &chart, const Frame &f)
+{
+  std::vector<Level> levels = chart.levels;
+  std::stable_sort(levels.begin(), levels.end(), [](const Level &a, const Level &b) { return a.y < b.y; });
+  std::string svg;
+  double      free_below = f.bottom;
+  for (const Level &level : levels)
+  {
+    if (level.y < f.y0 || level.y > f.y1)
+      continue;
+    const double y = f.py(level.y);
+    svg += "<g><title>" + escape_xml(level.name) + "</title>" + segment("event", f.left, y, f.right, y);
+    if (y - 3. <= free_below)
+    {
+      svg += svg_text(f.right - 4., y - 3., level.name, "small", "end");
+      free_below = y - 14.;
+    }
+    svg += "</g>\n";
+  }
+  return svg;
+}
+
+std::string rings(const LineChart &chart, const Frame &f)
+{
+  std::string svg;
+  for (const Ring &ring : chart.rings)
+  {
+    if (ring.x < f.x0 || ring.x > f.x1 || ring.y < f.y0 || ring.y > f.y1)
+      continue;
+    std::string x, y;
+    append_coordinate(x, f.px(ring.x));
+    append_coordinate(y, f.py(ring.y));
+    svg += "<g><title>" + escape_xml(ring.text) + "</title><circle class=\"axis\" cx=\"" + x + "\" cy=\"" + y +
+           "\" r=\"4.5\"/></g>\n";
   }
   return svg;
 }
@@ -190,6 +229,8 @@ Frame frame_of(const LineChart &chart, const Window &window, double x0, double x
         high = std::max(high, series.y[i]);
       }
   add_room(low, high);
+  low              = std::isnan(chart.y_begin) ? low : chart.y_begin;
+  high             = std::isnan(chart.y_end) ? high : chart.y_end;
   const double top = title_height + legend_height * legend_rows + (chart.marks.empty() ? 8. : 18.);
   return {x0, x1, low, high, left_margin, chart.width - right_margin, top, chart.height - bottom_margin};
 }
@@ -229,7 +270,7 @@ std::string line_chart_svg(const LineChart &chart)
 
   std::string svg = svg_head(chart.width, chart.height, chart.title);
   svg += svg_text(left_margin, 18., chart.title, "title");
-  svg += axes(chart, f) + event_lines(chart, f);
+  svg += axes(chart, f) + event_lines(chart, f) + level_lines(chart, f);
   std::string x, y, w, h;
   append_coordinate(x, f.left);
   append_coordinate(y, f.top);
@@ -239,7 +280,7 @@ std::string line_chart_svg(const LineChart &chart)
          " " + w + " " + h + "\">\n";
   for (std::size_t i = 0; i < chart.series.size(); ++i)
     svg += "<path class=\"" + line_class(i) + "\" d=\"" + curve(chart, chart.series[i].y, window, f) + "\"/>\n";
-  return svg + "</svg>\n" + legend(chart, entries) + "</svg>\n";
+  return svg + "</svg>\n" + rings(chart, f) + legend(chart, entries) + "</svg>\n";
 }
 
 std::string bar_chart_svg(const BarChart &chart)

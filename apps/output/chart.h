@@ -24,6 +24,20 @@ struct EventMark
   std::string text; ///< shown by browsers under the pointer
 };
 
+/// A horizontal line with its name at the right end.
+struct Level
+{
+  double      y;
+  std::string name;
+};
+
+/// A ring around a point worth looking at.
+struct Ring
+{
+  double      x, y;
+  std::string text; ///< shown by browsers under the pointer
+};
+
 /// Curves over one common abscissa, shown between x_begin and x_end (nan: all of it).
 struct LineChart
 {
@@ -31,8 +45,13 @@ struct LineChart
   std::vector<double>    x; ///< ascending
   std::vector<Series>    series;
   std::vector<EventMark> marks;
+  std::vector<double>    x_ticks{}; ///< empty: chosen
+  std::vector<Level>     levels;
+  std::vector<Ring>      rings;
   double                 x_begin = std::numeric_limits<double>::quiet_NaN();
   double                 x_end   = std::numeric_limits<double>::quiet_NaN();
+  double                 y_begin = std::numeric_limits<double>::quiet_NaN(); ///< nan: as the curves need
+  double                 y_end   = std::numeric_limits<double>::quiet_NaN();
   double                 width = 880., height = 340.;
 };
 

@@ -1,5 +1,7 @@
 #include "apps/output/report.h"
 
+#include "apps/output/along_report.h"
+#include "apps/output/html.h"
 #include "apps/output/mode_charts.h"
 #include "apps/output/number_text.h"
 #include "apps/output/report_style.h"
@@ -17,26 +19,6 @@ namespace
 
 constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
 constexpr double      seen_motion = 0.02; ///< of the machine's size
-
-std::string section(const std::string &id, const std::string &title, const std::string &content)
-{
-  return content.empty() ? "" : "<section id=\"" + id + "\"><h2>" + title + "</h2>\n" + content + "</section>\n";
-}
-
-std::string figure(const std::string &svg, const std::string &caption = "")
-{
-  return "<figure>" + svg + (caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>") + "</figure>\n";
-}
-
-std::string cell(const std::string &text, const char *kind = "")
-{
-  return (*kind != '\0' ? std::string("<td class=\"") + kind + "\">" : std::string("<td>")) + text + "</td>";
-}
-
-std::string number_cell(double x, int digits = 4)
-{
-  return cell(short_text(x, digits), "n");
-}
 
 /// A table of two columns for facts; those without a value are left out.
 class Facts
@@ -305,6 +287,7 @@ std::string contents(const std::string &body)
                                  {"motion", "Motion"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
+                                 {"along", "Frequencies along"},
                                  {"modes", "Modes"},
                                  {"numerics", "Model and work"}})
     if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
@@ -324,11 +307,12 @@ Report make_report(const Result &full)
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body =
-      answer_section(result, report) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
-      chart_section(charts, ChartTopic::motion, "motion", "Motion") +
-      chart_section(charts, ChartTopic::other, "signals", "Other signals") + events_section(result) +
-      energy_section(result, charts) + modes_section(result, report) + numerics_section(result);
+  const std::string body = answer_section(result, report) +
+                           chart_section(charts, ChartTopic::force, "forces", "Forces") +
+                           chart_section(charts, ChartTopic::motion, "motion", "Motion") +
+                           chart_section(charts, ChartTopic::other, "signals", "Other signals") +
+                           events_section(result) + energy_section(result, charts) + along_section(result, report) +
+                           modes_section(result, report) + numerics_section(result);
 
   const std::string title = escape_xml(result.scene);
   report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/scenery.h"
+#include "coupling/excitation_orders.h"
 #include "coupling/modes.h"
 #include "coupling/simulation.h"
 
@@ -28,6 +29,18 @@ struct ModelFacts
   double static_residual = std::numeric_limits<double>::quiet_NaN(); ///< see coupling::ReducedFrame
 };
 
+/// Modes along a coordinate, and what excites them there.
+struct AlongResult
+{
+  coupling::ModesAlong                modes;
+  coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included;
+  std::string                         fixed;       ///< coordinates at rest, for people; may be empty
+  double                              speed  = 0.; ///< [rad/s] of the excitation; 0: unknown
+  int                                 orders = 10; ///< highest multiple of the speed that is looked at
+  double                              band   = 0.05;
+  std::vector<coupling::OrderMeeting> meetings;
+};
+
 /// All that is written about one computation: plain values, gathered by whoever computed them.
 struct Result
 {
@@ -42,6 +55,7 @@ struct Result
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
+  std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    warnings;         ///< beyond those of the run
   Scenery                                     scenery;

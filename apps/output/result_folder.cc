@@ -1,5 +1,6 @@
 #include "apps/output/result_folder.h"
 
+#include "apps/output/along_report.h"
 #include "apps/output/paraview.h"
 #include "apps/output/report.h"
 #include "apps/output/tables.h"
@@ -22,8 +23,8 @@ namespace
 }
 
 /// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
-const char *const                           own_files[]   = {"summary.json",    "history.csv", "modes.csv",
-                                                             "frame_modes.pvd", "motion.pvd",  "report.html"};
+const char *const own_files[] = {"summary.json", "history.csv", "modes.csv",       "frame_modes.pvd",
+                                 "motion.pvd",   "report.html", "modes_along.csv", "modes_along_shapes.csv"};
 const std::pair<const char *, const char *> own_folders[] = {
     {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}};
 
@@ -55,6 +56,13 @@ std::string probe(const fs::path &folder)
   std::error_code error;
   fs::remove(path, error);
   return written ? "" : std::strerror(reason);
+}
+
+template <typename Write>
+void write_along_tables(const Write &write, const Result &result)
+{
+  write("modes_along.csv", modes_along_csv(*result.along));
+  write("modes_along_shapes.csv", modes_along_shapes_csv(*result.along, result.coordinate_names));
 }
 
 } // namespace
@@ -127,6 +135,8 @@ std::vector<std::string> write_results(const fs::path &folder, const Result &res
     write("history.csv", history_csv(*result.run));
   if (!result.frame_modes.empty() || !result.coupled_modes.empty())
     write("modes.csv", modes_csv(result));
+  if (result.along)
+    write_along_tables(write, result);
   const Report report = make_report(told);
   for (const auto &[name, svg] : report.charts)
     write("charts/" + name + ".svg", svg);
@@ -140,6 +150,12 @@ void write_modes(const fs::path &folder, const Result &result)
   std::vector<std::string> names;
   write_paraview(folder, result, names);
   write_file(folder / "modes.csv", modes_csv(result));
+  if (!result.along)
+    return;
+  write_along_tables([&](const std::string &name, const std::string &content) { write_file(folder / name, content); },
+                     result);
+  for (const auto &[name, svg] : along_pictures(*result.along))
+    write_file(folder / "charts" / (name + ".svg"), svg);
 }
 
 } // namespace gestell::apps

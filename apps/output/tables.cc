@@ -1,5 +1,6 @@
 #include "apps/output/tables.h"
 
+#include "apps/output/along_report.h"
 #include "apps/output/json.h"
 #include "apps/output/number_text.h"
 
@@ -124,6 +125,46 @@ void write_energy(JsonWriter &json, const coupling::EnergySummary &energy)
   json.end_object();
 }
 
+void write_along(JsonWriter &json, const AlongResult &along)
+{
+  json.begin_object("modes_along");
+  json.text("coordinate", along.modes.coordinate.name);
+  json.text("unit", along.modes.coordinate.unit);
+  json.integer("positions", static_cast<long long>(along.modes.positions.size()));
+  json.integer("linearisations", along.modes.linearisations);
+  json.boolean("geometric", along.geometric == coupling::GeometricStiffness::included);
+  json.number("speed", along.speed);
+  json.begin_array("lines");
+  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
+  {
+    const LineExtremes own = line_extremes(along.modes, i);
+    json.begin_object();
+    json.number("min_hz", own.min);
+    json.number("at_min", own.x_min);
+    json.number("max_hz", own.max);
+    json.number("at_max", own.x_max);
+    json.number("least_mac", own.least_assurance);
+    json.text("moves_most", along.modes.moves_most[i]);
+    json.boolean("free", along.modes.free[i]);
+    json.end_object();
+  }
+  json.end_array();
+  json.begin_array("order_meetings");
+  for (const coupling::OrderMeeting &meeting : along.meetings)
+  {
+    json.begin_object();
+    json.integer("order", meeting.order);
+    json.integer("line", meeting.line + 1);
+    json.number("from", meeting.begin);
+    json.number("to", meeting.end);
+    json.number("nearest_at", meeting.x);
+    json.number("frequency_hz", meeting.frequency_hz);
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
 void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
 {
   int number = 0;
@@ -172,6 +213,8 @@ std::string summary_json(const Result &result)
   write_model(json, result.model);
   write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
+  if (result.along)
+    write_along(json, *result.along);
   write_signals(json, run.signals);
   write_events(json, run.events);
   json.text("method", run.method);

@@ -1,6 +1,7 @@
 #include "apps/scene/build_machine.h"
 
 #include "coupling/assembly.h"
+#include "coupling/closed_chains.h"
 #include "coupling/static_equilibrium.h"
 
 #include <algorithm>
@@ -126,6 +127,7 @@ Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machi
   Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());
   for (const auto &value : scene.modes.at)
     set_coordinate(q, value, machine);
+  coupling::close_chains(machine, q); // what is only given by its crank, such as a slide, follows
   return q;
 }
 

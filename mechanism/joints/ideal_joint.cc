@@ -64,6 +64,16 @@ void IdealJoint::constraint_rates(const LocalMotion &motion, const double *histo
   }
 }
 
+double IdealJoint::driven_value(const double *u) const
+{
+  const double at_rest[PlacedMeasure::max_measures] = {};
+  double       G[PlacedMeasure::max_measures];
+  for (const Equation &equation : equations_)
+    if (equation.driven)
+      return PlacedMeasure{first_, second_, equation.measure}.evaluate(u, at_rest, G).s;
+  return 0.;
+}
+
 double IdealJoint::constraint_size() const
 {
   double size = first_.size() + second_.size();

@@ -49,6 +49,9 @@ public:
   void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
   std::string constraint_name(int i) const override { return equations_[i].name; }
 
+  /// s(u) of the equation that follows the law; 0 if none does.
+  double driven_value(const double *u) const;
+
   Work work() const override { return law_ ? Work::input : Work::dissipated; }
 
   /// History, corners and commands are those of the law.

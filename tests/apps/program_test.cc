@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <vector>
 
@@ -37,6 +38,24 @@ TEST(Program, ModesAndCheckWorkWithoutARun)
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
   const Answer check = gestell("check " + scene("press_minimal.toml"));
   EXPECT_EQ(check.exit_code, 0) << check.text;
+}
+
+TEST(Program, ModesAlongACoordinateLeaveTablesAndCharts)
+{
+  const Folder folder("along");
+  const Answer answer =
+      gestell("modes " + scene("press_minimal.toml") + folder.option() + "--along crank --positions 5");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  const std::string table = read(folder.results() / "modes_along.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "crank.angle [rad],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 5 * 5);
+  EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"along\">"), std::string::npos);
+  EXPECT_NE(read(folder.results() / "summary.json").find("\"order_meetings\""), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "charts" / "modes-along.svg"));
+  const Answer wrong = gestell("modes " + scene("press_minimal.toml") + folder.option() + "--along cranc");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(wrong.says("did you mean 'crank'")) << wrong.text;
 }
 
 TEST(Program, EveryCommandHelpsWithAnExample)
