@@ -133,6 +133,10 @@ public:
     {
       return;
     }
+    catch (const ConvergenceFailure &)
+    {
+      return;
+    }
     follow(before, middle, halvings + 1);
     next.modes = ascending;
     follow(middle, next, halvings + 1);

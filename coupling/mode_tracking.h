@@ -36,7 +36,8 @@ struct TrackingOptions
  * they are turned to be nearest to the shapes before.  Signs are kept.
  *
  * Source: docs/theory/modes_along.md (4), (5).
- * @param at  modes at a position between; throws std::invalid_argument if there are none, and the step stays as it is
+ * @param at  modes at a position between; throws std::invalid_argument or ConvergenceFailure if there are none, and the
+ * step stays as it is
  */
 void track(const TrackedModes &before, TrackedModes &next, const Eigen::MatrixXd &M, const TrackingOptions &options,
            const std::function<std::vector<Mode>(double)> &at);

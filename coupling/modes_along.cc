@@ -150,6 +150,9 @@ private:
     {
       // what is in the way is told at the positions behind it
     }
+    catch (const ConvergenceFailure &)
+    {
+    }
     last.modes.modes.clear();
     return last;
   }

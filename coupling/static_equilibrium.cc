@@ -168,6 +168,7 @@ private:
     lu.compute(scaled);
     if (lu.isInvertible())
       return scale.asDiagonal() * lu.solve(forces);
+    VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
     if (held_)
     {
       const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
@@ -178,10 +179,9 @@ private:
       lu.compute(way);
       if (lu.isInvertible())
         return scale.asDiagonal() * lu.solve(forces);
-      lu.compute(scaled);
+      motion = scaled * x - forces; // of the free motions the one along which a force acts
     }
-    int            worst  = 0;
-    const VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
+    int worst = 0;
     motion.head(n_).cwiseAbs().maxCoeff(&worst);
     throw std::invalid_argument("there is no static equilibrium: the motion of " + machine_.coordinate_name(worst) +
                                 " has neither stiffness nor weight that holds it here; hold it, start from another "

@@ -1,6 +1,7 @@
 #include "apps/output/along_report.h"
 
 #include "apps/output/html.h"
+#include "apps/output/mode_charts.h"
 #include "apps/output/number_text.h"
 #include "apps/output/svg.h"
 
@@ -14,8 +15,9 @@ namespace
 {
 
 constexpr double      widest_chart = 3., least_span = 0.1; ///< highest to lowest frequency; of the height, relative
-constexpr double      no_damping = 1e-12;                  ///< what rounding leaves
-constexpr std::size_t most_lines = 7;
+constexpr double      no_damping  = 1e-12;                 ///< what rounding leaves
+constexpr double      seen_change = 0.02;                  ///< of a frequency, from which on shapes are drawn
+constexpr std::size_t most_lines = 7, most_shapes = 4;
 
 using coupling::ModesAlong;
 using coupling::ModesAt;
@@ -172,6 +174,40 @@ std::string meetings_table(const AlongResult &along)
   return html + "</table></div>\n";
 }
 
+/// Shapes of the lines that change most, where their frequencies are lowest and highest.
+std::string extreme_shapes(const Result &result, Report &report)
+{
+  const ModesAlong        &modes = result.along->modes;
+  std::vector<std::size_t> lines;
+  const auto               change = [&](std::size_t i)
+  {
+    const LineExtremes own = line_extremes(modes, i);
+    return own.min > 0. ? own.max / own.min - 1. : 0.;
+  };
+  for (std::size_t i = 0; i < modes.free.size(); ++i)
+    if (change(i) > seen_change)
+      lines.push_back(i);
+  std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
+  lines.resize(std::min(lines.size(), most_shapes));
+  std::string html;
+  for (const std::size_t i : lines)
+    for (const bool highest : {false, true})
+    {
+      const LineExtremes own = line_extremes(modes, i);
+      for (const ModesAt &at : modes.positions)
+        if (i < at.modes.size() && at.x == (highest ? own.x_max : own.x_min))
+        {
+          const std::string title = "Line " + std::to_string(i + 1) + " at " + at_text(modes, at.x) + ": " +
+                                    short_text(at.modes[i].frequency_hz) + " Hz";
+          report.charts.emplace_back("shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
+                                     shape_svg(result, title, at.modes[i]));
+          html += figure(report.charts.back().second);
+        }
+    }
+  return html.empty() ? ""
+                      : "<h3>Shapes where lines are lowest and highest</h3><div class=\"bars\">" + html + "</div>\n";
+}
+
 std::string statement(const AlongResult &along)
 {
   long deflected = 0, undeformed = 0;
@@ -274,7 +310,8 @@ std::string along_section(const Result &result, Report &report)
   }
   if (!along.meetings.empty())
     html += "<p class=\"soft\">Rings: an order of the excitation comes near a frequency.</p>\n";
-  html += meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along);
+  html +=
+      meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) + extreme_shapes(result, report);
   return section("along", "Natural frequencies along " + escape_xml(along.modes.coordinate.name), html);
 }
 

@@ -99,4 +99,9 @@ std::string coupled_mode_svg(const Result &result, std::size_t j)
   return bars_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
 }
 
+std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
+{
+  return bars_svg(result, title, mode);
+}
+
 } // namespace gestell::apps

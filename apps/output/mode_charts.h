@@ -18,4 +18,7 @@ std::string frame_mode_svg(const Result &result, std::size_t j);
 /// The coordinates of coupled mode j (from 0) as bars: interfaces of the frame and bodies, at most the ten largest.
 std::string coupled_mode_svg(const Result &result, std::size_t j);
 
+/// The same of any shape in the machine's coordinates.
+std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode);
+
 } // namespace gestell::apps

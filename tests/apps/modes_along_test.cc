@@ -18,13 +18,22 @@ using apps::ModesCommandOptions;
 
 constexpr double two_pi = 2. * M_PI;
 
+AlongResult along(const apps::Scene &scene, const ModesCommandOptions &options)
+{
+  apps::ProgressLine    progress(true);
+  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
+  return apps::modes_along_result(scene, prepared, options, progress);
+}
+
 AlongResult along(const std::string &text, const ModesCommandOptions &options)
 {
   const test::SceneFolder folder;
-  const apps::Scene       scene = apps::read_scene(folder.write("scene.toml", text));
-  apps::ProgressLine      progress(true);
-  apps::PreparedMachine   prepared = apps::prepare_machine(scene, progress);
-  return apps::modes_along_result(scene, prepared, options, progress);
+  return along(apps::read_scene(folder.write("scene.toml", text)), options);
+}
+
+apps::Scene press(const std::vector<std::string> &overrides = {})
+{
+  return apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", overrides);
 }
 
 ModesCommandOptions of(const std::string &coordinate, int positions = 73, const std::string &from = "",
@@ -303,8 +312,7 @@ TEST(ModesAlong, OrdersOfTheSpeedAreFoundWhereTheyMeetALine)
 // Play closed by 1 mm: engaged and geometric stiffness together are the tangent, which comes from dual numbers.
 TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
 {
-  const apps::Scene scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml");
-  coupling::Machine machine = apps::build_machine(scene);
+  coupling::Machine machine = apps::build_machine(press());
   Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), zero = q;
   q[machine.coordinate("crank")] = 1.; // far above the sheet
   coupling::close_chains(machine, q);
@@ -326,19 +334,40 @@ TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
 // reckoning.
 TEST(ModesAlong, WithoutGeometricStiffnessThePressHasTheFrequenciesOfItsReference)
 {
-  const apps::Scene     scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml");
-  apps::ProgressLine    progress(true);
-  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
-  ModesCommandOptions   options  = of("crank", 3, "140 deg", "180 deg");
-  options.geometric              = "off";
-  const AlongResult result       = apps::modes_along_result(scene, prepared, options, progress);
-  const auto       &modes        = result.modes.positions[1].modes;
+  ModesCommandOptions options = of("crank", 3, "140 deg", "180 deg");
+  options.geometric           = "off";
+  const AlongResult result    = along(press(), options);
+  const auto       &modes     = result.modes.positions[1].modes;
   EXPECT_EQ(result.modes.positions[1].configuration, coupling::Configuration::equilibrium);
   const double expected[] = {11.58486756566711, 19.964060481812542, 84.67576532126137, 132.75797317903064};
   ASSERT_EQ(modes.size(), 5u); // the first is the drive's turning, held by weights alone
   for (int j = 1; j < 5; ++j)
     EXPECT_NEAR(modes[j].frequency_hz, expected[j - 1], 1e-9 * expected[j - 1]); // tests/reference/press/modes.csv
   EXPECT_NEAR(result.speed, M_PI, 1e-12);                                        // that of the start: 30 1/min
+}
+
+// The punch would stand in the sheet here and push at the rod.
+TEST(ModesAlong, TechnologicalForcesRest)
+{
+  const ModesCommandOptions options = of("crank", 3, "160 deg", "180 deg");
+  const AlongResult         strong  = along(press(), options),
+                    weak            = along(press({"element.sheet.shear_resistance=\"100 MPa\""}), options);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 5; ++j)
+      EXPECT_EQ(strong.modes.positions[k].modes[j].frequency_hz, weak.modes.positions[k].modes[j].frequency_hz);
+}
+
+// Nothing holds the load: it would fall out of every equilibrium.
+TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsTold)
+{
+  const AlongResult result = along(load_on_rope, of("trolley", 3, "0 m", "1 m"));
+  for (const auto &at : result.modes.positions)
+  {
+    EXPECT_EQ(at.gap, "");
+    EXPECT_EQ(at.configuration, coupling::Configuration::undeformed);
+  }
+  expect_words(apps::along_warnings(result).front(), "3 positions are undeformed");
+  expect_words(apps::along_warnings(result).front(), "load.uz");
 }
 
 TEST(ModesAlong, BadInputIsTold)
