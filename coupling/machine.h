@@ -3,8 +3,8 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/marker.h"
 #include "coupling/reduced_frame.h"
+#include "mechanism/combined_measure.h"
 #include "mechanism/force_element.h"
-#include "mechanism/relative_measure.h"
 
 #include <map>
 #include <memory>
@@ -100,9 +100,9 @@ struct Oscillation
 /// A scalar of the motion of two points: signals "value" and "rate".
 struct NamedMeasure
 {
-  std::string              name, unit; ///< of the value: "m", "rad"
-  mechanism::PlacedMeasure measure;
-  std::vector<Measure>     measures;
+  std::string                name, unit; ///< of the value: "m", "rad"
+  mechanism::CombinedMeasure measure;
+  std::vector<Measure>       measures;
 
   mechanism::RelativeMeasure::Value evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                              Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]

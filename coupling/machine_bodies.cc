@@ -253,8 +253,8 @@ void Machine::add_measure(NamedMeasure measure)
 mechanism::RelativeMeasure::Value NamedMeasure::evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                                          Eigen::VectorXd *on_q) const
 {
-  double u[mechanism::PlacedMeasure::max_measures] = {}, rate[mechanism::PlacedMeasure::max_measures] = {};
-  double gradient[mechanism::PlacedMeasure::max_measures];
+  double u[mechanism::CombinedMeasure::max_measures] = {}, rate[mechanism::CombinedMeasure::max_measures] = {};
+  double gradient[mechanism::CombinedMeasure::max_measures];
   for (std::size_t i = 0; i < measures.size(); ++i)
     for (const auto &[coordinate, weight] : measures[i])
     {

@@ -101,7 +101,7 @@ double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &
     value += part.element->quantity(own.signal.quantity, motion, history_of(part));
   else if (own.signal.measure >= 0)
   {
-    double     gradient[mechanism::PlacedMeasure::max_measures];
+    double     gradient[mechanism::CombinedMeasure::max_measures];
     const auto measured = measures[own.signal.measure].measure.evaluate(motion.u, motion.v, gradient);
     value += own.signal.quantity == 0 ? measured.s : measured.rate;
   }

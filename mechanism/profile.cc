@@ -8,7 +8,7 @@
 namespace gestell::mechanism
 {
 
-Profile::Profile(double constant) : pieces_{{0., {constant, 0., 0.}}} {}
+Profile::Profile(double constant) : pieces_{{0., {constant, 0., 0.}, 0.}} {}
 
 Profile::Profile(const std::string &name, double from, const std::vector<Ramp> &ramps) : Profile(from)
 {
@@ -34,11 +34,12 @@ Profile::Profile(const std::string &name, double from, const std::vector<Ramp> &
 void Profile::add(double begin, double c0, double c1, double c2)
 {
   if (!corners_.empty() && corners_.back() == begin)
-    pieces_.back() = {begin, {c0, c1, c2}};
+    pieces_.back() = {begin, {c0, c1, c2}, pieces_.back().area};
   else
   {
     corners_.push_back(begin);
-    pieces_.push_back({begin, {c0, c1, c2}});
+    const double area = integral(pieces_.size() - 1, begin);
+    pieces_.push_back({begin, {c0, c1, c2}, area});
   }
 }
 
@@ -83,9 +84,22 @@ std::size_t Profile::piece_at(double t) const
 
 double Profile::value(std::size_t piece, double t) const
 {
-  const auto &[begin, c] = pieces_[piece];
-  const double s         = t - begin;
-  return c[0] + s * (c[1] + s * c[2]);
+  const auto  &p = pieces_[piece];
+  const double s = t - p.begin;
+  return p.c[0] + s * (p.c[1] + s * p.c[2]);
+}
+
+double Profile::rate(std::size_t piece, double t) const
+{
+  const auto &p = pieces_[piece];
+  return p.c[1] + 2. * p.c[2] * (t - p.begin);
+}
+
+double Profile::integral(std::size_t piece, double t) const
+{
+  const auto  &p = pieces_[piece];
+  const double s = t - p.begin;
+  return p.area + s * (p.c[0] + s * (p.c[1] / 2. + s * p.c[2] / 3.));
 }
 
 bool Profile::is_zero(std::size_t piece) const

@@ -48,6 +48,9 @@ public:
   std::size_t piece_at(double t) const;
   /// Value of a piece, also beyond its ends.
   double value(std::size_t piece, double t) const;
+  /// Its slope, and its integral from t = 0 on.
+  double rate(std::size_t piece, double t) const;
+  double integral(std::size_t piece, double t) const;
   /// Whether the piece has a corner at its end, and when that is.
   bool   ends(std::size_t piece) const { return piece < corners_.size(); }
   double corner(std::size_t piece) const { return corners_[piece]; }
@@ -58,11 +61,12 @@ public:
   std::vector<double> levels() const; ///< values at all corners: lowest and highest of the course are among them
 
 private:
-  /// c0 + c1 s + c2 s^2, s = t - begin
+  /// c0 + c1 s + c2 s^2, s = t - begin, and its integral up to begin
   struct Piece
   {
     double                begin;
     std::array<double, 3> c;
+    double                area = 0.;
   };
   void add_ramp(double from, const Ramp &ramp);
   void add(double begin, double c0, double c1, double c2);

@@ -96,35 +96,33 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
   return {s, rate, 0.};
 }
 
+PlacedMeasure PlacedMeasure::linear()
+{
+  PlacedMeasure own;
+  own.first          = Placement(Vector3d::Zero(), Vector3d::Zero(), {{Vector3d::Zero(), Vector3d::Zero()}});
+  own.measure.form   = RelativeMeasure::Form::ratio;
+  own.measure.ratios = {1.};
+  return own;
+}
+
 RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v, double *gradient) const
 {
   MovedVector x_1, x_2;
-  first.position(u, v, x_1);
-  second.position(u + first.n_measures(), v + first.n_measures(), x_2);
+  if (measure.form != RelativeMeasure::Form::ratio) // which looks at no place
+  {
+    first.position(u, v, x_1);
+    second.position(u + first.n_measures(), v + first.n_measures(), x_2);
+  }
+  else
+    x_1.value = x_1.rate = x_1.bias = x_2.value = x_2.rate = x_2.bias = Vector3d::Zero();
   return measure.evaluate(first, second, x_1, x_2, u, v, gradient);
 }
 
-/// The bias v^T s'' v is a quadratic form: its polarisation gives the entries exactly.
 void PlacedMeasure::add_curvature(const double *u, double factor, double *matrix) const
 {
-  const int k               = n_measures();
-  double    v[max_measures] = {}, gradient[max_measures], own[max_measures];
-  for (int i = 0; i < k; ++i)
-  {
-    v[i]   = 1.;
-    own[i] = evaluate(u, v, gradient).bias;
-    v[i]   = 0.;
-  }
-  for (int j = 0; j < k; ++j)
-    for (int i = 0; i <= j; ++i)
-    {
-      v[i] = v[j]       = 1.;
-      const double both = i == j ? own[i] : 0.5 * (evaluate(u, v, gradient).bias - own[i] - own[j]);
-      v[i] = v[j] = 0.;
-      matrix[i + k * j] += factor * both;
-      if (i != j)
-        matrix[j + k * i] += factor * both;
-    }
+  double     gradient[max_measures];
+  const auto bias = [&](const double *v) { return evaluate(u, v, gradient).bias; };
+  add_polarised<max_measures>(n_measures(), bias, factor, matrix);
 }
 
 } // namespace gestell::mechanism

@@ -64,10 +64,41 @@ struct PlacedMeasure
 
   static constexpr int max_measures = 2 * Placement::max_measures;
 
+  /// One measure of the machine as it is: s = u.
+  static PlacedMeasure linear();
+
   int                    n_measures() const { return first.n_measures() + second.n_measures(); }
   RelativeMeasure::Value evaluate(const double *u, const double *v, double *gradient) const;
   /// matrix += factor s''(u) [k x k, column major].
   void add_curvature(const double *u, double factor, double *matrix) const;
 };
+
+/**
+ * matrix [k x k, column major] += factor s''(u), where bias(v) is the quadratic form v^T s''(u) v of a velocity v [k]:
+ * its polarisation gives the entries exactly.
+ *
+ * @param k  at most most_measures
+ */
+template <int most_measures, class Bias>
+void add_polarised(int k, const Bias &bias, double factor, double *matrix)
+{
+  double v[most_measures] = {}, own[most_measures];
+  for (int i = 0; i < k; ++i)
+  {
+    v[i]   = 1.;
+    own[i] = bias(v);
+    v[i]   = 0.;
+  }
+  for (int j = 0; j < k; ++j)
+    for (int i = 0; i <= j; ++i)
+    {
+      v[i] = v[j]       = 1.;
+      const double both = i == j ? own[i] : 0.5 * (bias(v) - own[i] - own[j]);
+      v[i] = v[j] = 0.;
+      matrix[i + k * j] += factor * both;
+      if (i != j)
+        matrix[j + k * i] += factor * both;
+    }
+}
 
 } // namespace gestell::mechanism

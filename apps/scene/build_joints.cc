@@ -1,8 +1,8 @@
 #include "apps/scene/build_joints.h"
 
+#include "apps/scene/build_measures.h"
 #include "apps/scene/quantity.h"
 #include "mechanism/joints/ideal_joint.h"
-#include "mechanism/transmitted_element.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,27 +22,6 @@ using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
 constexpr double immobile = 1e-12; ///< gradient of an equation that no motion of the two bodies changes
-
-Vector3d vector(const Vector3 &a)
-{
-  return {a[0], a[1], a[2]};
-}
-
-Vector3 point_of(const coupling::Machine &machine, const PlaceRequest &place)
-{
-  return place.at ? *place.at : machine.position(place.marker);
-}
-
-coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place)
-{
-  return machine.place(place.marker, point_of(machine, place));
-}
-
-void draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
-{
-  for (const PlaceRequest *place : {&from, &to})
-    machine.draw_point(place->marker, point_of(machine, *place));
-}
 
 /// Two places with the measures of both.
 struct Pair
@@ -252,22 +231,13 @@ void check_level(const coupling::Machine &machine, const SwitchRequest &request)
 
 } // namespace
 
-void add_measures(coupling::Machine &machine, const Scene &scene)
-{
-  for (const MeasureRequest &request : scene.measures)
-  {
-    const Pair      pair(machine, request.first, request.second);
-    RelativeMeasure measure;
-    measure.form = request.form;
-    measure.a    = vector(request.a);
-    measure.b    = vector(request.b);
-    machine.add_measure({request.name, request.unit, {pair.first, pair.second, measure}, pair.measures});
-    draw_places(machine, request.first, request.second);
-  }
-}
-
 void add_joint(coupling::Machine &machine, const JointRequest &joint)
 {
+  if (joint.type == JointType::measure)
+  {
+    add_measure_joint(machine, joint);
+    return;
+  }
   const Pair pair(machine, joint.from, joint.to);
   Equations  equations(pair);
   switch (joint.type)
@@ -311,26 +281,14 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   case JointType::gear:
     equations.gear(joint.ratio);
     break;
+  case JointType::measure:
+    break;
   }
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
   machine.attach(joint.name, std::make_shared<IdealJoint>(pair.first, pair.second, equations.list, joint.law),
                  pair.measures);
   draw_joint(machine, joint, pair);
-}
-
-void attach_on_measure(coupling::Machine &machine, const ElementRequest &element)
-{
-  const coupling::NamedMeasure &measure = machine.measure(element.on);
-  machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure.measure, element.element),
-                 measure.measures);
-  if (measure.measure.measure.form != Form::distance)
-    return;
-  // A spring or a rope between two places is drawn as a distance joint is.
-  const auto second = measure.measures.begin() + measure.measure.first.n_measures();
-  machine.draw_bar({element.name,
-                    {measure.measure.first, {measure.measures.begin(), second}},
-                    {measure.measure.second, {second, measure.measures.end()}}});
 }
 
 void add_switch(coupling::Machine &machine, const SwitchRequest &request)

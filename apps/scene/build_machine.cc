@@ -1,6 +1,7 @@
 #include "apps/scene/build_machine.h"
 
 #include "apps/scene/build_joints.h"
+#include "apps/scene/build_measures.h"
 #include "coupling/dense_frame.h"
 
 namespace gestell::apps
@@ -22,18 +23,6 @@ auto placed(const std::string &place, Make make)
   {
     throw std::invalid_argument(place + ": " + e.what());
   }
-}
-
-coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine)
-{
-  using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
-  coupling::Measure u;
-  for (const auto &term : motion)
-  {
-    const auto &marker = machine.marker(term.marker);
-    u                  = u + term.weight * (term.rotation ? marker.about(term.axis) : marker.along(term.axis));
-  }
-  return u;
 }
 
 void add_body(coupling::Machine &machine, const BodyRequest &body)

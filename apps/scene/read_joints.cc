@@ -1,8 +1,8 @@
 #include "apps/scene/read_joints.h"
 
+#include "apps/scene/read_scalars.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
-#include "mechanism/joints/motion_law.h"
 
 #include <cmath>
 
@@ -40,10 +40,28 @@ double dot(const Vector3 &a, const Vector3 &b)
 MeasureRequest read_measure(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
-  measure.name           = table.name();
-  measure.place          = table.place();
-  const std::string type = table.choice("type", {"distance", "along", "inclination"}, "");
-  PlaceRequest      from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
+  measure.name  = table.name();
+  measure.place = table.place();
+  const std::string type =
+      table.choice("type", {"distance", "along", "inclination", "angle", "position function", "sum"}, "");
+  if (type == "position function" || type == "sum")
+  {
+    ScalarRequest x;
+    measure       = type == "sum" ? read_sum(table, names) : read_position_function(table, names, x);
+    measure.name  = table.name();
+    measure.place = table.place();
+    return measure;
+  }
+  if (type == "angle")
+  {
+    const std::string of = names.marker(table, "from"), against = names.marker(table, "to", "ground");
+    if (of == against)
+      throw table.error("to", "is '" + against + "' like `from`; what is measured would never change");
+    measure.unit  = "rad";
+    measure.terms = {{1., difference(of, against, table.direction("about"), true), nullptr}};
+    return measure;
+  }
+  PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
   if (from.marker == to.marker)
     throw table.error("to", "lies on '" + to.marker + "' like `from`; what is measured would never change");
   measure.unit   = type == "inclination" ? "rad" : "m";
@@ -68,27 +86,6 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
   return measure;
 }
 
-/// Length that moves: at constant speed, or until it is braked.
-std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table)
-{
-  using mechanism::BrakedMotion;
-  const double speed = table.number("speed", kind::speed);
-  const auto   brake = table.optional_table("brake");
-  if (!brake)
-    return std::make_shared<mechanism::ConstantSpeed>(speed);
-  BrakedMotion::Parameters motion;
-  motion.speed             = speed;
-  const std::string family = brake->choice("family", {"linear", "cosine", "shaped"}, "linear");
-  motion.family            = family == "linear"   ? BrakedMotion::Family::linear
-                             : family == "cosine" ? BrakedMotion::Family::cosine
-                                                  : BrakedMotion::Family::shaped;
-  motion.duration          = brake->positive("duration", kind::time);
-  if (family == "shaped")
-    for (const auto &ramp : brake->table_array("ramps"))
-      motion.ramps.push_back({ramp.number("share", kind::number), ramp.not_negative("delay", kind::time, 0.)});
-  return checked(*brake, [&] { return std::make_shared<BrakedMotion>(motion); });
-}
-
 struct JointName
 {
   const char *name;
@@ -99,6 +96,117 @@ constexpr JointName joint_names[] = {{"revolute", JointType::revolute}, {"spheri
                                      {"in-plane", JointType::in_plane}, {"distance", JointType::distance},
                                      {"gear", JointType::gear}};
 
+/// Joints of one equation on a scalar of the motion, by their names.
+using MeasureJointReader = void (*)(const SceneTable &table, const Names &names, JointRequest &joint);
+
+/// A rotor or planar body, which has an axis to turn about.
+const BodyRequest &turning_body(const SceneTable &table, const std::string &key, const std::string &marker,
+                                const Names &names)
+{
+  const BodyRequest *body = names.find_body(marker);
+  if (!body || (body->kind != coupling::BodyKind::rotor && body->kind != coupling::BodyKind::planar))
+    throw table.error(key, "'" + marker + "' is no rotor or planar body; one that turns about its axis is needed here");
+  return *body;
+}
+
+/// along - factor * angle, along a direction that turns with the first place.
+void join_path_and_angle(JointRequest &joint, const PlaceRequest &first, const PlaceRequest &second,
+                         const Vector3 &direction, mechanism::RelativeMeasure::Carrier carrier, double factor,
+                         const MotionMeasure &angle)
+{
+  MeasureRequest along;
+  along.first         = first;
+  along.second        = second;
+  along.a             = direction;
+  along.carrier       = carrier;
+  joint.measure.terms = {{1., {}, std::make_shared<MeasureRequest>(along)}, {-factor, angle, nullptr}};
+  joint.measure.unit  = "m";
+}
+
+using Carrier = mechanism::RelativeMeasure::Carrier;
+
+void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  ScalarRequest x;
+  joint.measure       = read_position_function(table, names, x);
+  joint.value         = 0.;
+  joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
+}
+
+void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  joint.from = names.place(table, "from", "at_from");
+  joint.to   = names.place(table, "to", "at_to");
+  check_two_places(table, joint.from, joint.to);
+  const Vector3 axis  = table.direction("axis");
+  const double  pitch = table.number("pitch", kind::length);
+  if (pitch == 0.)
+    throw table.error("pitch", "is zero; give the way of one turn, negative for a left-handed thread");
+  join_path_and_angle(joint, joint.from, joint.to, axis, Carrier::first, pitch / (2. * M_PI),
+                      difference(joint.to.marker, joint.from.marker, axis, true));
+}
+
+/// The wheel `from` rolls on `to`, or moves the rack `to`.
+void read_rolling(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  const bool rack = table.text("type") == "rack";
+  joint.from      = names.place(table, "from", "at_from");
+  joint.to        = rack ? names.place(table, "to", "at_to") : names.place(table, "to", "at_to", "ground");
+  check_two_places(table, joint.from, joint.to);
+  const BodyRequest &wheel     = turning_body(table, "from", joint.from.marker, names);
+  const double       radius    = table.positive("radius", kind::length);
+  const Vector3      direction = table.direction("direction");
+  if (std::abs(dot(direction, wheel.axis)) > 1e-9)
+    throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
+  const auto angle = difference(joint.from.marker, joint.to.marker, wheel.axis, true);
+  if (rack)
+    join_path_and_angle(joint, joint.from, joint.to, direction, Carrier::second, radius, angle);
+  else
+    join_path_and_angle(joint, joint.to, joint.from, direction, Carrier::first, radius, angle);
+}
+
+void read_prescribed(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  const auto on       = read_scalar(table, "on", names);
+  joint.measure.terms = {on.term};
+  joint.measure.unit  = on.unit;
+  joint.law           = read_motion(table.table("motion"), on.unit == "rad");
+  if (table.has("initial"))
+    joint.value = table.number("initial", on.kind());
+}
+
+/// A gear whose wheels are carried by a third body: their motions count against it (Willis).
+void read_carried_gear(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  const std::string carrier = names.marker(table, "carrier");
+  for (const bool first : {true, false})
+  {
+    const std::string  key    = first ? "from" : "to";
+    const std::string &marker = first ? joint.from.marker : joint.to.marker;
+    const BodyRequest *body   = names.find_body(marker);
+    if (!body || body->kind == coupling::BodyKind::point)
+      throw table.error(key, "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+    if (marker == carrier)
+      throw table.error("carrier", "is '" + carrier + "' like `" + key + "`; it must be what carries the wheels");
+    const bool slides = body->kind == coupling::BodyKind::slider;
+    joint.measure.terms.push_back(
+        {first ? -joint.ratio : 1., difference(marker, carrier, body->axis, !slides), nullptr});
+    joint.measure.unit = slides ? "m" : "rad";
+  }
+  joint.type = JointType::measure;
+}
+
+struct MeasureJointName
+{
+  const char        *name;
+  MeasureJointReader read;
+};
+constexpr MeasureJointName measure_joints[] = {{"position function", read_cam},
+                                               {"screw", read_screw},
+                                               {"rolling", read_rolling},
+                                               {"rack", read_rolling},
+                                               {"prescribed motion", read_prescribed}};
+
 JointRequest read_joint(const SceneTable &table, const Names &names)
 {
   JointRequest joint;
@@ -107,10 +215,19 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
   std::vector<std::string> types;
   for (const JointName &known : joint_names)
     types.push_back(known.name);
+  for (const MeasureJointName &known : measure_joints)
+    types.push_back(known.name);
   const std::string type = table.choice("type", types, "");
   for (const JointName &known : joint_names)
     if (known.name == type)
       joint.type = known.type;
+  for (const MeasureJointName &known : measure_joints)
+    if (known.name == type)
+    {
+      joint.type = JointType::measure;
+      known.read(table, names, joint);
+      return joint;
+    }
   const bool together =
       joint.type == JointType::revolute || joint.type == JointType::spherical || joint.type == JointType::rigid;
   const bool one_point = table.has("at");
@@ -131,13 +248,17 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
   if (joint.type == JointType::prismatic || joint.type == JointType::in_plane)
     joint.axis = table.direction("axis");
   if (joint.type == JointType::gear)
+  {
     joint.ratio = table.number("ratio", kind::number);
+    if (table.has("carrier"))
+      read_carried_gear(table, names, joint);
+  }
   if (joint.type == JointType::distance)
   {
     if (table.has("length"))
       joint.length = table.positive("length", kind::length);
     if (const auto motion = table.optional_table("motion"))
-      joint.law = read_motion(*motion);
+      joint.law = read_motion(*motion, false);
   }
   return joint;
 }

@@ -69,15 +69,40 @@ struct PlaceRequest
   std::optional<Vector3> at; ///< [m]; none: the body's own reference point
 };
 
-/// A scalar of the motion of two places; docs/scene.md, measures.
+/// weight * (motion of a marker along or about an axis).
+struct MotionTerm
+{
+  std::string marker;
+  bool        rotation = false;
+  Vector3     axis{}; ///< unit vector
+  double      weight = 1.;
+};
+using MotionMeasure = std::vector<MotionTerm>;
+
+struct MeasureRequest;
+
+/// weight * (a motion of markers, or a scalar of two places).
+struct TermRequest
+{
+  double                                weight = 1.;
+  MotionMeasure                         motion;
+  std::shared_ptr<const MeasureRequest> placed; ///< without terms of its own; null: `motion`
+};
+
+/// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene.md, measures.
 struct MeasureRequest
 {
-  std::string                      name;
-  mechanism::RelativeMeasure::Form form = mechanism::RelativeMeasure::Form::along;
-  PlaceRequest                     first, second;
-  Vector3                          a{}, b{}; ///< unit vectors
-  std::string                      unit;
-  std::string                      place;
+  std::string                         name;
+  mechanism::RelativeMeasure::Form    form = mechanism::RelativeMeasure::Form::along;
+  PlaceRequest                        first, second;
+  Vector3                             a{}, b{}; ///< unit vectors
+  mechanism::RelativeMeasure::Carrier carrier = mechanism::RelativeMeasure::Carrier::space;
+  std::string                         unit;
+  std::string                         place;
+
+  std::vector<TermRequest>                           terms; ///< with any, the sum of them counts, not the two places
+  std::shared_ptr<const mechanism::PositionFunction> function;
+  TermRequest                                        argument; ///< of the function
 };
 
 enum class JointType
@@ -88,7 +113,8 @@ enum class JointType
   prismatic, ///< moves along an axis of the first body and does not turn against it
   in_plane,  ///< stays in the plane across an axis of the first body
   distance,  ///< the two places keep their distance, or it follows a law
-  gear       ///< the angles (or displacements) of two bodies keep a ratio
+  gear,      ///< the angles (or displacements) of two bodies keep a ratio
+  measure    ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
 };
 
 struct JointRequest
@@ -97,9 +123,12 @@ struct JointRequest
   JointType                                   type = JointType::revolute;
   PlaceRequest                                from, to;
   Vector3                                     axis{};
-  std::optional<double>                       length;     ///< of `distance` [m]; none: as described
-  double                                      ratio = 1.; ///< of `gear`
-  std::shared_ptr<const mechanism::MotionLaw> law;        ///< of `distance`
+  std::optional<double>                       length;        ///< of `distance` [m]; none: as described
+  double                                      ratio = 1.;    ///< of `gear`
+  std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and `measure`
+  MeasureRequest                              measure;       ///< of `measure`
+  std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
+  std::string                                 reaction_unit; ///< of what acts on the argument of its function
   std::string                                 place;
 };
 
@@ -109,16 +138,6 @@ struct SwitchRequest
   Quantity         level; ///< with its unit
   std::string      place;
 };
-
-/// weight * (motion of a marker along or about an axis).
-struct MotionTerm
-{
-  std::string marker;
-  bool        rotation = false;
-  Vector3     axis{}; ///< unit vector
-  double      weight = 1.;
-};
-using MotionMeasure = std::vector<MotionTerm>;
 
 struct LinearRequest
 {

@@ -2,18 +2,11 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace gestell::mechanism
 {
-namespace
-{
-
-constexpr double at_rest = std::numeric_limits<double>::quiet_NaN(); ///< argument of a kink that was not passed
-
-} // namespace
 
 FormulaForce::FormulaForce(const Parameters &parameters) : parameters_(parameters)
 {
@@ -64,40 +57,13 @@ void FormulaForce::stiffest(const double *u, double *K, double *D) const
 
 // --- kinks
 
-/// Sets the sides of all kinks on the way through the formula that are not settled, in its order: the argument of a
-/// kink may depend on the kinks before it.
-void FormulaForce::settle(const LocalMotion &motion, Kinks settled, double *history) const
-{
-  const int n       = n_kinks();
-  using Direction   = Eigen::Matrix<double, 1, 1>;
-  const Dual<1> x[] = {Dual<1>(motion.t, Direction(1.)), Dual<1>(motion.u[0], Direction(motion.v[0])),
-                       Dual<1>(motion.v[0], Direction(motion.a[0]))};
-  for (bool changed = n > 0; changed;)
-  {
-    Dual<1> arguments[Formula::max_kinks];
-    std::fill_n(arguments, n, Dual<1>(at_rest));
-    parameters_.force.kink_arguments(x, history, arguments);
-    changed = false;
-    for (int i = 0; i < n && !changed; ++i)
-    {
-      const double argument = arguments[i].value(), rate = arguments[i].derivatives()[0];
-      if (settled[i] || std::isnan(argument))
-        continue;
-      const double side = argument > 0. || (argument == 0. && rate >= 0.) ? 1. : -1.; // where it goes, if at zero
-      changed           = side != history[i];
-      history[i]        = side;
-      settled.set(i);
-    }
-  }
-}
-
 void FormulaForce::start(const LocalMotion &motion, double *history) const
 {
   if (n_kinks() == 0)
     return;
-  std::fill_n(history, n_kinks(), 1.);
+  const double x[] = {motion.t, motion.u[0], motion.v[0]}, rates[] = {1., motion.v[0], motion.a[0]};
+  kinks().start(x, rates, history);
   history[n_kinks()] = 0.;
-  settle(motion, Kinks(), history);
 }
 
 void FormulaForce::accept(const LocalMotion &motion, double *history) const
@@ -107,38 +73,16 @@ void FormulaForce::accept(const LocalMotion &motion, double *history) const
     history[n_kinks()] = std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<Guard> FormulaForce::guards(const double *history) const
-{
-  std::vector<Guard> guards;
-  for (int i = 0; i < n_kinks(); ++i)
-  {
-    const bool        above = history[i] > 0.;
-    const std::string name  = parameters_.force.kinks()[i] + "_" + std::to_string(i + 1);
-    guards.push_back({name + (above ? "_falls" : "_rises"), above ? Crossing::falling : Crossing::rising});
-  }
-  return guards;
-}
-
 void FormulaForce::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]};
-  std::copy_n(history, n_kinks(), g); // the side itself: kinks at rest are open
-  parameters_.force.kink_arguments(x, history, g);
+  kinks().guard_values(x, history, g);
 }
 
-/// The kink itself changes sides; kinks that were at rest behind it may come into play.
 void FormulaForce::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const double x[] = {motion.t, motion.u[0], motion.v[0]};
-  double       arguments[Formula::max_kinks];
-  std::fill_n(arguments, n_kinks(), at_rest);
-  parameters_.force.kink_arguments(x, history, arguments);
-  Kinks in_play;
-  for (int k = 0; k < n_kinks(); ++k)
-    in_play[k] = !std::isnan(arguments[k]);
-  in_play.set(i);
-  history[i] = -history[i];
-  settle(motion, in_play, history);
+  const double x[] = {motion.t, motion.u[0], motion.v[0]}, rates[] = {1., motion.v[0], motion.a[0]};
+  kinks().transition(i, x, rates, history);
 }
 
 // --- quantities

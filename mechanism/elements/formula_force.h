@@ -1,9 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
-#include "mechanism/formula.h"
-
-#include <bitset>
+#include "mechanism/formula_kinks.h"
 
 namespace gestell::mechanism
 {
@@ -11,9 +9,7 @@ namespace gestell::mechanism
 /**
  * Force given by a formula of time, displacement and rate:   p = F(t, u, u')        [N or N m], so +F acts on u.
  *
- * Every kink of the formula is a guard, its value the argument of the kink; the history holds on which side it is.
- * Events are called after the function, the place of the kink in the formula and where its argument goes:
- * "abs_1_rises", "if_2_falls".
+ * Its kinks are guards (FormulaKinks).
  *
  * Its work counts as input, negative where the force brakes: nothing in a formula tells what it stores.  As structure
  * it has K = -dF/du and D = -dF/du' at the given u, at t = 0 and at rest.
@@ -63,18 +59,16 @@ public:
   void                  accept(const LocalMotion &motion, double *history) const override;
   Work                  work() const override { return Work::input; }
   int                   n_guards(const double *) const override { return n_kinks(); }
-  std::vector<Guard>    guards(const double *history) const override;
+  std::vector<Guard>    guards(const double *history) const override { return kinks().guards(history); }
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  using Kinks = std::bitset<Formula::max_kinks>;
-
-  int  n_kinks() const { return parameters_.force.n_kinks(); }
-  void settle(const LocalMotion &motion, Kinks settled, double *history) const;
-  void structure(double u, const double *sides, double &K, double &D) const;
+  int          n_kinks() const { return parameters_.force.n_kinks(); }
+  FormulaKinks kinks() const { return FormulaKinks(parameters_.force); }
+  void         structure(double u, const double *sides, double &K, double &D) const;
 
   Parameters parameters_;
 };

@@ -13,7 +13,7 @@ using MovedVector = Placement::MovedVector;
 
 IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
                        std::shared_ptr<const MotionLaw> law)
-    : first_(first), second_(second), equations_(std::move(equations)), law_(std::move(law))
+    : ConstraintElement(std::move(law)), first_(first), second_(second), equations_(std::move(equations))
 {
   require(!equations_.empty(), "joint", "number of equations", 0., "one or more");
   bool driven = false;
@@ -26,7 +26,7 @@ IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vec
     if (equation.measure.form == RelativeMeasure::Form::distance)
       require(equation.offset >= 0., "joint " + equation.name, "distance [m]", equation.offset, "zero or positive");
   }
-  require(driven == (law_ != nullptr), "joint", "number of motion laws", law_ ? 1. : 0.,
+  require(driven == is_driven(), "joint", "number of motion laws", is_driven() ? 1. : 0.,
           "one if an equation is driven, else none");
 }
 
@@ -36,7 +36,7 @@ void IdealJoint::constraint(const LocalMotion &motion, const double *history, do
   MovedVector x_1, x_2;
   first_.position(motion.u, motion.v, x_1);
   second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
-  const double f = law_ ? law_->at(motion.t, history).value : 0.;
+  const double f = prescribed(motion.t, history).value;
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
@@ -50,7 +50,7 @@ void IdealJoint::constraint_rates(const LocalMotion &motion, const double *histo
   MovedVector x_1, x_2;
   first_.position(motion.u, motion.v, x_1);
   second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
-  const PrescribedMotion f = law_ ? law_->at(motion.t, history) : PrescribedMotion{};
+  const PrescribedMotion f = prescribed(motion.t, history);
   double                 G[PlacedMeasure::max_measures];
   for (int i = 0; i < n_constraints(); ++i)
   {
@@ -87,59 +87,6 @@ void IdealJoint::geometric(const LocalMotion &motion, const double *, double *K)
   std::fill(K, K + n_measures() * n_measures(), 0.);
   for (int i = 0; motion.lambda && i < n_constraints(); ++i)
     PlacedMeasure{first_, second_, equations_[i].measure}.add_curvature(motion.u, -motion.lambda[i], K);
-}
-
-/// The force p = G^T lambda is the system's.
-void IdealJoint::force(const LocalMotion &, const double *, double *p) const
-{
-  std::fill(p, p + n_measures(), 0.);
-}
-
-void IdealJoint::tangent(const LocalMotion &motion, const double *history, const TangentWeights &, double *p,
-                         double *dp) const
-{
-  force(motion, history, p);
-  std::fill(dp, dp + n_measures() * n_measures(), 0.);
-}
-
-void IdealJoint::start(const LocalMotion &motion, double *history) const
-{
-  if (law_)
-    law_->start(motion.t, history);
-}
-
-int IdealJoint::n_guards(const double *history) const
-{
-  double      t;
-  std::string name;
-  return law_ && law_->next_corner(history, t, name) ? 1 : 0;
-}
-
-std::vector<Guard> IdealJoint::guards(const double *history) const
-{
-  double      t;
-  std::string name;
-  if (!law_ || !law_->next_corner(history, t, name))
-    return {};
-  return {{name, Crossing::rising}};
-}
-
-void IdealJoint::guard_values(const LocalMotion &motion, const double *history, double *g) const
-{
-  double      t;
-  std::string name;
-  if (law_ && law_->next_corner(history, t, name))
-    g[0] = motion.t - t;
-}
-
-void IdealJoint::transition(int, const LocalMotion &motion, double *history) const
-{
-  law_->pass_corner(motion.t, history);
-}
-
-bool IdealJoint::command(const std::string &order, const LocalMotion &motion, double *history) const
-{
-  return law_ && law_->command(order, motion.t, history);
 }
 
 std::vector<Quantity> IdealJoint::quantities() const

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
-#include "mechanism/joints/motion_law.h"
+#include "mechanism/joints/constraint_element.h"
 #include "mechanism/relative_measure.h"
 
 #include <memory>
@@ -21,7 +20,7 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/joints.md (3).
  */
-class IdealJoint : public ForceElement
+class IdealJoint : public ConstraintElement
 {
 public:
   struct Equation
@@ -37,11 +36,8 @@ public:
   IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
              std::shared_ptr<const MotionLaw> law = nullptr);
 
-  int  n_measures() const override { return first_.n_measures() + second_.n_measures(); }
-  int  n_constraints() const override { return int(equations_.size()); }
-  void force(const LocalMotion &motion, const double *history, double *p) const override;
-  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
-               double *dp) const override;
+  int n_measures() const override { return first_.n_measures() + second_.n_measures(); }
+  int n_constraints() const override { return int(equations_.size()); }
 
   void   constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
   void   constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const override;
@@ -52,26 +48,13 @@ public:
   /// s(u) of the equation that follows the law; 0 if none does.
   double driven_value(const double *u) const;
 
-  Work work() const override { return law_ ? Work::input : Work::dissipated; }
-
-  /// History, corners and commands are those of the law.
-  int                      n_history() const override { return law_ ? law_->n_history() : 0; }
-  void                     start(const LocalMotion &motion, double *history) const override;
-  int                      n_guards(const double *history) const override;
-  std::vector<Guard>       guards(const double *history) const override;
-  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                     transition(int i, const LocalMotion &motion, double *history) const override;
-  bool                     command(const std::string &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
-
   /// Signals: every multiplier by the name of its equation, then "resultant": of all that are forces.
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  Placement                        first_, second_;
-  std::vector<Equation>            equations_;
-  std::shared_ptr<const MotionLaw> law_;
+  Placement             first_, second_;
+  std::vector<Equation> equations_;
 };
 
 } // namespace gestell::mechanism

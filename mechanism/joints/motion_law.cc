@@ -8,11 +8,6 @@
 namespace gestell::mechanism
 {
 
-bool MotionLaw::next_corner(const double *, double &, std::string &) const
-{
-  return false;
-}
-
 bool MotionLaw::command(const std::string &, double, double *) const
 {
   return false;
@@ -100,17 +95,26 @@ PrescribedMotion BrakedMotion::at(double t, const double *history) const
   return motion;
 }
 
-bool BrakedMotion::next_corner(const double *history, double &t, std::string &name) const
+bool BrakedMotion::brakes(const double *history) const
 {
-  if (history[passed] < 0. || std::size_t(history[passed]) >= corners_.size())
-    return false;
-  const auto stage = std::size_t(history[passed]);
-  t                = history[begin] + corners_[stage];
-  name             = stage + 1 == corners_.size() ? "braking_ends" : "braking_corner";
-  return true;
+  return history[passed] >= 0. && std::size_t(history[passed]) < corners_.size();
 }
 
-void BrakedMotion::pass_corner(double, double *history) const
+std::vector<Guard> BrakedMotion::guards(const double *history) const
+{
+  if (!brakes(history))
+    return {};
+  const bool last = std::size_t(history[passed]) + 1 == corners_.size();
+  return {{last ? "braking_ends" : "braking_corner", Crossing::rising}};
+}
+
+void BrakedMotion::guard_values(double t, const double *history, double *g) const
+{
+  if (brakes(history))
+    g[0] = t - (history[begin] + corners_[std::size_t(history[passed])]);
+}
+
+void BrakedMotion::transition(int, double, double *history) const
 {
   history[passed] += 1.;
 }
@@ -125,6 +129,50 @@ bool BrakedMotion::command(const std::string &order, double t, double *history) 
   history[begin]  = t;
   history[passed] = 0.;
   return true;
+}
+
+// --- a profile of the speed
+
+ProfileMotion::ProfileMotion(const Profile &speed) : speed_(speed)
+{
+  double largest = 0.;
+  for (const double level : speed_.levels())
+    largest = std::max(largest, std::abs(level));
+  for (std::size_t piece = 0; speed_.ends(piece); ++piece)
+  {
+    const double t = speed_.corner(piece), before = speed_.value(piece, t), behind = speed_.value(piece + 1, t);
+    require(std::abs(behind - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed", behind - before,
+            "zero: give its ramps a largest 'acceleration', as no finite force makes masses jump");
+  }
+}
+
+void ProfileMotion::start(double t, double *history) const
+{
+  history[0] = t;
+  history[1] = double(speed_.piece_at(t));
+}
+
+PrescribedMotion ProfileMotion::at(double t, const double *history) const
+{
+  const std::size_t piece = piece_of(history);
+  return {speed_.integral(piece, t) - speed_.integral(speed_.piece_at(history[0]), history[0]), speed_.value(piece, t),
+          speed_.rate(piece, t)};
+}
+
+std::vector<Guard> ProfileMotion::guards(const double *history) const
+{
+  return n_guards(history) > 0 ? std::vector<Guard>{{"next_segment", Crossing::rising}} : std::vector<Guard>{};
+}
+
+void ProfileMotion::guard_values(double t, const double *history, double *g) const
+{
+  if (speed_.ends(piece_of(history)))
+    g[0] = t - speed_.corner(piece_of(history));
+}
+
+void ProfileMotion::transition(int, double, double *history) const
+{
+  history[1] += 1.;
 }
 
 } // namespace gestell::mechanism

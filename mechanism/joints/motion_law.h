@@ -1,5 +1,8 @@
 #pragma once
 
+#include "mechanism/position_function.h"
+#include "mechanism/profile.h"
+
 #include <string>
 #include <vector>
 
@@ -25,10 +28,12 @@ public:
   virtual void             start(double t, double *history) const { (void)t, (void)history; }
   virtual PrescribedMotion at(double t, const double *history) const = 0;
 
-  /// Time [s] of the next corner and its name; false: none is to come.
-  virtual bool next_corner(const double *history, double &t, std::string &name) const;
-  /// Goes on behind the corner at t.
-  virtual void pass_corner(double t, double *history) const { (void)t, (void)history; }
+  /// Corners are guards, as those of a ForceElement.
+  virtual int                n_guards(const double *history) const { return (void)history, 0; }
+  virtual std::vector<Guard> guards(const double *history) const { return (void)history, std::vector<Guard>{}; }
+  virtual void guard_values(double t, const double *history, double *g) const { (void)t, (void)history, (void)g; }
+  /// Goes on behind the corner of guard i at t.
+  virtual void transition(int i, double t, double *history) const { (void)i, (void)t, (void)history; }
   /// Obeys an order of a switch ("brake") at t; false: the law knows no such order.
   virtual bool                     command(const std::string &order, double t, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
@@ -87,14 +92,61 @@ public:
   int  n_history() const override { return 3; } ///< corners passed since the order; t_brake, before it t_start; f there
   void start(double t, double *history) const override;
   PrescribedMotion         at(double t, const double *history) const override;
-  bool                     next_corner(const double *history, double &t, std::string &name) const override;
-  void                     pass_corner(double t, double *history) const override;
+  int                      n_guards(const double *history) const override { return brakes(history) ? 1 : 0; }
+  std::vector<Guard>       guards(const double *history) const override;
+  void                     guard_values(double t, const double *history, double *g) const override;
+  void                     transition(int i, double t, double *history) const override;
   bool                     command(const std::string &order, double t, double *history) const override;
   std::vector<std::string> commands() const override { return {"brake"}; }
 
 private:
+  bool brakes(const double *history) const; ///< and a corner is to come
+
   Parameters          parameters_;
   std::vector<double> corners_; ///< [s] after t_brake, ascending; the last one ends the motion
+};
+
+/// f(t), the integral of a speed that follows a profile from t_start on; its corners are events "next_segment".
+class ProfileMotion : public MotionLaw
+{
+public:
+  /// @param speed  [m/s or rad/s]; @throws std::invalid_argument if it jumps: no finite force makes a body do that
+  explicit ProfileMotion(const Profile &speed);
+
+  int                n_history() const override { return 2; } ///< t_start; active piece
+  void               start(double t, double *history) const override;
+  PrescribedMotion   at(double t, const double *history) const override;
+  int                n_guards(const double *history) const override { return speed_.ends(piece_of(history)) ? 1 : 0; }
+  std::vector<Guard> guards(const double *history) const override;
+  void               guard_values(double t, const double *history, double *g) const override;
+  void               transition(int i, double t, double *history) const override;
+
+private:
+  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[1]); }
+
+  Profile speed_;
+};
+
+/// f(t) by a formula or a table of the time, whose kinks are events.
+class FunctionMotion : public MotionLaw
+{
+public:
+  explicit FunctionMotion(PositionFunction f) : f_(std::move(f)) {}
+
+  int              n_history() const override { return f_.n_history(); }
+  void             start(double t, double *history) const override { f_.start(t, 1., history); }
+  PrescribedMotion at(double t, const double *history) const override
+  {
+    const auto f = f_.at(t, history);
+    return {f.value, f.first, f.second};
+  }
+  int                n_guards(const double *) const override { return f_.n_guards(); }
+  std::vector<Guard> guards(const double *history) const override { return f_.guards(history); }
+  void guard_values(double t, const double *history, double *g) const override { f_.guard_values(t, history, g); }
+  void transition(int i, double t, double *history) const override { f_.transition(i, t, 1., history); }
+
+private:
+  PositionFunction f_;
 };
 
 } // namespace gestell::mechanism

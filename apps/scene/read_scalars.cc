@@ -1,0 +1,224 @@
+#include "apps/scene/read_scalars.h"
+
+#include "apps/scene/read_profile.h"
+#include "apps/scene/relative_motion.h"
+#include "coupling/nearest_name.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::BodyKind;
+using mechanism::PositionFunction;
+
+constexpr const char *motions[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+struct NamedScalar
+{
+  std::string name, unit;
+  MotionTerm  term;
+};
+
+/// All coordinates that a scalar may be, by name.
+std::vector<NamedScalar> coordinates(const Names &names)
+{
+  std::vector<NamedScalar> all;
+  const auto add = [&](const std::string &name, bool rotation, const std::string &marker, const Vector3 &axis) {
+    all.push_back({name, rotation ? "rad" : "m", {marker, rotation, axis, 1.}});
+  };
+  for (const std::string &name : names.body_names())
+  {
+    const BodyRequest &body = *names.find_body(name);
+    if (body.kind == BodyKind::rotor || body.kind == BodyKind::planar)
+      add(name + ".angle", true, name, body.axis);
+    if (body.kind == BodyKind::slider)
+      add(name + ".displacement", false, name, body.axis);
+    if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
+      add(name, body.kind == BodyKind::rotor, name, body.axis);
+    if (body.kind == BodyKind::point || body.kind == BodyKind::planar)
+      for (int d = 0; d < 3; ++d)
+      {
+        Vector3 axis{};
+        axis[d] = 1.;
+        add(name + "." + motions[d], false, name, axis);
+      }
+  }
+  for (const std::string &interface : names.interfaces())
+    for (int i = 0; i < 6; ++i)
+    {
+      Vector3 axis{};
+      axis[i % 3] = 1.;
+      add("frame." + interface + "." + motions[i], i > 2, "frame." + interface, axis);
+    }
+  return all;
+}
+
+/// f of `function` or `table`, whose argument is called `variable`.
+std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
+                                                      const Kind &y)
+{
+  const bool formula = table.has("function");
+  if (formula == table.has("table"))
+    throw table.error("needs 'function', a formula of " + variable.name +
+                      ", or 'table', rows of two values; one of both");
+  std::optional<PositionFunction::Period> period;
+  if (table.has("period"))
+  {
+    period.emplace();
+    period->length = table.positive("period", x);
+    period->rise   = table.number("rise", y, 0.);
+    if (formula)
+      period->begin = table.number("begin", x, 0.);
+  }
+  if (formula)
+  {
+    const auto f = table.formula("function", {variable}, y);
+    return checked(table, [&] { return std::make_shared<PositionFunction>(f, period); });
+  }
+  using mechanism::CubicSpline;
+  std::vector<CubicSpline::Point> points;
+  for (const auto &row : table.pairs("table", x, y))
+    points.push_back({row[0], row[1]});
+  if (period)
+  {
+    const auto   first = points.front(), last = points.back();
+    const double end = first.x + period->length, open = 1e-9 * period->length;
+    if (last.x > end + open)
+      throw table.error("table", "goes further than one period; give the rows of one, from the first on");
+    if (last.x < end - open)
+      points.push_back({end, first.f + period->rise});
+    else if (std::abs(last.f - first.f - period->rise) >
+             1e-9 * std::max({std::abs(last.f), std::abs(first.f), std::abs(period->rise)}))
+      throw table.error("table",
+                        "does not close: its last row, one period behind the first, must have the value of the "
+                        "first plus 'rise'; correct it or leave it out");
+  }
+  const auto ends = period ? CubicSpline::Ends::periodic : CubicSpline::Ends::not_a_knot;
+  try
+  {
+    return std::make_shared<PositionFunction>(CubicSpline(points, ends));
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw table.error("table", e.what());
+  }
+}
+
+/// Speed that is constant until a switch brakes it, or a profile.
+std::shared_ptr<const mechanism::MotionLaw> read_speed(const SceneTable &table, bool turns)
+{
+  using mechanism::BrakedMotion;
+  ProfileKeys keys = speed_profile();
+  if (!turns)
+  {
+    keys                  = level_profile(kind::speed, kind::speed.example);
+    keys.rate_key         = "acceleration";
+    keys.rate_of_rate_key = "jerk";
+  }
+  if (table.is_array("speed"))
+  {
+    const auto speed = read_profile(table, "speed", keys, table.number("initial_speed", keys.level, 0.));
+    return checked(table, [&] { return std::make_shared<mechanism::ProfileMotion>(speed); });
+  }
+  const double speed = table.number("speed", keys.level);
+  const auto   brake = table.optional_table("brake");
+  if (!brake)
+    return std::make_shared<mechanism::ConstantSpeed>(speed);
+  BrakedMotion::Parameters motion;
+  motion.speed             = speed;
+  const std::string family = brake->choice("family", {"linear", "cosine", "shaped"}, "linear");
+  motion.family            = family == "linear"   ? BrakedMotion::Family::linear
+                             : family == "cosine" ? BrakedMotion::Family::cosine
+                                                  : BrakedMotion::Family::shaped;
+  motion.duration          = brake->positive("duration", kind::time);
+  if (family == "shaped")
+    for (const auto &ramp : brake->table_array("ramps"))
+      motion.ramps.push_back({ramp.number("share", kind::number), ramp.not_negative("delay", kind::time, 0.)});
+  return checked(*brake, [&] { return std::make_shared<BrakedMotion>(motion); });
+}
+
+} // namespace
+
+ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const Names &names)
+{
+  const std::string name = table.text(key);
+  if (const MeasureRequest *measure = names.find_measure(name))
+  {
+    if (measure->function || measure->terms.size() > 1)
+      throw table.error(key, "the measure '" + name + "' is made of others itself; name plain ones");
+    if (!measure->terms.empty())
+      return {measure->terms[0], measure->unit, name};
+    return {{1., {}, std::make_shared<MeasureRequest>(*measure)}, measure->unit, name};
+  }
+  std::vector<std::string> valid;
+  for (const NamedScalar &known : coordinates(names))
+  {
+    if (known.name == name)
+      return {{1., {known.term}, nullptr}, known.unit, name};
+    valid.push_back(known.name);
+  }
+  const BodyRequest *body = names.find_body(name);
+  throw table.error(key, body ? "'" + name + "' has several coordinates; name one, as '" + name +
+                                    (body->kind == BodyKind::planar ? ".angle'" : ".ux'") + ", or a [measure]"
+                              : "there is no measure or coordinate '" + name + "'" + coupling::suggestion(name, valid));
+}
+
+MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x)
+{
+  x            = read_scalar(table, "from", names);
+  const auto y = read_scalar(table, "to", names);
+  if (table.text("from") == table.text("to"))
+    throw table.error("to", "is '" + y.name + "' like `from`; a position function leads from one motion to another");
+  const bool     turns = x.unit == "rad";
+  const Variable variable{"x", turns ? "angle" : "displacement", x.kind().dimension,
+                          turns ? Counts::radians : Counts::nothing};
+  MeasureRequest measure;
+  measure.unit     = y.unit;
+  measure.terms    = {y.term};
+  measure.argument = x.term;
+  measure.function = read_function(table, variable, x.kind(), y.kind());
+  return measure;
+}
+
+MeasureRequest read_sum(const SceneTable &table, const Names &names)
+{
+  MeasureRequest measure;
+  for (const auto &part : table.table_array("terms"))
+  {
+    const auto     y      = read_scalar(part, "of", names);
+    const Quantity factor = part.has("factor") ? part.quantity("factor") : Quantity{1., {}, true};
+    Dimension      sum    = y.kind().dimension;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += factor.dimension[i];
+    const std::string unit = equal(sum, kind::length.dimension) ? "m" : equal(sum, kind::angle.dimension) ? "rad" : "";
+    if (!factor.checked)
+      throw part.error("factor", "is made from a parameter without unit; give that one its unit, so that it is known "
+                                 "what the sum is, a length or an angle");
+    if (unit.empty() || (!measure.terms.empty() && unit != measure.unit))
+      throw part.error("factor", "makes a term of " + describe(sum) + "; all terms must be lengths, or all angles");
+    measure.unit = unit;
+    measure.terms.push_back(y.term);
+    measure.terms.back().weight *= factor.value;
+  }
+  if (measure.terms.empty())
+    throw table.error("needs 'terms' such as [{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]");
+  return measure;
+}
+
+std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table, bool turns)
+{
+  if (table.has("speed") && (table.has("function") || table.has("table")))
+    throw table.error("speed", "says the same as 'function' or 'table'; give one of them");
+  if (table.has("speed"))
+    return read_speed(table, turns);
+  if (!table.has("function") && !table.has("table"))
+    throw table.error("needs 'speed', or 'function', a formula of the time t, or 'table'");
+  const auto f =
+      read_function(table, {"t", "time", kind::time.dimension}, kind::time, turns ? kind::angle : kind::length);
+  return std::make_shared<mechanism::FunctionMotion>(*f);
+}
+
+} // namespace gestell::apps

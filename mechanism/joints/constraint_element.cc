@@ -1,0 +1,47 @@
+#include "mechanism/joints/constraint_element.h"
+
+#include <algorithm>
+
+namespace gestell::mechanism
+{
+
+void ConstraintElement::force(const LocalMotion &, const double *, double *p) const
+{
+  std::fill(p, p + n_measures(), 0.);
+}
+
+void ConstraintElement::tangent(const LocalMotion &motion, const double *history, const TangentWeights &, double *p,
+                                double *dp) const
+{
+  force(motion, history, p);
+  std::fill(dp, dp + n_measures() * n_measures(), 0.);
+}
+
+void ConstraintElement::start(const LocalMotion &motion, double *history) const
+{
+  if (law_)
+    law_->start(motion.t, history);
+}
+
+std::vector<Guard> ConstraintElement::guards(const double *history) const
+{
+  return law_ ? law_->guards(history) : std::vector<Guard>{};
+}
+
+void ConstraintElement::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  if (law_)
+    law_->guard_values(motion.t, history, g);
+}
+
+void ConstraintElement::transition(int i, const LocalMotion &motion, double *history) const
+{
+  law_->transition(i, motion.t, history);
+}
+
+bool ConstraintElement::command(const std::string &order, const LocalMotion &motion, double *history) const
+{
+  return law_ && law_->command(order, motion.t, history);
+}
+
+} // namespace gestell::mechanism

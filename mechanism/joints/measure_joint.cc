@@ -1,0 +1,91 @@
+#include "mechanism/joints/measure_joint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gestell::mechanism
+{
+
+MeasureJoint::MeasureJoint(const Parameters &parameters, std::shared_ptr<const MotionLaw> law)
+    : ConstraintElement(std::move(law)), parameters_(parameters)
+{
+}
+
+void MeasureJoint::constraint(const LocalMotion &motion, const double *history, double *g, double *G) const
+{
+  const auto s = measure().evaluate(motion.u, motion.v, G, of_function(motion, history)).s;
+  *g           = s - parameters_.offset - prescribed(motion.t, history).value;
+}
+
+void MeasureJoint::constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const
+{
+  double     G[CombinedMeasure::max_measures];
+  const auto f = prescribed(motion.t, history);
+  *rate        = -f.rate;
+  *bias        = measure().evaluate(motion.u, motion.v, G, of_function(motion, history)).bias - f.acceleration;
+}
+
+double MeasureJoint::constraint_size() const
+{
+  return std::max(measure().size(), std::abs(parameters_.offset));
+}
+
+void MeasureJoint::geometric(const LocalMotion &motion, const double *history, double *K) const
+{
+  std::fill(K, K + n_measures() * n_measures(), 0.);
+  if (motion.lambda)
+    measure().add_curvature(motion.u, -*motion.lambda, K, of_function(motion, history));
+}
+
+void MeasureJoint::start(const LocalMotion &motion, double *history) const
+{
+  ConstraintElement::start(motion, history);
+  measure().start(motion.u, motion.v, history + ConstraintElement::n_history());
+}
+
+std::vector<Guard> MeasureJoint::guards(const double *history) const
+{
+  auto       guards = ConstraintElement::guards(history);
+  const auto own    = measure().guards(history + ConstraintElement::n_history());
+  guards.insert(guards.end(), own.begin(), own.end());
+  return guards;
+}
+
+void MeasureJoint::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  ConstraintElement::guard_values(motion, history, g);
+  measure().guard_values(motion.u, history + ConstraintElement::n_history(), g + ConstraintElement::n_guards(history));
+}
+
+void MeasureJoint::transition(int i, const LocalMotion &motion, double *history) const
+{
+  const int of_law = ConstraintElement::n_guards(history);
+  if (i < of_law)
+    ConstraintElement::transition(i, motion, history);
+  else
+    measure().transition(i - of_law, motion.u, motion.v, history + ConstraintElement::n_history());
+}
+
+std::vector<Quantity> MeasureJoint::quantities() const
+{
+  std::vector<Quantity> quantities{{parameters_.name, parameters_.unit}};
+  if (measure().has_function())
+    quantities.push_back({"reaction", parameters_.reaction_unit});
+  if (is_driven())
+    quantities.push_back({"power", "W"});
+  return quantities;
+}
+
+double MeasureJoint::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  if (!motion.lambda)
+    return std::nan("");
+  if (i == 0)
+    return *motion.lambda;
+  if (i == 1 && measure().has_function())
+    return -*motion.lambda * measure().slope(motion.u, of_function(motion, history));
+  return *motion.lambda * prescribed(motion.t, history).rate;
+}
+
+} // namespace gestell::mechanism
