@@ -171,8 +171,35 @@ void Machine::stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) cons
   parts_->base->stiffness_times(x, y);
 }
 
+namespace
+{
+/// w M with w on the diagonal of virtual coordinates, which nothing couples to others: the solver of all that has mass.
+std::unique_ptr<LinearSolver> factorise_mass(const LinearBase &base, const std::vector<int> &massless, double w)
+{
+  if (const auto *dense = dynamic_cast<const DenseBase *>(&base))
+  {
+    Eigen::MatrixXd       M    = dense->mass();
+    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(M.rows(), M.cols());
+    for (const int i : massless)
+      M(i, i) = 1.;
+    return DenseBase(M, zero, zero, {}).factorise(w, 0., 0.);
+  }
+  if (const auto *sparse = dynamic_cast<const SparseBase *>(&base))
+  {
+    Eigen::SparseMatrix<double>       M = sparse->mass();
+    const Eigen::SparseMatrix<double> zero(M.rows(), M.cols());
+    for (const int i : massless)
+      M.coeffRef(i, i) = 1.;
+    return SparseBase(M, zero, zero).factorise(w, 0., 0.);
+  }
+  return base.factorise(w, 0., 0.);
+}
+} // namespace
+
 std::unique_ptr<LinearSolver> Machine::factorise(double w_M, double w_B, double w_C) const
 {
+  if (w_B == 0. && w_C == 0. && !parts_->lag_coordinates.empty())
+    return factorise_mass(*parts_->base, parts_->lag_coordinates, w_M);
   return parts_->base->factorise(w_M, w_B, w_C);
 }
 

@@ -128,6 +128,12 @@ private:
     residual.resize(n_ + n_l);
     residual.head(n_)  = C_ * q_ - share * load_ - W * local_.p - A.bottomRows(n_g_).transpose() * lambda_.tail(n_g_);
     residual.tail(n_l) = open;
+    for (const int i : machine_.virtual_coordinates()) // states of laws keep the value they start with
+    {
+      saddle.row(i).setZero();
+      saddle(i, i) = 1.;
+      residual[i]  = 0.;
+    }
   }
 
   /// Rows of what is held, behind those of the joints.

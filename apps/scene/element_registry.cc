@@ -21,6 +21,7 @@ void read_formula_force(const SceneTable &, const Names &, Scene &);
 void read_force_profile(const SceneTable &, const Names &, Scene &);
 void read_speed_drive(const SceneTable &, const Names &, Scene &);
 void read_dynamic_motor(const SceneTable &, const Names &, Scene &);
+void read_hydraulic_cylinder(const SceneTable &, const Names &, Scene &);
 void read_brake(const SceneTable &, const Names &, Scene &);
 void read_clutch(const SceneTable &, const Names &, Scene &);
 void read_rope(const SceneTable &, const Names &, Scene &);
@@ -49,6 +50,7 @@ const std::vector<ElementType> &element_types()
       {"force profile", read_force_profile},
       {"speed drive", read_speed_drive},
       {"dynamic motor", read_dynamic_motor},
+      {"hydraulic cylinder", read_hydraulic_cylinder},
       {"brake", read_brake},
       {"clutch", read_clutch},
       {"rope", read_rope},

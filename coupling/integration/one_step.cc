@@ -28,6 +28,9 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
     : system_(system), implicit_(system, newton), step_(require_step(name, step)), max_halvings_(max_halvings),
       start_(system, name, newton.joints), middle_(std::max(max_halvings, 0) + 1)
 {
+  if (const auto &massless = system.virtual_coordinates(); !massless.empty())
+    throw std::invalid_argument(name + ": the mass matrix is singular: " + system.coordinate_name(massless.front()) +
+                                " is a state without mass; use bdf, which needs none");
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);
 }

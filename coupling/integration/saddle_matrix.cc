@@ -252,7 +252,10 @@ void SaddleMatrix::set_weights(double w_M, double w_B, double w_C, double f)
     return;
   weights_                                                  = weights;
   Eigen::Map<Eigen::VectorXd>(A_.valuePtr(), A_.nonZeros()) = w_M * M_ + w_B * B_ + w_C * C_;
-  factorised_                                               = false;
+  if (w_B == 0. && w_C == 0.) // of M alone virtual coordinates have nothing: they stay apart
+    for (const int i : system_.virtual_coordinates())
+      A_.coeffRef(i, i) = w_M;
+  factorised_ = false;
 }
 
 void SaddleMatrix::fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
