@@ -33,6 +33,9 @@ FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
   if (system.n_constraints() > 0)
     throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
                                 " constraints; they are compared without joints only.");
+  if (const auto &massless = system.virtual_coordinates(); !massless.empty())
+    throw std::invalid_argument("peers: " + system.coordinate_name(massless.front()) +
+                                " is a state without mass; they are compared where every coordinate has one.");
   local_.resize(system);
   small_.resize(n_u_);
   condense(*mass_, system_.directions(), column_, a_, Y_M_, S_M_);

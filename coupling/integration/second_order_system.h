@@ -154,7 +154,7 @@ public:
 
   // --- energy
   /// Coordinates without mass that are no motion but states of a law, such as the torque of a motor that follows with a
-  /// lag; nothing of M, B, C couples them to others.  They store and dissipate no energy.
+  /// lag; nothing of M, B, C couples them to others, factorise(w, 0, 0) holds them apart.  They store no energy.
   virtual const std::vector<int> &virtual_coordinates() const;
   /// Energy [J] stored in the elements.
   virtual double local_stored_energy(const LocalState &state) const = 0;

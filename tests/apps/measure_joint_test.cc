@@ -138,6 +138,31 @@ stiffness = "80 N/mm"
   EXPECT_LT(error(motion, 1, [&](double t) { return 1e-3 * (1. - part + part * std::cos(w * t)); }), 1e-6);
 }
 
+// Backlash of a gear is a clearance on the sum of both rims: free over half the play, then both turn.
+TEST(Sum, AClearanceOnItIsTheBacklashOfAGear)
+{
+  std::string gears;
+  for (const std::string name : {"pinion", "wheel"})
+    gears += "[body." + name + "]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = \"0.1 kg m^2\"\n";
+  const auto motion = run(gears + R"toml(
+[measure.mesh]
+type = "sum"
+terms = [{ of = "pinion", factor = "40 mm" }, { of = "wheel.angle", factor = "80 mm" }]
+[element.teeth]
+type = "clearance"
+on = "mesh"
+gap = "1 mm"
+stiffness = "2 kN/mm"
+[start]
+v = { pinion = "0.5 rad/s" }
+)toml" + settings("20 us", "p = \"pinion.speed\", w = \"wheel.speed\"", "0.1 s"));
+  EXPECT_NEAR(time_of(motion, "contact_positive"), 1e-3 / (0.04 * 0.5), 1e-10);
+  // An elastic blow turns the speed of the mesh round: impulse P = 2 v / (r_1^2/J + r_2^2/J).
+  const double P = 2. * 0.04 * 0.5 / ((0.0016 + 0.0064) / 0.1);
+  EXPECT_NEAR(motion.signal("p").final, 0.5 - 0.04 * P / 0.1, 1e-4);
+  EXPECT_NEAR(motion.signal("w").final, -0.08 * P / 0.1, 1e-4);
+}
+
 // Constant forces on constant ratios: the motion is a parabola, which BDF 2 follows to rounding.
 TEST(MeasureJoint, ScrewRackAndRollingWheelAccelerateTheirReducedInertia)
 {
