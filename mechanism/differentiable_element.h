@@ -16,7 +16,8 @@ struct Measures
 {
   double        t;
   const Number *u, *v, *a;
-  bool          by_history; ///< as in LocalMotion
+  bool          by_history;       ///< as in LocalMotion
+  const double *lambda = nullptr; ///< likewise; held within a tangent
 };
 
 /**
@@ -41,7 +42,7 @@ public:
 
   void force(const LocalMotion &motion, const double *history, double *p) const final
   {
-    law(Measures<double>{motion.t, motion.u, motion.v, motion.a, motion.by_history}, history, p);
+    law(Measures<double>{motion.t, motion.u, motion.v, motion.a, motion.by_history, motion.lambda}, history, p);
   }
 
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
@@ -55,7 +56,7 @@ public:
       v[i] = Dual<k>(motion.v[i], w.v * Direction::Unit(i));
       a[i] = Dual<k>(motion.a[i], w.a * Direction::Unit(i));
     }
-    law(Measures<Dual<k>>{motion.t, u, v, a, motion.by_history}, history, p_dual);
+    law(Measures<Dual<k>>{motion.t, u, v, a, motion.by_history, motion.lambda}, history, p_dual);
     for (int i = 0; i < k; ++i)
     {
       p[i] = p_dual[i].value();
@@ -75,7 +76,7 @@ public:
       v[i] = Dual<2 * k>(motion.v[i], Direction::Unit(k + i));
       a[i] = Dual<2 * k>(motion.a[i]);
     }
-    law(Measures<Dual<2 * k>>{motion.t, u, v, a, motion.by_history}, history, p_dual);
+    law(Measures<Dual<2 * k>>{motion.t, u, v, a, motion.by_history, motion.lambda}, history, p_dual);
     for (int i = 0; i < k; ++i)
     {
       p[i] = p_dual[i].value();

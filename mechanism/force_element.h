@@ -24,7 +24,8 @@ struct LocalMotion
   /// itself is in.
   bool by_history = false;
 
-  /// Multipliers of an ideal joint [n_constraints()]; null for all others and where they are unknown.
+  /// Multipliers of an ideal joint [n_constraints()], or of the joint whose friction the element is; null for all
+  /// others and where they are unknown.
   const double *lambda = nullptr;
 };
 
@@ -147,6 +148,9 @@ public:
   /// Energy [J] stored in the element; what it takes up beyond it is work() .
   virtual double stored_energy(const LocalMotion &, const double *history) const;
   virtual Work   work() const { return Work::dissipated; }
+
+  /// How deep [m or rad] bodies that a contact keeps apart lie in each other; 0: they do not, or nothing keeps them.
+  virtual double penetration(const LocalMotion &) const { return 0.; }
 
   /// Switching functions of the branch that `history` says is active.
   virtual std::vector<Guard> guards(const double *history) const;

@@ -15,50 +15,79 @@ constexpr double at_rest[CombinedMeasure::max_measures + TransmittedElement::max
 
 TransmittedElement::TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceElement> law,
                                        double rest)
-    : measure_(measure), law_(std::move(law)), rest_(rest)
+    : measures_{measure}, law_(std::move(law)), rest_(rest)
 {
   require(law_->n_measures() >= 1 && n_virtual() <= max_virtual, "transmitted element", "number of measures of its law",
           law_->n_measures(), "1, and at most " + std::to_string(max_virtual) + " virtual ones");
 }
 
+TransmittedElement::TransmittedElement(const Placement &first, const Placement &second,
+                                       const std::vector<RelativeMeasure> &measures,
+                                       std::shared_ptr<const ForceElement> law)
+    : law_(std::move(law)), rest_(0.)
+{
+  for (const RelativeMeasure &measure : measures)
+    measures_.emplace_back(PlacedMeasure{first, second, measure});
+  require(!measures.empty() && n_virtual() == 0, "transmitted element", "number of measures of its law",
+          law_->n_measures(), std::to_string(n_seen()));
+  require(n_seen() <= max_seen, "transmitted element", "number of measures of its law", n_seen(),
+          "at most " + std::to_string(max_seen));
+}
+
 TransmittedElement::Seen TransmittedElement::see(const LocalMotion &motion, const double *history) const
 {
-  Seen       seen;
-  const auto value     = measure_.evaluate(motion.u, motion.v, seen.G, of_function(motion, history));
-  seen.s[0]            = value.s - rest_;
-  seen.rate[0]         = value.rate;
-  seen.acceleration[0] = value.bias;
-  for (int i = 0; motion.a && i < n_motions(); ++i)
-    seen.acceleration[0] += seen.G[i] * motion.a[i];
+  Seen      seen;
+  const int k = n_motions(), m = n_seen();
+  for (int i = 0; i < m; ++i)
+  {
+    double    *G         = seen.G + k * i;
+    const auto value     = measures_[i].evaluate(motion.u, motion.v, G, of_function(motion, history));
+    seen.s[i]            = value.s;
+    seen.rate[i]         = value.rate;
+    seen.acceleration[i] = value.bias;
+    for (int j = 0; motion.a && j < k; ++j)
+      seen.acceleration[i] += G[j] * motion.a[j];
+  }
+  seen.s[0] -= rest_;
   for (int i = 0; i < n_virtual(); ++i)
   {
-    seen.s[1 + i]            = motion.u[n_motions() + i];
-    seen.rate[1 + i]         = motion.v[n_motions() + i];
-    seen.acceleration[1 + i] = motion.a ? motion.a[n_motions() + i] : 0.;
+    seen.s[m + i]            = motion.u[k + i];
+    seen.rate[m + i]         = motion.v[k + i];
+    seen.acceleration[m + i] = motion.a ? motion.a[k + i] : 0.;
   }
   return seen;
 }
 
 void TransmittedElement::spread(const Seen &seen, const double *P, double *p) const
 {
-  for (int i = 0; i < n_motions(); ++i)
-    p[i] = P[0] * seen.G[i];
+  const int k = n_motions(), m = n_seen();
+  for (int j = 0; j < k; ++j)
+  {
+    p[j] = 0.;
+    for (int i = 0; i < m; ++i)
+      p[j] += P[i] * seen.G[j + k * i];
+  }
   for (int i = 0; i < n_virtual(); ++i)
-    p[n_motions() + i] = P[1 + i];
+    p[k + i] = P[m + i];
 }
 
 void TransmittedElement::spread_tangent(const Seen &seen, const double *dP, double *dp) const
 {
-  const int  k = n_motions(), n = n_measures(), n_law = law_->n_measures();
-  const auto measure = [k](int i) { return i < k ? 0 : 1 + i - k; };
+  const int k = n_motions(), m = n_seen(), n = n_measures(), n_law = law_->n_measures();
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      dp[i + n * j] = dP[measure(i) + n_law * measure(j)] * (i < k ? seen.G[i] : 1.) * (j < k ? seen.G[j] : 1.);
+  {
+    double column[max_of_law] = {}; // dP ds/du_j
+    for (int b = 0; b < n_law; ++b)
+      if (const double ds = j < k ? (b < m ? seen.G[j + k * b] : 0.) : (b == m + j - k ? 1. : 0.); ds != 0.)
+        for (int a = 0; a < n_law; ++a)
+          column[a] += dP[a + n_law * b] * ds;
+    spread(seen, column, dp + n * j);
+  }
 }
 
 void TransmittedElement::start(const LocalMotion &motion, double *history) const
 {
-  measure_.start(motion.u, motion.v, history + law_->n_history());
+  function().start(motion.u, motion.v, history + law_->n_history());
   const Seen seen = see(motion, history);
   law_->start(seen.motion(motion), history);
 }
@@ -116,7 +145,8 @@ void TransmittedElement::geometric(const LocalMotion &motion, const double *hist
   double     P[max_of_law], own[CombinedMeasure::max_measures * CombinedMeasure::max_measures] = {};
   law_->force(seen.motion(motion), history, P);
   const int k = n_motions(), n = n_measures();
-  measure_.add_curvature(motion.u, -P[0], own, of_function(motion, history));
+  for (int i = 0; i < n_seen(); ++i)
+    measures_[i].add_curvature(motion.u, -P[i], own, of_function(motion, history));
   std::fill(K, K + n * n, 0.);
   for (int j = 0; j < k; ++j)
     std::copy_n(own + k * j, k, K + n * j);
@@ -136,12 +166,18 @@ double TransmittedElement::stored_energy(const LocalMotion &motion, const double
   return law_->stored_energy(seen.motion(motion), history);
 }
 
+double TransmittedElement::penetration(const LocalMotion &motion) const
+{
+  const Seen seen = see(motion, nullptr);
+  return law_->penetration(seen.motion(motion));
+}
+
 // --- events: those of the law, then those of the position function
 
 std::vector<Guard> TransmittedElement::guards(const double *history) const
 {
   auto       guards = law_->guards(history);
-  const auto own    = measure_.guards(history + law_->n_history());
+  const auto own    = function().guards(history + law_->n_history());
   guards.insert(guards.end(), own.begin(), own.end());
   return guards;
 }
@@ -150,7 +186,7 @@ void TransmittedElement::guard_values(const LocalMotion &motion, const double *h
 {
   const Seen seen = see(motion, history);
   law_->guard_values(seen.motion(motion), history, g);
-  measure_.guard_values(motion.u, history + law_->n_history(), g + law_->n_guards(history));
+  function().guard_values(motion.u, history + law_->n_history(), g + law_->n_guards(history));
 }
 
 void TransmittedElement::transition(int i, const LocalMotion &motion, double *history) const
@@ -158,7 +194,7 @@ void TransmittedElement::transition(int i, const LocalMotion &motion, double *hi
   const int of_law = law_->n_guards(history);
   if (i >= of_law)
   {
-    measure_.transition(i - of_law, motion.u, motion.v, history + law_->n_history());
+    function().transition(i - of_law, motion.u, motion.v, history + law_->n_history());
     return;
   }
   const Seen seen = see(motion, history);

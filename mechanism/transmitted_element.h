@@ -4,17 +4,18 @@
 #include "mechanism/force_element.h"
 
 #include <memory>
+#include <vector>
 
 namespace gestell::mechanism
 {
 
 /**
- * A law of one measure s that acts through a scalar s(u) of the motion: a spring between two points of turning bodies,
- * a cylinder, a wheel under a chassis, the play between cam and follower.
+ * A law of one or a few measures s that acts through scalars s(u) of the motion: a spring between two points of turning
+ * bodies, a cylinder, a wheel under a chassis, the play between cam and follower, a journal in its bearing.
  *
  *     p = G^T P(s, s'),     G = ds/du,     s' = G u',     s'' = G u'' + u'^T s'' u'
  *
- * Measures of the law behind the first one are virtual coordinates, taken over as they are.  Everything else (history,
+ * Measures of the law behind these are virtual coordinates, taken over as they are.  Everything else (history,
  * events, energy, quantities) is the law's, and the kinks of a position function in s are events too.  The tangent
  * holds G: how it turns within a Newton step is of the order of h^2 P/(m |d|) against 1.
  *
@@ -25,16 +26,21 @@ namespace gestell::mechanism
 class TransmittedElement : public ForceElement
 {
 public:
+  static constexpr int max_seen    = 3; ///< scalars s
+  static constexpr int max_virtual = 3;
+
   /// @param law   of one measure, and virtual coordinates
   /// @param rest  value of s that the law sees as zero
   /// @throws std::invalid_argument if the law has more of them than max_virtual
   TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceElement> law, double rest = 0.);
-
-  static constexpr int max_virtual = 3;
+  /// @param measures  of the motion of the same two bodies, one for each of the law
+  /// @throws std::invalid_argument if their number is not that of the law, or more than max_seen
+  TransmittedElement(const Placement &first, const Placement &second, const std::vector<RelativeMeasure> &measures,
+                     std::shared_ptr<const ForceElement> law);
 
   int n_measures() const override { return n_motions() + n_virtual(); }
   /// history: that of the law, then that of the position function.
-  int  n_history() const override { return law_->n_history() + measure_.n_history(); }
+  int  n_history() const override { return law_->n_history() + function().n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
   void force(const LocalMotion &motion, const double *history, double *p) const override;
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
@@ -48,9 +54,10 @@ public:
 
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
+  double penetration(const LocalMotion &motion) const override;
 
   std::vector<Guard> guards(const double *history) const override;
-  int  n_guards(const double *history) const override { return law_->n_guards(history) + measure_.n_guards(); }
+  int  n_guards(const double *history) const override { return law_->n_guards(history) + function().n_guards(); }
   void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void transition(int i, const LocalMotion &motion, double *history) const override;
   bool command(const std::string &order, const LocalMotion &motion, double *history) const override;
@@ -60,20 +67,24 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  static constexpr int max_of_law = 1 + max_virtual;
+  static constexpr int max_of_law = max_seen + max_virtual;
 
-  /// The motion of the law's measures.
+  /// The motion of the law's measures; G [k x n_seen, column major].
   struct Seen
   {
-    double G[CombinedMeasure::max_measures];
+    double G[max_seen * CombinedMeasure::max_measures];
     double s[max_of_law], rate[max_of_law], acceleration[max_of_law];
 
-    LocalMotion motion(const LocalMotion &of) const { return {of.t, s, rate, acceleration, nullptr, of.by_history}; }
+    LocalMotion motion(const LocalMotion &of) const
+    {
+      return {of.t, s, rate, acceleration, nullptr, of.by_history, of.lambda};
+    }
   };
-  int  n_motions() const { return measure_.n_measures(); }
-  int  n_virtual() const { return law_->n_measures() - 1; }
+  int  n_seen() const { return int(measures_.size()); }
+  int  n_motions() const { return measures_.front().n_measures(); }
+  int  n_virtual() const { return law_->n_measures() - n_seen(); }
   Seen see(const LocalMotion &motion, const double *history) const;
-  /// p = (G^T P_1, P_2 ..) and, of a derivative of P by the law's measures, that by u.
+  /// p = G^T P with the virtual coordinates' P behind it and, of a derivative of P by the law's measures, that by u.
   void spread(const Seen &seen, const double *P, double *p) const;
   void spread_tangent(const Seen &seen, const double *dP, double *dp) const;
 
@@ -82,7 +93,10 @@ private:
     return motion.by_history ? history + law_->n_history() : nullptr;
   }
 
-  CombinedMeasure                     measure_;
+  /// The one that may have a position function, whose kinks are events.
+  const CombinedMeasure &function() const { return measures_.front(); }
+
+  std::vector<CombinedMeasure>        measures_;
   std::shared_ptr<const ForceElement> law_;
   double                              rest_;
 };

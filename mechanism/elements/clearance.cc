@@ -60,6 +60,12 @@ double Clearance::stored_energy(const LocalMotion &motion, const double *history
   return n == 1. ? 0.5 * parameters_.stiffness * d * d : parameters_.stiffness / (n + 1.) * d * power(d);
 }
 
+double Clearance::penetration(const LocalMotion &motion) const
+{
+  const Branch branch = branch_at(motion.u[0], motion.v[0]);
+  return branch == open ? 0. : side(branch) * motion.u[0] - parameters_.gap;
+}
+
 int Clearance::n_guards(const double *history) const
 {
   return branch_of(history) == open && parameters_.stops != Stops::both ? 1 : 2;

@@ -52,17 +52,24 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
+    double       s;
+    const Number pressed = pressure(m, history, s);
+    p[0]                 = s == 0. ? Number(0.) : Number(-s * pressed);
+  }
+
+  /// c d^n (1 + chi s u') >= 0 and the s of the stop it comes from, 0 where none presses.
+  template <typename Number>
+  Number pressure(const Measures<Number> &m, const double *history, double &s) const
+  {
     const auto &[gap, c, chi, stops, n] = parameters_;
     const Branch branch                 = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+    s                                   = 0.;
     if (branch != contact_negative && branch != contact_positive)
-    {
-      p[0] = Number(0.);
-      return;
-    }
-    const double s      = side(branch);
+      return Number(0.);
+    s                   = side(branch);
     const Number d      = s * m.u[0] - gap;
     const Number factor = 1. + (chi * s) * m.v[0];
-    p[0]                = -s * c * power(d) * factor;
+    return c * power(d) * factor;
   }
 
   /// history: active branch.
@@ -70,6 +77,7 @@ public:
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                penetration(const LocalMotion &motion) const override;
   int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;

@@ -6,6 +6,8 @@
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/cutting_force.h"
 #include "mechanism/elements/formula_force.h"
+#include "mechanism/elements/journal_bearing.h"
+#include "mechanism/elements/point_contact.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/mechanism/prescribed_path.h"
 
@@ -29,6 +31,23 @@ const CuttingForce::Parameters  tool{5e3, 6e-4, 4e-4, 0.02};
 BlankingForce::Parameters sheet(double exponent)
 {
   return {0.004, 0.8, 3.2e8, 0.35, exponent, 0.25, 0.08, 9e9, 0.152};
+}
+
+const SlidingFriction            rubbing{0.1, 2e-2, 0.2, 0.05, 1.};
+const JournalBearing::Parameters bearing{5e-5, 0.03, 1e9, 4., 1., rubbing};
+
+/// A journal that moves along a slanted radius while it turns.
+Probe journal_probe(const Probe &radial)
+{
+  const Eigen::Vector3d along(0.6, -0.8, 0.), turning(0., 0., 5.);
+  return {radial.t, radial.u[0] * along + radial.t * turning, radial.v[0] * along + turning, radial.a[0] * along};
+}
+
+/// A point that moves along the normal of a plane while it slides.
+Probe contact_probe(const Probe &normal)
+{
+  const Eigen::Vector3d along(1., 0., 0.), sliding(0., 0.3, -0.2);
+  return {normal.t, normal.u[0] * along + normal.t * sliding, normal.v[0] * along + sliding, normal.a[0] * along};
 }
 
 /// Corners at 0.3 and 0.5 without a jump, beside the rows at the ends.
@@ -122,6 +141,17 @@ std::vector<Switch> switches()
     all.push_back({"stop_left" + side, stop, in, probe1(s * -2e-5, s * -0.1), 0, "separation"});
     all.push_back({"stop_lost" + side, stop, in, probe1(s * -1e-5, s * -0.25, s * -1e3), 1, "contact_slack"});
   }
+  const auto            journal = std::make_shared<JournalBearing>(bearing);
+  const Eigen::VectorXd pressed = loaded(*journal, journal_probe(probe1(7e-5, 0.)));
+  all.push_back({"journal_touches", journal, numbers(0.), journal_probe(probe1(5e-5, 0.1)), 0, "contact"});
+  all.push_back({"journal_leaves", journal, pressed, journal_probe(probe1(5e-5, -0.1)), 0, "separation"});
+  all.push_back({"journal_lost", journal, pressed, journal_probe(probe1(6e-5, -0.25, -1e3)), 1, "contact_slack"});
+  const auto plane =
+      std::make_shared<PointContact>(PointContact::Parameters{{-1e-5, 1e9, 4., Clearance::Stops::below}, rubbing});
+  const Eigen::VectorXd lying = loaded(*plane, contact_probe(probe1(0., 0.)));
+  all.push_back({"point_lands", plane, numbers(0.), contact_probe(probe1(1e-5, -0.1)), 0, "contact"});
+  all.push_back({"point_lifts_off", plane, lying, contact_probe(probe1(1e-5, 0.1)), 0, "separation"});
+  all.push_back({"point_lost", plane, lying, contact_probe(probe1(0., 0.25, 1e3)), 1, "contact_slack"});
   const auto over_u = std::make_shared<TableForce>(table(TableForce::Against::displacement));
   const auto over_v = std::make_shared<TableForce>(table(TableForce::Against::rate));
   const auto over_t = std::make_shared<TableForce>(table(TableForce::Against::time));
@@ -273,6 +303,15 @@ std::vector<Drive> drives()
            {
              const Probe slow = swinging(t, 1e-6, 0., 8e-5, 600.), fast = swinging(t, 0., 0., 4e-5, 9000.);
              return Probe{t, slow.u + fast.u, slow.v + fast.v, slow.a};
+           },
+           0.05,
+           {"contact", "separation", "contact_slack", "contact_grip"}},
+          {"journal",
+           std::make_shared<JournalBearing>(bearing),
+           [](double t)
+           {
+             const Probe slow = swinging(t, 6e-5, 0., 5e-5, 600.), fast = swinging(t, 0., 0., 4e-5, 9000.);
+             return journal_probe({t, slow.u + fast.u, slow.v + fast.v, slow.a});
            },
            0.05,
            {"contact", "separation", "contact_slack", "contact_grip"}},

@@ -1,0 +1,62 @@
+#include "mechanism/elements/point_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::mechanism
+{
+
+// The normal contact takes the first measure and leaves the others alone.
+
+PointContact::PointContact(const Parameters &parameters) : normal_(parameters.normal), friction_(parameters.friction)
+{
+  friction_.check("contact");
+}
+
+void PointContact::engaged(const double *u, double *K, double *D) const
+{
+  double k, d;
+  normal_.engaged(u, &k, &d);
+  std::fill_n(K, 9, 0.);
+  std::fill_n(D, 9, 0.);
+  K[0] = k;
+}
+
+double PointContact::stored_energy(const LocalMotion &motion, const double *history) const
+{
+  return normal_.stored_energy(motion, history);
+}
+
+void PointContact::guard_values(const LocalMotion &motion, const double *history, double *g) const
+{
+  normal_.guard_values(motion, history, g);
+}
+
+void PointContact::transition(int i, const LocalMotion &motion, double *history) const
+{
+  normal_.transition(i, motion, history);
+}
+
+std::vector<Quantity> PointContact::quantities() const
+{
+  return {{"normal_force", "N"}, {"friction_force", "N"}, {"distance", "m"}, {"sliding_speed", "m/s"}};
+}
+
+double PointContact::quantity(int i, const LocalMotion &motion, const double *history) const
+{
+  double p[3];
+  force(motion, history, p);
+  switch (i)
+  {
+  case 0:
+    return p[0];
+  case 1:
+    return std::hypot(p[1], p[2]);
+  case 2:
+    return motion.u[0];
+  default:
+    return std::hypot(motion.v[1], motion.v[2]);
+  }
+}
+
+} // namespace gestell::mechanism
