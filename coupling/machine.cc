@@ -5,8 +5,10 @@
 #include "coupling/nearest_name.h"
 #include "coupling/sparse_base.h"
 
+#include <cassert>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -72,6 +74,14 @@ void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceEl
     throw std::invalid_argument("element \"" + name + "\" takes " + std::to_string(element->n_measures()) +
                                 " measures, but " + std::to_string(measures.size()) + " were given");
   parts_->elements.push_back({name, std::move(element), measures});
+}
+
+void Machine::attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures)
+{
+  const int joint = static_cast<int>(parts_->elements.size()) - 1;
+  assert(joint >= 0 && parts_->elements[joint].element->n_constraints() > 0);
+  attach(std::string(parts_->elements[joint].name), std::move(element), measures);
+  parts_->elements.back().joint = joint;
 }
 
 void Machine::finish()
@@ -302,6 +312,25 @@ void Machine::start(const LocalState &state)
   for (const auto &own : parts_->switches)
     parts_->history[own.history] = 0.;
   parts_->refresh_guards();
+}
+
+/// A contact that is described as just touching may be closed by rounding.
+constexpr double touching = 1e-9; // m or rad
+
+std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
+{
+  std::vector<std::string> closed;
+  for (std::size_t e = 0; e < parts_->placed.size(); ++e)
+  {
+    const auto  &part = parts_->placed[e];
+    const double deep = part.element->penetration(part.motion(state, false));
+    if (deep <= touching)
+      continue;
+    std::ostringstream words;
+    words << "\"" << parts_->elements[e].name << "\" by " << deep << " (m or rad)";
+    closed.push_back(words.str());
+  }
+  return closed;
 }
 
 void Machine::accept(const LocalState &state)

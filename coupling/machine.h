@@ -59,6 +59,9 @@ struct Body
   std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
 };
 
+/// Two unit vectors across the unit vector n: global axes if n is one, in their order.
+std::pair<Vector3, Vector3> plane_across(const Vector3 &n);
+
 /// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
 /// @param normal  unit vector
 std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
@@ -121,7 +124,8 @@ struct ElementPlacement
 {
   std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
-  std::vector<Measure>                     measures; ///< one per measure of the element
+  std::vector<Measure>                     measures;   ///< one per measure of the element
+  int                                      joint = -1; ///< of friction in an ideal joint: which element that is
 };
 
 /**
@@ -196,6 +200,9 @@ public:
   /// Nonlinear element acting on its measures; those of virtual coordinates come last.
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
               const std::vector<Measure> &measures);
+  /// Friction of the ideal joint that was attached last, whose multipliers the element sees; it goes by the joint's
+  /// name.
+  void attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures);
 
   /// Signals that will be read: whether any tells the force of an ideal joint.
   void will_read(const std::vector<Signal> &signals);
@@ -226,8 +233,10 @@ public:
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
   Eigen::MatrixXd translation_loads() const;
 
-  double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
-                  const LocalState &local) const;
+  /// Contacts that are closed at a motion, in words: by how much they lie inside.
+  std::vector<std::string> closed_contacts(const LocalState &state) const;
+  double                   evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                                    const LocalState &local) const;
   /// Geometric stiffness [n_u x n_u] of all elements and joints, block diagonal: mechanism::ForceElement::geometric().
   void geometric(const LocalState &state, Eigen::MatrixXd &K) const;
   /// u, v, a of all elements for q, q', q''.
@@ -259,6 +268,7 @@ public:
   void        constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
   void        constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
   bool        wants_multipliers() const override;
+  bool        forces_need_multipliers() const override;
   std::string constraint_name(int i) const override;
   void        follow_history(bool follow) override;
   Eigen::VectorXd         save_history() const override;

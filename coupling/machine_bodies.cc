@@ -108,8 +108,9 @@ int global_axis(const Vector3 &n)
   return -1;
 }
 
-/// Two unit vectors across n: global axes if n is one, in their order.
-std::pair<Vector3, Vector3> plane_of(const Vector3 &n)
+} // namespace
+
+std::pair<Vector3, Vector3> plane_across(const Vector3 &n)
 {
   Vector3 e_1{}, e_2{};
   if (const int axis = global_axis(n); axis >= 0)
@@ -130,7 +131,6 @@ std::pair<Vector3, Vector3> plane_of(const Vector3 &n)
     e_2[d] = n[(d + 1) % 3] * e_1[(d + 2) % 3] - n[(d + 2) % 3] * e_1[(d + 1) % 3];
   return {e_1, e_2};
 }
-} // namespace
 
 std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal)
 {
@@ -146,7 +146,7 @@ int Machine::add_planar(const std::string &name, const Vector3 &normal, double m
   require_mass(mass, "planar body \"" + name + "\": mass [kg]");
   require_mass(inertia, "planar body \"" + name + "\": inertia [kg m^2]");
   const Vector3 n       = unit(normal, "planar body \"" + name + "\"");
-  const auto [e_1, e_2] = plane_of(n);
+  const auto [e_1, e_2] = plane_across(n);
   const auto names      = planar_coordinates(name, n);
   const int  first      = parts_->add_coordinates(name, {names.begin(), names.end()});
   Marker     own;

@@ -229,13 +229,17 @@ void Machine::Parts::place_elements(int n)
     placed.push_back({placement.element.get(), n_measures, k, n_history, n_motions});
     if (const int n_c = placement.element->n_constraints(); n_c > 0)
     {
-      placed.back().first_constraint = n_constraints;
+      placed.back().first_constraint = placed.back().first_multiplier = n_constraints;
       joints.push_back(int(placed.size()) - 1);
       joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->constraint_size()});
       n_constraints += n_c;
     }
     else
+    {
       force_blocks.push_back({n_measures, k});
+      if (placement.joint >= 0)
+        placed.back().first_multiplier = placed[placement.joint].first_constraint;
+    }
     for (int j = 0; j < k; ++j)
       for (const auto &[coordinate, weight] : placement.measures[j])
         columns.emplace_back(coordinate, n_measures + j, weight);

@@ -31,6 +31,7 @@ struct Machine::Parts
     int                            n_motions;     ///< measures that do work: the first ones, lags behind them do none
     bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
     int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
+    int                            first_multiplier = -1; ///< of a joint or its friction: the first one it sees
 
     /// Its force is no law's value, but follows from the equations of the step.
     bool implied() const { return holds || first_constraint >= 0; }
@@ -43,7 +44,7 @@ struct Machine::Parts
               state.a.data() + first_measure,
               state.p.data() + first_measure,
               by_history,
-              first_constraint >= 0 ? state.lambda.data() + first_constraint : nullptr};
+              first_multiplier >= 0 && state.lambda.size() > 0 ? state.lambda.data() + first_multiplier : nullptr};
     }
   };
 

@@ -115,7 +115,7 @@ double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &
 bool Machine::wants_multipliers() const
 {
   const auto watches_joint = [&](const Parts::PlacedSwitch &own)
-  { return parts_->placed[own.watched].first_constraint >= 0; };
+  { return parts_->placed[own.watched].first_multiplier >= 0; };
   return parts_->reads_joints || std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
 }
 
@@ -124,7 +124,13 @@ void Machine::will_read(const std::vector<Signal> &signals)
   parts_->reads_joints =
       std::any_of(signals.begin(), signals.end(),
                   [&](const Signal &signal)
-                  { return signal.element >= 0 && parts_->placed[signal.element].first_constraint >= 0; });
+                  { return signal.element >= 0 && parts_->placed[signal.element].first_multiplier >= 0; });
+}
+
+bool Machine::forces_need_multipliers() const
+{
+  return std::any_of(parts_->elements.begin(), parts_->elements.end(),
+                     [](const ElementPlacement &placement) { return placement.joint >= 0; });
 }
 
 const NamedMeasure &Machine::measure(const std::string &name) const

@@ -142,6 +142,17 @@ void warn_of_switches(const Machine &machine, double begin, RunResult &result)
       result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
 }
 
+/// Positions that are given may lie inside a stop, which then throws the body out.
+void warn_of_closed_contacts(const Machine &machine, const InitialState &initial, RunResult &result)
+{
+  LocalState local;
+  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
+  for (const std::string &contact : machine.closed_contacts(local))
+    result.warnings.push_back("the start lies inside the contact of " + contact +
+                              "; it pushes from the first instant on. If that is not meant, change the position or the "
+                              "play, or start with rule = \"static\"");
+}
+
 void warn_of_fast_loads(const Machine &machine, RunResult &result)
 {
   const ReducedFrame *frame = machine.reduced_frame();
@@ -188,6 +199,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   const auto wall_start = std::chrono::steady_clock::now();
   result.method         = method_name(method);
   warn_of_fast_loads(machine, result);
+  if (!initial.settled)
+    warn_of_closed_contacts(machine, initial, result);
 
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
   EventOptions                          event_options;

@@ -12,7 +12,8 @@ namespace gestell::coupling
 struct InitialState
 {
   double          t = 0.;
-  Eigen::VectorXd q, v; // [n]
+  Eigen::VectorXd q, v;            // [n]
+  bool            settled = false; ///< in equilibrium: contacts are closed by the forces they carry
 };
 
 /// What is known of a steady motion: `angles` [rad] and `speeds` [rad/s] of rotors; the balance of `driver` is not

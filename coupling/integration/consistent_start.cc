@@ -212,7 +212,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     if (joints)
       G_.set_forces(local.lambda, local.p);
     Eigen::MatrixXd &jacobian = jacobian_.matrix();
-    bool             linear   = true; // no force depends on u'': one step finds all
+    bool             linear   = !system_.forces_need_multipliers(); // nor on u'': one step finds all
     for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
     {
       auto column = jacobian.col(j);

@@ -78,7 +78,8 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;
-    const bool linear = tangent_.isZero(0.); // no force depends on u'': one step finds all
+    // No force depends on u'' or multipliers: one step finds all.
+    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
     factorise_sparse(local.t);
     ++work.factorisations;
     y_.head(n) = load_;

@@ -149,6 +149,8 @@ public:
   /// Somebody looks at the multipliers: those of index 3 carry rounding enlarged by 1/h^2, and are found from g'' = 0
   /// then.
   virtual bool wants_multipliers() const { return false; }
+  /// Forces depend on the multipliers of joints (friction in them), which follow from the forces: a start iterates.
+  virtual bool forces_need_multipliers() const { return false; }
   /// Joint and direction of row i, for messages: "crank pin, along x".
   virtual std::string constraint_name(int i) const;
 
