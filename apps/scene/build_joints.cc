@@ -3,6 +3,8 @@
 #include "apps/scene/build_measures.h"
 #include "apps/scene/quantity.h"
 #include "mechanism/joints/ideal_joint.h"
+#include "mechanism/joints/joint_friction.h"
+#include "mechanism/transmitted_element.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +67,26 @@ struct Pair
   std::vector<coupling::Measure> measures;
   const Body                    *on_first = nullptr, *on_second = nullptr;
 };
+
+/// Rotation of body 2 about a, less `factor` times that of body 1.
+RelativeMeasure rotation_about(const Pair &pair, const Vector3d &a, double factor)
+{
+  RelativeMeasure rotation;
+  rotation.form = Form::ratio;
+  for (int i = 0; i < pair.first.n_measures(); ++i)
+    rotation.ratios.push_back(-factor * pair.first.rotation(i).dot(a));
+  for (int i = 0; i < pair.second.n_measures(); ++i)
+    rotation.ratios.push_back(pair.second.rotation(i).dot(a));
+  return rotation;
+}
+
+RelativeMeasure seen_from_first(const Vector3d &a)
+{
+  RelativeMeasure displacement;
+  displacement.a       = a;
+  displacement.carrier = RelativeMeasure::Carrier::first;
+  return displacement;
+}
 
 std::string axis_name(const Vector3d &a, int number)
 {
@@ -151,12 +173,8 @@ public:
   /// Rotation of body 2 about a = factor times that of body 1.
   void ratio(IdealJoint::Equation equation, const Vector3d &a, double factor)
   {
-    equation.measure.form = Form::ratio;
-    double largest        = 0.;
-    for (int i = 0; i < pair_.first.n_measures(); ++i)
-      equation.measure.ratios.push_back(-factor * pair_.first.rotation(i).dot(a));
-    for (int i = 0; i < pair_.second.n_measures(); ++i)
-      equation.measure.ratios.push_back(pair_.second.rotation(i).dot(a));
+    equation.measure = rotation_about(pair_, a, factor);
+    double largest   = 0.;
     for (const double c : equation.measure.ratios)
       largest = std::max(largest, std::abs(c));
     if (largest > immobile)
@@ -205,6 +223,44 @@ public:
 private:
   const Pair &pair_;
 };
+
+/// Friction against the motions that a joint leaves free; it sees the multipliers of its equations.
+template <int k>
+void attach_friction(coupling::Machine &machine, const Pair &pair, const JointFrictionRequest &request,
+                     const std::vector<IdealJoint::Equation> &equations, std::vector<RelativeMeasure> measures)
+{
+  typename mechanism::JointFriction<k>::Parameters friction{request.law, request.radius, 0, 0, request.length};
+  for (const IdealJoint::Equation &equation : equations)
+    ++(equation.unit == "N" ? friction.n_forces : friction.n_torques);
+  machine.attach_friction(
+      std::make_shared<mechanism::TransmittedElement>(pair.first, pair.second, std::move(measures),
+                                                      std::make_shared<mechanism::JointFriction<k>>(friction)),
+      pair.measures);
+}
+
+void add_joint_friction(coupling::Machine &machine, const JointRequest &joint, const Pair &pair,
+                        const std::vector<IdealJoint::Equation> &equations)
+{
+  const Vector3d axis = vector(joint.axis);
+  if (joint.type == JointType::prismatic)
+    attach_friction<1>(machine, pair, *joint.friction, equations, {seen_from_first(axis)});
+  else if (joint.type == JointType::in_plane)
+  {
+    const auto [e_1, e_2] = coupling::plane_across(joint.axis);
+    attach_friction<2>(machine, pair, *joint.friction, equations,
+                       {seen_from_first(vector(e_1)), seen_from_first(vector(e_2))});
+  }
+  else
+  {
+    const Body *body = pair.planar();
+    for (const Body *other : {pair.on_first, pair.on_second})
+      if (!body && other && other->kind == BodyKind::rotor)
+        body = other;
+    if (!body)
+      throw std::invalid_argument("has friction, but neither body is planar or a rotor, whose axis a pin turns about");
+    attach_friction<1>(machine, pair, *joint.friction, equations, {rotation_about(pair, vector(body->axis), 1.)});
+  }
+}
 
 /// What a joint looks like: a bar, a pin; of others only the points where they hold.
 void draw_joint(coupling::Machine &machine, const JointRequest &joint, const Pair &pair)
@@ -288,7 +344,31 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
   machine.attach(joint.name, std::make_shared<IdealJoint>(pair.first, pair.second, equations.list, joint.law),
                  pair.measures);
+  if (joint.friction && joint.friction->law.kinetic > 0.)
+    add_joint_friction(machine, joint, pair, equations.list);
   draw_joint(machine, joint, pair);
+}
+
+void attach_between(coupling::Machine &machine, const ElementRequest &element)
+{
+  const PairRequest           &request = *element.pair;
+  const Pair                   pair(machine, request.from, request.to);
+  std::vector<RelativeMeasure> measures;
+  const Body                  *planar = pair.planar();
+  if (request.about && planar && std::abs(vector(planar->axis).dot(vector(*request.about))) < 1. - 1e-9)
+    throw std::invalid_argument("its axis must stand across the plane of \"" + planar->name +
+                                "\", which turns about its normal only");
+  for (const Vector3 &a : request.along)
+    measures.push_back(seen_from_first(vector(a)));
+  if (request.about)
+    measures.push_back(rotation_about(pair, vector(*request.about), 1.));
+  machine.attach(
+      element.name,
+      std::make_shared<mechanism::TransmittedElement>(pair.first, pair.second, std::move(measures), element.element),
+      pair.measures);
+  draw_places(machine, request.from, request.to);
+  if (request.about)
+    machine.draw_pin({placed(machine, request.to), *request.about});
 }
 
 void add_switch(coupling::Machine &machine, const SwitchRequest &request)

@@ -10,4 +10,7 @@ namespace gestell::apps
 void add_joint(coupling::Machine &machine, const JointRequest &joint);
 void add_switch(coupling::Machine &machine, const SwitchRequest &request);
 
+/// Attaches a law that acts between two places, on the measures of its PairRequest.
+void attach_between(coupling::Machine &machine, const ElementRequest &element);
+
 } // namespace gestell::apps

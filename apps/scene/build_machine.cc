@@ -78,6 +78,11 @@ void fill(coupling::Machine &machine, const Scene &scene)
                attach_on_measure(machine, element);
                return;
              }
+             if (element.pair)
+             {
+               attach_between(machine, element);
+               return;
+             }
              std::vector<coupling::Measure> measures;
              for (const auto &motion : element.measures)
                measures.push_back(measure_of(motion, machine));

@@ -10,6 +10,9 @@ void read_blanking_force(const SceneTable &, const Names &, Scene &);
 void read_cutting_force(const SceneTable &, const Names &, Scene &);
 void read_asynchronous_motor(const SceneTable &, const Names &, Scene &);
 void read_clearance(const SceneTable &, const Names &, Scene &);
+void read_contact_point(const SceneTable &, const Names &, Scene &);
+void read_guide_with_play(const SceneTable &, const Names &, Scene &);
+void read_journal_bearing(const SceneTable &, const Names &, Scene &);
 void read_stop(const SceneTable &, const Names &, Scene &);
 void read_friction(const SceneTable &, const Names &, Scene &);
 void read_dry_friction(const SceneTable &, const Names &, Scene &);
@@ -40,6 +43,9 @@ const std::vector<ElementType> &element_types()
       {"asynchronous motor", read_asynchronous_motor},
       {"clearance", read_clearance},
       {"stop", read_stop},
+      {"journal bearing", read_journal_bearing},
+      {"contact", read_contact_point},
+      {"guide with play", read_guide_with_play},
       {"friction", read_friction},
       {"dry friction", read_dry_friction},
       {"cubic spring", read_cubic_spring},

@@ -1,6 +1,7 @@
 #include "apps/scene/read_joints.h"
 
 #include "apps/scene/read_scalars.h"
+#include "apps/scene/read_contact.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
 
@@ -207,6 +208,24 @@ constexpr MeasureJointName measure_joints[] = {{"position function", read_cam},
                                                {"rack", read_rolling},
                                                {"prescribed motion", read_prescribed}};
 
+/// Of the joints that slide along a surface.
+std::optional<JointFrictionRequest> read_joint_friction(const SceneTable &table, JointType type)
+{
+  if (!table.has("friction"))
+    return std::nullopt;
+  if (type != JointType::revolute && type != JointType::prismatic && type != JointType::in_plane)
+    throw table.error("friction", "is for joints of type \"revolute\", \"prismatic\" and \"in-plane\"; at others put "
+                                  "an element of type \"friction\" beside the joint");
+  JointFrictionRequest friction{read_sliding_friction(table)};
+  if (type == JointType::revolute && !table.is_table("friction"))
+    throw table.error("friction", "needs the radius of the pin; write { coefficient = 0.1, radius = \"20 mm\" }");
+  if (type == JointType::revolute)
+    friction.radius = table.table("friction").positive("radius", kind::length);
+  if (type == JointType::prismatic && table.is_table("friction"))
+    friction.length = table.table("friction").positive("length", kind::length, 0.);
+  return friction;
+}
+
 JointRequest read_joint(const SceneTable &table, const Names &names)
 {
   JointRequest joint;
@@ -247,6 +266,7 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
     joint.from.at = joint.to.at;
   if (joint.type == JointType::prismatic || joint.type == JointType::in_plane)
     joint.axis = table.direction("axis");
+  joint.friction = read_joint_friction(table, joint.type);
   if (joint.type == JointType::gear)
   {
     joint.ratio = table.number("ratio", kind::number);

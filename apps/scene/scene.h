@@ -7,6 +7,7 @@
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
 #include "mechanism/joints/motion_law.h"
+#include "mechanism/sliding_friction.h"
 
 #include <map>
 #include <memory>
@@ -117,6 +118,12 @@ enum class JointType
   measure    ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
 };
 
+struct JointFrictionRequest
+{
+  mechanism::SlidingFriction law;
+  double                     radius = 0., length = 0.; ///< [m] of a pin, of a guide that takes torques
+};
+
 struct JointRequest
 {
   std::string                                 name;
@@ -129,6 +136,7 @@ struct JointRequest
   MeasureRequest                              measure;       ///< of `measure`
   std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
   std::string                                 reaction_unit; ///< of what acts on the argument of its function
+  std::optional<JointFrictionRequest>         friction;      ///< of `revolute`, `prismatic`, `in-plane`
   std::string                                 place;
 };
 
@@ -164,13 +172,23 @@ struct LagRequest
   double      time_constant = 0.;
 };
 
+/// Motion of place `to` as seen from the body of `from`: displacements along directions fixed to it, then its rotation
+/// about an axis, if any.
+struct PairRequest
+{
+  PlaceRequest           from, to;
+  std::vector<Vector3>   along; ///< unit vectors
+  std::optional<Vector3> about; ///< unit vector
+};
+
 struct ElementRequest
 {
   std::string                              name;
   std::shared_ptr<mechanism::ForceElement> element;
   std::vector<MotionMeasure>               measures;
-  std::string                              on;   ///< a MeasureRequest: the element, a law of one measure, acts on it
-  std::vector<LagRequest>                  lags; ///< the element's last measures
+  std::string                              on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::vector<LagRequest>                  lags;   ///< the element's last measures
+  std::optional<PairRequest>               pair{}; ///< the element is a law of these measures
 };
 
 struct PointMassRequest

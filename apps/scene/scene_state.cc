@@ -104,7 +104,8 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
       throw std::invalid_argument(scene.start.place + ": " + e.what());
     }
   }
-  state.t = scene.run.options.begin;
+  state.t       = scene.run.options.begin;
+  state.settled = scene.start.rule != StartRule::given;
   return state;
 }
 
