@@ -240,7 +240,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       correction_[h.measure] = 0.;
     }
     local.a += correction_;
-    // Measures of joints may be held by them: rounding of the others is what is left of their acceleration.
+    // Bodies in joints may be held by them: rounding of the others is what is left of their acceleration.
     double largest = 0.;
     for (int i = 0; i < correction_.size(); ++i)
     {
@@ -249,8 +249,8 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
         scale_[i] += std::abs(D_(i, j) * local.p[j]);
       largest = std::max(largest, scale_[i]);
     }
-    for (const ConstraintBlock &block : G_.blocks())
-      scale_.segment(block.first_measure, block.n_measures).setConstant(largest);
+    if (joints)
+      scale_.setConstant(largest);
     const bool small = (correction_.array().abs() <= converged * scale_.array()).all();
     if (small || linear)
     {
