@@ -198,7 +198,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
   local.a = a_free_;
   for (const HeldMeasure &h : held)
     local.a[h.measure] = 0.;
-  for (int iteration = 0; iteration < max_iterations; ++iteration)
+  for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
     system_.local_tangent(local, 0., 0., 1., local.p, dp_);
     ++work.newton;
@@ -262,11 +262,19 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
   fail_unconverged(local.t);
 }
 
+int ConsistentStart::most_iterations() const
+{
+  return system_.forces_need_multipliers() ? most_by_friction : max_iterations;
+}
+
 void ConsistentStart::fail_unconverged(double t) const
 {
   std::ostringstream message;
-  message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << max_iterations
+  message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << most_iterations()
           << " iterations; the last correction was " << correction_.cwiseAbs().maxCoeff() << " m/s^2 (or rad/s^2)";
+  if (system_.forces_need_multipliers())
+    message << "; friction in a joint may make the force that causes it, so that the joint jams: lengthen the guide or "
+               "lower the coefficient";
   throw ConvergenceFailure(message.str());
 }
 

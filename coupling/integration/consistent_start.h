@@ -46,9 +46,11 @@ public:
   void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
 
 private:
-  static constexpr double converged      = 1e-12; ///< correction of u'', relative to the terms it is the sum of
-  static constexpr int    max_iterations = 25;
+  static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms it is the sum of
+  static constexpr int    max_iterations   = 25;
+  static constexpr int    most_by_friction = 8 * max_iterations; ///< where they converge linearly
 
+  int               most_iterations() const;
   [[noreturn]] void fail_unconverged(double t) const;
   void              take_up_joints(LocalState &local);
   void              impulse_against(const LocalState &local);

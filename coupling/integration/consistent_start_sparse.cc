@@ -72,7 +72,7 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
   local.a           = a_free_;
   for (const HeldMeasure &h : held)
     local.a[h.measure] = 0.;
-  for (int iteration = 0; iteration < max_iterations; ++iteration)
+  for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
     system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
     G_.set_forces(local.lambda, local.p);

@@ -91,6 +91,43 @@ TEST(GuideFriction, OfALongGuideCountsTheMoment)
   EXPECT_NEAR(motion.signal("v").final, 1. - 0.1 * 0.25 * 20. / 3., 1e-9);
 }
 
+/// Friction at the lever h to the centre of mass makes a moment itself: |M| = M0 + h F or M0 - h F by the direction.
+std::string lever(const std::string &height)
+{
+  return with(with(with(incline, "-9.81", "0"), "friction = 0.25",
+                   "friction = { coefficient = 0.25, length = \"0.2 m\" }"),
+              "at = [0, 0, 0]\naxis = [\"cos(a)\", 0, \"-sin(a)\"]",
+              "at = [0, 0, \"-" + height + "\"]\naxis = [1, 0, 0]") +
+         "[element.moment]\ntype = \"force\"\nfrom = \"carriage\"\nabout = [0, 1, 0]\nconstant = \"2 N m\"\n";
+}
+
+// F = k M0/(1 -+ k h), k = 2 mu/L = 2.5/m: the iteration converges by k h = 0.6.
+TEST(GuideFriction, GrowsByTheMomentItMakes)
+{
+  for (const double way : {1., -1.})
+  {
+    const SceneRun motion =
+        run(lever("0.24 m"), {"start.v={ \"carriage.ux\" = " + std::to_string(way) + " }", "run.end=0.1 s"});
+    ASSERT_EQ(motion.result.failure, "");
+    const double F = 2.5 * 2. / (1. - way * 0.6);
+    EXPECT_NEAR(motion.at(0, column(motion, "F")), -way * F, 1e-8);
+    EXPECT_NEAR(motion.signal("v").final, way * (1. - 0.1 * F / 3.), 1e-7);
+  }
+}
+
+TEST(GuideFriction, ThatJamsIsTold)
+{
+  try
+  {
+    run(lever("0.6 m"), {"start.v={ \"carriage.ux\" = 1 }", "run.end=0.1 s"});
+    FAIL() << "moves"; // k h = 1.5
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("so that the joint jams"), std::string::npos) << failure.what();
+  }
+}
+
 TEST(PlaneFriction, ActsAgainstTheSlidingInThePlane)
 {
   const std::string puck   = R"toml(
