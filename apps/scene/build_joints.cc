@@ -344,7 +344,7 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
   machine.attach(joint.name, std::make_shared<IdealJoint>(pair.first, pair.second, equations.list, joint.law),
                  pair.measures);
-  if (joint.friction && joint.friction->law.kinetic > 0.)
+  if (joint.friction)
     add_joint_friction(machine, joint, pair, equations.list);
   draw_joint(machine, joint, pair);
 }

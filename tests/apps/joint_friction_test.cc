@@ -276,6 +276,15 @@ TEST(PinFriction, ClosesTheBalanceOfEnergy)
   EXPECT_LT(fine, coarse / 8.);
 }
 
+// A study of mu may begin at zero: all signals are there, and the motion is that of the ideal joint.
+TEST(PinFriction, OfCoefficientZeroIsNone)
+{
+  const SceneRun motion = run(with(pendulum, "coefficient = 0.01", "coefficient = 0"), {"run.end=0.1 s"});
+  EXPECT_EQ(motion.result.failure, "");
+  EXPECT_EQ(motion.signal("M").min, 0.);
+  EXPECT_EQ(motion.signal("M").max, 0.);
+}
+
 // Newton leaves out how friction follows the multipliers: what that costs.
 TEST(PinFriction, NeedsFewIterations)
 {
