@@ -37,7 +37,7 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
 {
   const int  n = machine.size();
   Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
-  auto &q = result.state.q, &v = result.state.v;
+  auto      &q = result.state.q, &v = result.state.v;
   for (const Body &body : machine.bodies()) // other rotors stand in line with the first one given
     if (body.kind == BodyKind::rotor && !start.angles.empty())
       q[body.coordinate] = start.angles.front().second;
