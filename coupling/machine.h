@@ -256,11 +256,11 @@ public:
                        Eigen::SparseMatrix<double> &C) const override;
   const Eigen::SparseMatrix<double> &directions() const override;
   void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
-  void local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                     Eigen::MatrixXd &dp) const override;
-  void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
-                         Eigen::MatrixXd &dp_dv) const override;
-  const std::vector<ForceBlock> &force_blocks() const override;
+  void                    local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                                        Eigen::MatrixXd &dp) const override;
+  void                    local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+                                            Eigen::MatrixXd &dp_dv) const override;
+  std::vector<ForceBlock> force_blocks() const override;
   void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                             Eigen::VectorXd &blocks) const override;
   const std::vector<HeldMeasure>     &held() const override;

@@ -63,7 +63,7 @@ void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
   }
 }
 
-const std::vector<ForceBlock> &Machine::force_blocks() const
+std::vector<ForceBlock> Machine::force_blocks() const
 {
   return parts_->force_blocks;
 }

@@ -74,10 +74,9 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   mass_->solve(f_, product_);
   if (!product_.allFinite())
     refuse_singular(system, method, "no solution exists");
+  tangent_.setZero(tangent_size(system.force_blocks()));
   saddle_ = SaddleMatrix::for_joints(system, joints);
-  if (saddle_)
-    size_for_sparse();
-  else
+  if (!saddle_)
     condense();
 }
 
@@ -85,10 +84,7 @@ void ConsistentStart::condense()
 {
   const auto &W   = system_.directions();
   const int   n_u = static_cast<int>(W.cols());
-  dp_.setZero(n_u, n_u);
-  jacobian_.resize(n_u);
-  D_G_.setZero(n_u, G_.n_rows());
-  schur_.resize(G_.n_rows());
+  matrix_         = std::make_unique<CondensedMatrix>(system_);
   Y_.setZero(W.rows(), n_u);
   for (int j = 0; j < n_u; ++j)
   {
@@ -121,33 +117,28 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
   a.noalias() += Y_.lazyProduct(local.p);
 }
 
-/// Adds to the correction of u'' what keeps g'' = 0, and its multipliers.
-void ConsistentStart::take_up_joints(LocalState &local)
+void ConsistentStart::factorise(double t)
 {
-  G_.times_transposed(D_, D_G_);
-  for (Eigen::Index j = 0; j < D_G_.cols(); ++j)
-    jacobian_.solve_in_place(D_G_.col(j));
-  G_.times(D_G_, schur_.matrix());
-  if (!schur_.factorise())
-    fail_dependent(system_, schur_.failed(), local.t);
-  g_ = -bias_;
-  G_.add_product(-1., local.a, g_);
-  G_.add_product(-1., correction_, g_);
-  schur_.solve_in_place(g_);
-  local.lambda += g_;
-  correction_.noalias() += D_G_.lazyProduct(g_);
+  if (matrix_->factorise(D_, tangent_, system_.held()))
+    return;
+  if (matrix_->failed_joint() >= 0)
+    fail_dependent(system_, matrix_->failed_joint(), t);
+  fail_singular(system_, t);
 }
 
-/// correction_ = G^T (G D G^T)^-1 g_, which moves the joints by g_.
-void ConsistentStart::impulse_against(const LocalState &local)
+/// Moves x, and its measures xi, by the impulses on the joints that change g by -g_, whatever sticks.
+void ConsistentStart::move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t)
 {
-  G_.times_transposed(D_, D_G_);
-  G_.times(D_G_, schur_.matrix());
-  if (!schur_.factorise())
-    fail_dependent(system_, schur_.failed(), local.t);
-  schur_.solve_in_place(g_);
+  tangent_.setZero();
+  matrix_->set_joints(D_, G_);
+  if (!matrix_->factorise(D_, tangent_, {}))
+    fail_dependent(system_, matrix_->failed_joint(), t);
+  correction_.setZero();
+  matrix_->solve_in_place(D_, G_, correction_, g_);
+  xi += correction_;
   correction_.setZero();
   G_.set_forces(g_, correction_);
+  x.noalias() += Y_.lazyProduct(correction_);
 }
 
 void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local)
@@ -165,25 +156,34 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
     if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)
       fail_open(system_, g_, local.t);
     if (saddle_)
-    {
       move_sparse(q, local.u, local.t);
-      continue;
-    }
-    impulse_against(local);
-    q.noalias() -= Y_.lazyProduct(correction_);
-    local.u.noalias() -= D_.lazyProduct(correction_);
+    else
+      move(q, local.u, local.t);
   }
   system_.constraint_rates(local, rate_, bias_);
   g_ = rate_;
   G_.add_product(1., local.v, g_);
   if (saddle_)
-  {
     move_sparse(v, local.v, local.t);
-    return;
+  else
+    move(v, local.v, local.t);
+}
+
+/// The correction of u'' against the terms it is the sum of.  Bodies in joints may be held by them: rounding of the
+/// others is what is left of their acceleration.
+bool ConsistentStart::is_small(const Eigen::VectorXd &p)
+{
+  double largest = 0.;
+  for (int i = 0; i < correction_.size(); ++i)
+  {
+    scale_[i] = std::abs(a_free_[i]);
+    for (int j = 0; j < correction_.size(); ++j)
+      scale_[i] += std::abs(D_(i, j) * p[j]);
+    largest = std::max(largest, scale_[i]);
   }
-  impulse_against(local);
-  v.noalias() -= Y_.lazyProduct(correction_);
-  local.v.noalias() -= D_.lazyProduct(correction_);
+  if (G_.n_rows() > 0)
+    scale_.setConstant(largest);
+  return (correction_.array().abs() <= converged * scale_.array()).all();
 }
 
 void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
@@ -194,65 +194,37 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
   {
     system_.constraints(local, g_, G_);
     system_.constraint_rates(local, rate_, bias_);
+    matrix_->set_joints(D_, G_);
   }
   local.a = a_free_;
   for (const HeldMeasure &h : held)
     local.a[h.measure] = 0.;
   for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
-    system_.local_tangent(local, 0., 0., 1., local.p, dp_);
+    system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
     ++work.newton;
     ++work.evaluations;
-    for (const HeldMeasure &h : held) // the unknown of this column is p itself
-    {
-      dp_.row(h.measure).setZero();
-      dp_.col(h.measure).setZero();
-      dp_(h.measure, h.measure) = 1.;
-    }
+    // No force depends on u'' or multipliers: one step finds all.
+    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
     if (joints)
-      G_.set_forces(local.lambda, local.p);
-    Eigen::MatrixXd &jacobian = jacobian_.matrix();
-    bool             linear   = !system_.forces_need_multipliers(); // nor on u'': one step finds all
-    for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
     {
-      auto column = jacobian.col(j);
-      column.setZero();
-      const bool is_held = std::any_of(held.begin(), held.end(), [j](const HeldMeasure &h) { return h.measure == j; });
-      for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
-        if (dp_(i, j) != 0.)
-          column.noalias() -= dp_(i, j) * D_.col(i);
-      if (!is_held)
-      {
-        linear = linear && column.isZero(0.);
-        column[j] += 1.;
-      }
+      G_.set_forces(local.lambda, local.p);
+      g_ = bias_;
+      G_.add_product(1., local.a, g_);
     }
     correction_ = a_free_ - local.a;
     correction_.noalias() += D_.lazyProduct(local.p);
-    if (!jacobian_.factorise())
-      fail_singular(system_, local.t);
-    jacobian_.solve_in_place(correction_);
+    factorise(local.t);
+    matrix_->solve_in_place(D_, G_, correction_, g_);
     if (joints)
-      take_up_joints(local);
+      local.lambda += g_;
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
     {
       local.p[h.measure] += correction_[h.measure];
       correction_[h.measure] = 0.;
     }
     local.a += correction_;
-    // Bodies in joints may be held by them: rounding of the others is what is left of their acceleration.
-    double largest = 0.;
-    for (int i = 0; i < correction_.size(); ++i)
-    {
-      scale_[i] = std::abs(a_free_[i]);
-      for (int j = 0; j < correction_.size(); ++j)
-        scale_[i] += std::abs(D_(i, j) * local.p[j]);
-      largest = std::max(largest, scale_[i]);
-    }
-    if (joints)
-      scale_.setConstant(largest);
-    const bool small = (correction_.array().abs() <= converged * scale_.array()).all();
-    if (small || linear)
+    if (linear || is_small(local.p))
     {
       if (joints)
         G_.set_forces(local.lambda, local.p);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "coupling/integration/constraint_jacobian.h"
+#include "coupling/integration/condensed_matrix.h"
 #include "coupling/integration/saddle_matrix.h"
-#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 namespace gestell::coupling
@@ -52,28 +51,26 @@ private:
 
   int               most_iterations() const;
   [[noreturn]] void fail_unconverged(double t) const;
-  void              take_up_joints(LocalState &local);
-  void              impulse_against(const LocalState &local);
+  void              factorise(double t);
+  void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  bool              is_small(const Eigen::VectorXd &p);
   void              iterate(LocalState &local, IntegrationWork &work);
   void              condense();
-  void              size_for_sparse();
   void              iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
   void              factorise_sparse(double t);
   void              move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   double            largest_acceleration(const Eigen::VectorXd &p);
 
-  const SecondOrderSystem      &system_;
-  std::unique_ptr<LinearSolver> mass_;
-  Eigen::MatrixXd               Y_, D_, dp_; // Y = M^-1 W [n x n_u]
-  SmallLu                       jacobian_;
-  Eigen::VectorXd               f_, product_, a_free_, correction_, scale_;
-  ConstraintJacobian            G_;
-  Eigen::MatrixXd               D_G_;             // D G^T [n_u x n_c]
-  SmallLu                       schur_;           // G D G^T
-  Eigen::VectorXd               g_, rate_, bias_; // [n_c]
-  std::unique_ptr<SaddleMatrix> saddle_;          ///< null: condensed
-  Eigen::VectorXd               tangent_;         ///< dp/du'' by blocks
-  Eigen::VectorXd               y_, load_;        ///< [n + n_c + n_h], [n]
+  const SecondOrderSystem         &system_;
+  std::unique_ptr<LinearSolver>    mass_;
+  Eigen::MatrixXd                  Y_, D_; // Y = M^-1 W [n x n_u]
+  Eigen::VectorXd                  f_, product_, a_free_, correction_, scale_;
+  ConstraintJacobian               G_;
+  Eigen::VectorXd                  g_, rate_, bias_; // [n_c]
+  Eigen::VectorXd                  tangent_;         ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix> matrix_;          ///< null: sparse
+  std::unique_ptr<SaddleMatrix>    saddle_;          ///< null: condensed
+  Eigen::VectorXd                  y_, load_;        ///< [n + n_c + n_h], [n]
 };
 
 } // namespace gestell::coupling

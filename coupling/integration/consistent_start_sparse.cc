@@ -10,14 +10,6 @@ namespace gestell::coupling
 
 // Starts of systems with many joints: see ConsistentStart and SaddleMatrix for the equations.
 
-void ConsistentStart::size_for_sparse()
-{
-  Eigen::Index size = 0;
-  for (const ForceBlock &block : system_.force_blocks())
-    size += Eigen::Index(block.n_measures) * block.n_measures;
-  tangent_.setZero(size);
-}
-
 void ConsistentStart::factorise_sparse(double t)
 {
   if (saddle_->factorise(tangent_, G_))

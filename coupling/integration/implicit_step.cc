@@ -15,33 +15,6 @@ constexpr double joint_rounding   = 8.;   ///< times that of one number: several
 constexpr double share_of_joints  = 1e-3; ///< of the tolerance
 constexpr double finest_tolerance = 1e-13;
 constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
-
-bool is_held(const std::vector<HeldMeasure> &held, Eigen::Index measure)
-{
-  for (const HeldMeasure &h : held)
-    if (h.measure == measure)
-      return true;
-  return false;
-}
-
-/// J = -S dp for an S of a few rows and a dp that is mostly zero.
-void subtract_product(const Eigen::MatrixXd &S, const Eigen::MatrixXd &dp, Eigen::MatrixXd &J)
-{
-  const Eigen::Index n = S.rows();
-  for (Eigen::Index j = 0; j < n; ++j)
-  {
-    double *column = J.data() + n * j;
-    for (Eigen::Index k = 0; k < n; ++k)
-      column[k] = 0.;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (const double factor = dp(i, j); factor != 0.)
-      {
-        const double *of_S = S.data() + n * i;
-        for (Eigen::Index k = 0; k < n; ++k)
-          column[k] -= factor * of_S[k];
-      }
-  }
-}
 } // namespace
 
 void fail_singular(const SecondOrderSystem &system, double t)
@@ -70,7 +43,7 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
 }
 
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
-    : system_(system), options_(options), G_(system.constraint_blocks())
+    : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks())
 {
   // What positions are wrong by, multipliers are by m/h^2 times that.
   if (G_.n_rows() > 0)
@@ -85,16 +58,12 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   scale_before_.setZero(n_u);
   g_.setZero(G_.n_rows());
   begin(u_begin_);
+  tangent_.setZero(tangent_size(force_blocks_));
   saddle_ = SaddleMatrix::for_joints(system, options.joints);
   if (saddle_)
-  {
-    size_for_sparse();
-    return;
-  }
-  dp_.setZero(n_u, n_u);
-  jacobian_.resize(n_u);
-  S_G_.setZero(n_u, G_.n_rows());
-  schur_.resize(G_.n_rows());
+    y_.setZero(saddle_->size());
+  else
+    matrix_ = std::make_unique<CondensedMatrix>(system);
 }
 
 void ImplicitStep::begin(const Eigen::VectorXd &u)
@@ -137,36 +106,26 @@ void ImplicitStep::motion(const StepForm &form, const LocalState &base, LocalSta
   local.a = base.a + form.w_a * xi_;
 }
 
-/// From the residual of the forces alone in correction_ to that of forces and joints: g_ becomes d_lambda.
-bool ImplicitStep::take_up_joints(const Condensed &condensed, const LocalState &local)
+/// p += p' xi
+void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const
 {
-  const double w_u = condensed.form.w_u;
-  G_.times_transposed(condensed.S, S_G_);
-  for (Eigen::Index j = 0; j < S_G_.cols(); ++j)
-    jacobian_.solve_in_place(S_G_.col(j));
-  G_.times(S_G_, schur_.matrix());
-  schur_.matrix() *= w_u;
-  joints_singular_ = !schur_.factorise();
-  dependent_row_   = schur_.failed();
-  if (joints_singular_)
-    return false;
-  G_.add_product(w_u, correction_, g_);
-  g_ = -g_;
-  schur_.solve_in_place(g_);
-  correction_.noalias() += S_G_.lazyProduct(g_);
-  return g_.allFinite() && local.lambda.size() == g_.size();
+  const double *value = tangent_.data();
+  for (const ForceBlock &block : force_blocks_)
+    for (int j = 0; j < block.n_measures; ++j)
+      for (int i = 0; i < block.n_measures; ++i)
+        p[block.first_measure + i] += *value++ * xi[block.first_measure + j];
 }
 
 /// Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves; of the
 /// measures of joints, what rounding in g = G u leaves, the difference of numbers as large as the block tells; other
-/// elements act on bodies that joints carry, and get their share.
-void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local)
+/// elements act on bodies that joints carry, and get their share.  G turns so little that once per step is enough.
+void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
 {
   const double left = rounding / options_.tolerance;
   for (Eigen::Index i = 0; i < scale_.size(); ++i)
     scale_[i] = std::max(
         {scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]), left * std::abs(local.u[i])});
-  if (G_.n_rows() == 0)
+  if (!of_joints_too || G_.n_rows() == 0)
     return;
   double of_joints = 0.;
   for (std::size_t b = 0; b < G_.blocks().size(); ++b)
@@ -201,42 +160,38 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
   const StepForm &form        = condensed.form;
   const auto     &held        = system_.held();
   const bool      joints      = G_.n_rows() > 0;
+  bool            turned      = joints; // G has, since Newton's matrix got it
   double          size_before = 0.;
-  joints_singular_            = false;
+  singular_ = joints_singular_ = false;
   for (const HeldMeasure &h : held)
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
   {
     motion(form, base, local);
-    system_.local_tangent(local, form.w_u, form.w_v, form.w_a, local.p, dp_);
+    system_.local_tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
     ++work.newton;
     ++work.evaluations;
-    for (const HeldMeasure &h : held) // the unknown of this column is p itself
-    {
-      dp_.row(h.measure).setZero();
-      dp_.col(h.measure).setZero();
-      dp_(h.measure, h.measure) = 1.;
-    }
-
     if (joints)
     {
       system_.constraints(local, g_, G_);
       G_.set_forces(local.lambda, local.p);
+      g_ /= form.w_u;
     }
-
-    Eigen::MatrixXd &jacobian = jacobian_.matrix();
-    subtract_product(condensed.S, dp_, jacobian);
-    for (Eigen::Index j = 0; j < jacobian.cols(); ++j)
-      if (!is_held(held, j)) // adding 1 and taking it away again would round a small S away
-        jacobian(j, j) += 1.;
+    if (turned)
+      matrix_->set_joints(condensed.S, G_);
+    turned    = false;
     residual_ = xi_free_ - xi_;
     residual_.noalias() += condensed.S.lazyProduct(local.p);
     correction_ = residual_;
-    singular_   = !jacobian_.factorise(!held.empty());
-    if (singular_)
+    if (!matrix_->factorise(condensed.S, tangent_, held))
+    {
+      dependent_row_   = matrix_->failed_joint();
+      joints_singular_ = dependent_row_ >= 0;
+      singular_        = !joints_singular_;
       return false;
-    jacobian_.solve_in_place(correction_);
-    if ((joints && !take_up_joints(condensed, local)) || !correction_.allFinite())
+    }
+    matrix_->solve_in_place(condensed.S, G_, correction_, g_);
+    if (!correction_.allFinite() || !g_.allFinite())
       return false;
 
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
@@ -244,7 +199,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       local.p[h.measure] += correction_[h.measure];
       correction_[h.measure] = 0.;
     }
-    grow_scale(form, local);
+    grow_scale(form, local, iteration == 0);
     const double size = size_of_correction();
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
@@ -257,13 +212,14 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
     {
       // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
-      local.p.noalias() += dp_.lazyProduct(correction_);
+      add_tangent_times(correction_, local.p);
       if (joints)
         G_.set_forces(local.lambda, local.p);
       motion(form, base, local);
       contraction_ = std::max(contraction_, unknown_contraction);
       return true;
     }
+    turned      = joints && iteration > 0 && size > good_contraction * size_before;
     size_before = size;
   }
   return false;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "coupling/integration/condensed_matrix.h"
 #include "coupling/integration/saddle_matrix.h"
 #include "coupling/integration/second_order_system.h"
-#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 #include <array>
@@ -43,12 +43,12 @@ struct StepForm
  *
  * which is (5.5.3/7) in the measures; x = x_free + Y p follows.  A measure that is held has xi given by its rate and p
  * as unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their measures:
- * Newton's matrix is bordered,
+ * Newton's matrix is bordered (CondensedMatrix),
  *
- *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g,
+ *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g.
  *
- * and solved by its Schur complement w_u G (I - S p')^-1 S G^T [n_c x n_c], which scales with the step by itself.  How
- * G turns within an iteration (lambda g'') is left out of it: that is of the order of h^2 lambda/m against 1.
+ * How G turns within a step is left out of it, as long as corrections contract: lambda g'' is of the order of h^2
+ * lambda/m against 1.
  *
  * One factorisation of A and n_u solves per StepForm, kept for later use.
  *
@@ -90,11 +90,10 @@ public:
 
 private:
   static constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
+  static constexpr double good_contraction    = 0.05; ///< of Newton's corrections: what was made of G serves on
 
-  bool   take_up_joints(const Condensed &condensed, const LocalState &local);
-  void   grow_scale(const StepForm &form, const LocalState &local);
+  void   grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too);
   bool   iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
-  void   size_for_sparse();
   bool   iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
                         LocalState &local, IntegrationWork &work);
   bool   factorise_sparse(IntegrationWork &work);
@@ -107,16 +106,14 @@ private:
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
   Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
-  Eigen::MatrixXd                            dp_;
-  SmallLu                                    jacobian_;
+  std::vector<ForceBlock>                    force_blocks_;
   ConstraintJacobian                         G_;
-  Eigen::MatrixXd                            S_G_;   ///< S G^T, then (I - S p')^-1 S G^T [n_u x n_c]
-  SmallLu                                    schur_; ///< [n_c x n_c]
-  Eigen::VectorXd                            g_;     ///< [n_c] g, then d_lambda
+  Eigen::VectorXd                            g_;       ///< [n_c] g, then d_lambda
+  Eigen::VectorXd                            tangent_; ///< p' by blocks
+  std::unique_ptr<CondensedMatrix>           matrix_;  ///< null: sparse
   bool                                       singular_ = false, joints_singular_ = false;
   int                                        dependent_row_ = 0; ///< of the joints, where these are singular
   std::unique_ptr<SaddleMatrix>              saddle_;            ///< null: condensed
-  Eigen::VectorXd                            tangent_;           ///< p' by blocks
   Eigen::VectorXd                            y_;                 ///< [n + n_c + n_h] residual, then correction
   double                                     contraction_;       ///< of Newton's corrections, as seen last
 };

@@ -8,20 +8,6 @@ namespace gestell::coupling
 
 // Steps of systems with many joints: see ImplicitStep and SaddleMatrix for the equations.
 
-namespace
-{
-constexpr double good_contraction = 0.05; ///< of Newton's corrections: a kept factor serves on
-} // namespace
-
-void ImplicitStep::size_for_sparse()
-{
-  Eigen::Index size = 0;
-  for (const ForceBlock &block : system_.force_blocks())
-    size += Eigen::Index(block.n_measures) * block.n_measures;
-  tangent_.setZero(size);
-  y_.setZero(saddle_->size());
-}
-
 bool ImplicitStep::factorise_sparse(IntegrationWork &work)
 {
   ++work.factorisations;
@@ -32,16 +18,6 @@ bool ImplicitStep::factorise_sparse(IntegrationWork &work)
   dependent_row_   = row;
   singular_        = !joints_singular_;
   return false;
-}
-
-/// p += p' xi
-void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const
-{
-  const double *value = tangent_.data();
-  for (const ForceBlock &block : system_.force_blocks())
-    for (int j = 0; j < block.n_measures; ++j)
-      for (int i = 0; i < block.n_measures; ++i)
-        p[block.first_measure + i] += *value++ * xi[block.first_measure + j];
 }
 
 bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
@@ -94,7 +70,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
       local.p[held[h].measure] += y_[n + n_c + Eigen::Index(h)] / form.force;
       correction_[held[h].measure] = 0.;
     }
-    grow_scale(form, local);
+    grow_scale(form, local, true);
     const double size = size_of_correction();
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;

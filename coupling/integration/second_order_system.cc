@@ -16,6 +16,14 @@ void LocalState::resize(const SecondOrderSystem &system)
   lambda.setZero(system.n_constraints());
 }
 
+Eigen::Index tangent_size(const std::vector<ForceBlock> &blocks)
+{
+  Eigen::Index size = 0;
+  for (const ForceBlock &block : blocks)
+    size += Eigen::Index(block.n_measures) * block.n_measures;
+  return size;
+}
+
 bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
 {
   return false;
@@ -27,16 +35,28 @@ bool SecondOrderSystem::sparse_matrices(Eigen::SparseMatrix<double> &, Eigen::Sp
   return false;
 }
 
-const std::vector<ForceBlock> &SecondOrderSystem::force_blocks() const
+std::vector<ForceBlock> SecondOrderSystem::force_blocks() const
 {
-  static const std::vector<ForceBlock> none;
-  return none;
+  return {{0, static_cast<int>(directions().cols())}};
 }
 
-void SecondOrderSystem::local_tangent_blocks(const LocalState &state, double, double, double, Eigen::VectorXd &p,
-                                             Eigen::VectorXd &) const
+void SecondOrderSystem::local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a,
+                                             Eigen::VectorXd &p, Eigen::VectorXd &blocks) const
 {
-  local_force(state, p);
+  Eigen::MatrixXd dp = Eigen::MatrixXd::Zero(p.size(), p.size());
+  local_tangent(state, w_u, w_v, w_a, p, dp);
+  for (const HeldMeasure &h : held())
+  {
+    dp.row(h.measure).setZero();
+    dp.col(h.measure).setZero();
+  }
+  Eigen::Index first = 0;
+  for (const ForceBlock &block : force_blocks())
+  {
+    const int k                                       = block.n_measures;
+    Eigen::Map<Eigen::MatrixXd>(&blocks[first], k, k) = dp.block(block.first_measure, block.first_measure, k, k);
+    first += Eigen::Index(k) * k;
+  }
 }
 
 const std::vector<HeldMeasure> &SecondOrderSystem::held() const

@@ -50,6 +50,9 @@ struct ForceBlock
   int first_measure, n_measures;
 };
 
+/// Numbers in all blocks of dp/du together.
+Eigen::Index tangent_size(const std::vector<ForceBlock> &blocks);
+
 enum class GuardCrossing
 {
   rising,
@@ -113,10 +116,10 @@ public:
   /// p [n_u], dp/du and dp/dv [n_u x n_u], block diagonal by element: only its blocks are written.
   virtual void local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                                  Eigen::MatrixXd &dp_dv) const = 0;
-  /// The force elements, joints not among them, in the order of local_tangent_blocks(); needed with sparse_matrices().
-  virtual const std::vector<ForceBlock> &force_blocks() const;
-  /// As local_tangent(), where n_u^2 numbers are too many: the blocks of dp, column by column, one behind the other;
-  /// that of a held measure is zero.
+  /// The force elements, joints not among them, in the order of local_tangent_blocks().  Default: one of all measures.
+  virtual std::vector<ForceBlock> force_blocks() const;
+  /// As local_tangent(), of all the n_u^2 numbers only the blocks of dp, column by column, one behind the other; that
+  /// of a held measure is zero.  Default: from local_tangent(), from the heap.
   virtual void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                                     Eigen::VectorXd &blocks) const;
   /// Measures that stick in the branches that are active now; changed by start(), transition(), restore_history().
