@@ -1,7 +1,9 @@
 #include "coupling/assembly.h"
 
 #include "coupling/dense_matrices.h"
+#include "mechanism/joints/orthonormal_directors.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 #include <cmath>
@@ -16,11 +18,35 @@ namespace
 constexpr int    most_iterations = 60;
 constexpr double closed          = 1e-10; ///< m or rad: residual that counts as closed where rounding stops progress
 
+using mechanism::OrthonormalDirectors;
+
+/// Value of a measure, or of a rate: of a measure or of a rigid body's rotation.
+struct Demand
+{
+  std::string      name; ///< for messages
+  double           value;
+  std::string      measure;
+  const KnownSpin *spin = nullptr;
+};
+
+std::vector<Demand> demands_of(const std::vector<std::pair<std::string, double>> &measures,
+                               const std::vector<KnownSpin>                      &spins)
+{
+  std::vector<Demand> demands;
+  for (const auto &[name, value] : measures)
+    demands.push_back({"the measure \"" + name + "\"", value, name});
+  for (const KnownSpin &spin : spins)
+    demands.push_back({"the angular velocity \"" + spin.body + ".w" + "xyz"[spin.axis] + "\"", spin.value, "", &spin});
+  return demands;
+}
+
 class Assembly
 {
 public:
   Assembly(Machine &machine, const KnownStart &known)
-      : machine_(machine), known_(known), state_(known.state), G_(machine.constraint_blocks()), n_c_(G_.n_rows())
+      : machine_(machine), known_(known), measures_(demands_of(known.measures, {})),
+        rates_(demands_of(known.rates, known.spins)), state_(known.state), G_(machine.constraint_blocks()),
+        n_c_(G_.n_rows())
   {
     local_.resize(machine);
     g_.setZero(n_c_);
@@ -40,8 +66,7 @@ public:
 
 private:
   /// Rows: joints, then measures; columns: free coordinates, scaled to equal mass.
-  void evaluate(const std::vector<std::pair<std::string, double>> &demands, Eigen::VectorXd &residual,
-                Eigen::MatrixXd &rows, bool rates)
+  void evaluate(const std::vector<Demand> &demands, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates)
   {
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
     machine_.constraints(local_, g_, G_);
@@ -60,9 +85,45 @@ private:
     Eigen::VectorXd gradient;
     for (std::size_t i = 0; i < demands.size(); ++i)
     {
-      const auto value                 = machine_.measure(demands[i].first).evaluate(state_.q, state_.v, &gradient);
-      residual[n_c_ + Eigen::Index(i)] = (rates ? value.rate : value.s) - demands[i].second;
+      const Demand &demand = demands[i];
+      double        value  = 0.;
+      if (demand.spin)
+        value = spin(*demand.spin, gradient);
+      else
+      {
+        const auto measured = machine_.measure(demand.measure).evaluate(state_.q, state_.v, &gradient);
+        value               = rates ? measured.rate : measured.s;
+      }
+      residual[n_c_ + Eigen::Index(i)] = value - demand.value;
       rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
+    }
+  }
+
+  /// e . omega = 1/2 sum d_i' . (e x d_i)
+  double spin(const KnownSpin &known, Eigen::VectorXd &gradient) const
+  {
+    const int       first = machine_.body(known.body).coordinate + 3;
+    Eigen::Vector3d e     = Eigen::Vector3d::Unit(known.axis);
+    gradient.setZero(machine_.size());
+    for (int i = 0; i < 3; ++i)
+      gradient.segment<3>(first + 3 * i) = 0.5 * e.cross(Eigen::Vector3d::Unit(i) + state_.q.segment<3>(first + 3 * i));
+    return gradient.dot(state_.v);
+  }
+
+  /// Bodies begin with the rotation they are given.
+  void guess_spins()
+  {
+    for (const Body &body : machine_.bodies())
+    {
+      Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+      for (const KnownSpin &known : known_.spins)
+        if (known.body == body.name)
+          omega[known.axis] = known.value;
+      for (int i = 0; body.kind == BodyKind::rigid && i < 3; ++i)
+      {
+        const int first = body.coordinate + 3 + 3 * i;
+        state_.v.segment<3>(first) += omega.cross(Eigen::Vector3d::Unit(i) + state_.q.segment<3>(first));
+      }
     }
   }
 
@@ -100,7 +161,7 @@ private:
   {
     Eigen::VectorXd residual, next;
     Eigen::MatrixXd rows;
-    evaluate(known_.measures, residual, rows, false);
+    evaluate(measures_, residual, rows, false);
     for (int k = 0; k < most_iterations && residual.size() > 0; ++k)
     {
       const Eigen::VectorXd delta = change(residual, rows, known_.q_given), q = state_.q;
@@ -108,7 +169,7 @@ private:
       for (;; part *= 0.5) // shorter where the whole way leads further off
       {
         state_.q = q + part * delta;
-        evaluate(known_.measures, next, rows, false);
+        evaluate(measures_, next, rows, false);
         if (next.norm() < residual.norm() || part < 1e-3)
           break;
       }
@@ -122,8 +183,8 @@ private:
       if (!better && residual.cwiseAbs().maxCoeff() < closed)
         break;
     }
-    evaluate(known_.measures, residual, rows, false);
-    refuse_open(residual, known_.measures, "m or rad", "positions");
+    evaluate(measures_, residual, rows, false);
+    refuse_open(residual, measures_, "m or rad", "positions");
   }
 
   /// Equations that follow from others leave multipliers undetermined, and so does a position without hold.
@@ -137,6 +198,14 @@ private:
     for (Eigen::Index i = 0; i < rows.rows(); ++i)
       if (const double size = rows.row(i).norm(); size > 0.)
         rows.row(i) /= size;
+    int first = 0; // bodies are rigid whatever the joints are: their rows are the longer ones and come first
+    for (const ElementPlacement &placement : machine_.elements())
+    {
+      const int n = placement.element->n_constraints();
+      if (dynamic_cast<const OrthonormalDirectors *>(placement.element.get()))
+        rows.middleRows(first, n) *= 2.;
+      first += n;
+    }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     qr.setThreshold(1e-10);
     qr.compute(rows.transpose());
@@ -153,18 +222,19 @@ private:
   {
     Eigen::VectorXd residual;
     Eigen::MatrixXd rows;
+    guess_spins();
     for (int k = 0; k < 2; ++k) // linear: the second time takes what rounding left
     {
-      evaluate(known_.rates, residual, rows, true);
+      evaluate(rates_, residual, rows, true);
       if (residual.size() > 0)
         state_.v += change(residual, rows, known_.v_given);
     }
-    evaluate(known_.rates, residual, rows, true);
-    refuse_open(residual, known_.rates, "m/s or rad/s", "velocities");
+    evaluate(rates_, residual, rows, true);
+    refuse_open(residual, rates_, "m/s or rad/s", "velocities");
   }
 
-  void refuse_open(const Eigen::VectorXd &residual, const std::vector<std::pair<std::string, double>> &demands,
-                   const std::string &unit, const std::string &what) const
+  void refuse_open(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
+                   const std::string &what) const
   {
     if (residual.size() == 0)
       return;
@@ -174,20 +244,20 @@ private:
       return;
     std::ostringstream message;
     message << "the mechanism cannot be assembled: with the given " << what << " "
-            << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst)
-                             : "the measure \"" + demands[worst - n_c_].first + "\"")
+            << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst) : demands[worst - n_c_].name)
             << " stays open by " << open << " " << unit
             << "; check its places and lengths, or give fewer or other values in [start]";
     throw std::invalid_argument(message.str());
   }
 
-  Machine           &machine_;
-  const KnownStart  &known_;
-  InitialState       state_;
-  LocalState         local_;
-  ConstraintJacobian G_;
-  Eigen::VectorXd    g_, rate_, bias_;
-  int                n_c_;
+  Machine            &machine_;
+  const KnownStart   &known_;
+  std::vector<Demand> measures_, rates_;
+  InitialState        state_;
+  LocalState          local_;
+  ConstraintJacobian  G_;
+  Eigen::VectorXd     g_, rate_, bias_;
+  int                 n_c_;
 };
 
 } // namespace

@@ -9,6 +9,14 @@
 namespace gestell::coupling
 {
 
+/// Angular velocity [rad/s] of a rigid body about a global axis, 0 to 2.
+struct KnownSpin
+{
+  std::string body;
+  int         axis;
+  double      value;
+};
+
 /// What is known of a start: values of coordinates, of measures, and of their rates.
 struct KnownStart
 {
@@ -16,6 +24,7 @@ struct KnownStart
   std::vector<char>                           q_given, v_given; ///< [n] coordinates that keep their value
   std::vector<std::pair<std::string, double>> measures, rates;  ///< by the name of a NamedMeasure
   std::vector<std::pair<int, double>> shifts; ///< row of a driven joint, and by how much s - f(t) is not zero there
+  std::vector<KnownSpin>                      spins;            ///< those not given of a body are zero, if joints let
 };
 
 /**

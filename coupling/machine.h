@@ -37,12 +37,13 @@ enum class BodyKind
   rotor,  ///< one angle [rad] about `axis`
   slider, ///< one displacement [m] along `axis`
   point,  ///< three displacements [m]
-  planar  ///< two displacements [m] across `axis` and the angle [rad] about it
+  planar, ///< two displacements [m] across `axis` and the angle [rad] about it
+  rigid   ///< three displacements [m] and those of the three directors [1]: turns freely in space
 };
 
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point
-/// or planar body as such a box too, else as a sphere or a plate through its `points`.  Its coordinates are zero in the
-/// position the scene describes.
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point,
+/// planar or rigid body as such a box too, else as a sphere, a plate through its `points`, bars to them.  Its
+/// coordinates are zero in the position the scene describes.
 struct Body
 {
   std::string name;
@@ -158,6 +159,10 @@ public:
   /// A body of mass m [kg] and inertia J [kg m^2] about its centre of mass at `position`, that moves in the plane
   /// across `normal` and turns about it by any angle.
   int add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia, const Vector3 &position);
+  /// A body of mass m [kg] and inertia tensor J [kg m^2] about its centre of mass at `position`, in global axes in the
+  /// position described, that moves and turns freely in space.  Signals: OrthonormalDirectors::quantities().
+  /// @throws std::invalid_argument if no body without a direction of thickness zero has such moments
+  int add_rigid(const std::string &name, double mass, const Eigen::Matrix3d &inertia, const Vector3 &position);
   /// Point mass m [kg] with inertia about x, y, z [kg m^2] on a marker, at `offset` [m] from it.
   void add_point_mass(const std::string &name, const std::string &marker, double mass, const Vector3 &inertia,
                       const Vector3 &offset);

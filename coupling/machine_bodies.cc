@@ -48,10 +48,11 @@ int Machine::add_rotor(const std::string &name, const Vector3 &axis, double iner
   check_mass(mass, "rotor \"" + name + "\": mass [kg]");
   const Vector3 a    = unit(axis, "rotor \"" + name + "\"");
   const Marker &base = marker(carrier);
-  Marker        own  = base;
-  own.name           = name;
-  const int phi      = parts_->add_coordinates(name, {name});
-  own.rotation       = across(base.rotation, a);
+  parts_->refuse_free_carrier(base, "rotor \"" + name + "\"");
+  Marker own    = base;
+  own.name      = name;
+  const int phi = parts_->add_coordinates(name, {name});
+  own.rotation  = across(base.rotation, a);
   for (int d = 0; d < 3; ++d)
     own.rotation[d] = own.rotation[d] + a[d] * Measure{{phi, 1.}};
   parts_->add_dyad(parts_->M, inertia, {{phi, 1.}});
@@ -68,7 +69,8 @@ int Machine::add_slider(const std::string &name, const Vector3 &axis, double mas
     throw std::invalid_argument("slider \"" + name + "\": mass 0 kg; a slider needs a positive mass");
   const Vector3 a    = unit(axis, "slider \"" + name + "\"");
   const Marker &base = marker(guide);
-  Marker        own;
+  parts_->refuse_free_carrier(base, "slider \"" + name + "\"");
+  Marker own;
   own.name            = name;
   own.rotation        = base.rotation;
   const int  x        = parts_->add_coordinates(name, {name});
@@ -181,6 +183,13 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
     linear.push_back({translation, rotation});
   };
   const Vector3d centre = vector(on ? on->centre : parts_->position_of(name)), zero = Vector3d::Zero();
+  if (on && on->kind == BodyKind::rigid)
+  {
+    placed.placement = Placement::free(vector(at), centre);
+    for (int i = 0; i < Placement::max_measures; ++i)
+      placed.measures.push_back({{on->coordinate + i, 1.}});
+    return placed;
+  }
   if (on && (on->kind == BodyKind::planar || on->kind == BodyKind::point))
   {
     const int n = on->kind == BodyKind::planar ? 2 : 3;
@@ -282,18 +291,15 @@ void Machine::add_point_mass(const std::string &name, const std::string &marker_
       throw std::invalid_argument("point mass \"" + name + "\": an offset on \"" + marker_name +
                                   "\" would turn with it, which a constant mass matrix cannot tell; give the body this "
                                   "mass and inertia, or declare a body of its own with a rigid joint");
-  std::array<Measure, 3> moved;
+  parts_->add_mass(mass, parts_->moved_point(at, offset));
   for (int d = 0; d < 3; ++d)
-  {
-    const int e = (d + 1) % 3, f = (d + 2) % 3; // (theta x r)_d = theta_e r_f - theta_f r_e
-    moved[d] = at.translation[d] + offset[f] * at.rotation[e] - offset[e] * at.rotation[f];
-  }
-  parts_->add_mass(mass, moved);
-  for (int d = 0; d < 3; ++d)
-  {
     check_mass(inertia[d], "point mass \"" + name + "\": inertia [kg m^2]");
-    parts_->add_dyad(parts_->M, inertia[d], at.rotation[d]);
-  }
+  if (at.turns_freely)
+    parts_->add_inertia("point mass \"" + name + "\"", Eigen::Vector3d(inertia.data()).asDiagonal(),
+                        body(marker_name).coordinate + 3, false);
+  else
+    for (int d = 0; d < 3; ++d)
+      parts_->add_dyad(parts_->M, inertia[d], at.rotation[d]);
 }
 
 void Machine::draw(const std::string &body_name, const Vector3 &position, double radius, const Vector3 &size)

@@ -12,7 +12,7 @@ namespace gestell::coupling
 struct Machine::Parts
 {
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
-  static constexpr int max_measures = 16; ///< per element
+  static constexpr int max_measures = 24; ///< per element
 
   /// Spring, damper and constant force on one measure, part of the base system.
   struct LinearElement
@@ -35,6 +35,11 @@ struct Machine::Parts
 
     /// Its force is no law's value, but follows from the equations of the step.
     bool implied() const { return holds || first_constraint >= 0; }
+    /// The quantity follows from multipliers, its own or (of friction in a joint) those of another.
+    bool tells_multipliers(int quantity) const
+    {
+      return first_multiplier >= 0 && (first_constraint < 0 || element->needs_multipliers(quantity));
+    }
 
     mechanism::LocalMotion motion(const LocalState &state, bool by_history) const
     {
@@ -113,16 +118,22 @@ struct Machine::Parts
   std::vector<HeldMeasure>     held;
   bool                         by_history = false, reads_joints = false;
 
-  int     size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
-  int     add_coordinates(const std::string &body, const std::vector<std::string> &names);
-  bool    is_lag(const Measure &u) const; ///< the measure is a virtual coordinate
-  void    add_body(const Body &body);
-  void    add_interfaces(const std::vector<fem::Interface> &interfaces);
-  void    add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T
-  void    add_loads(double mass, const std::array<Measure, 3> &translation);
-  void    add_mass(double mass, const std::array<Measure, 3> &translation);
-  Vector3 position_of(const std::string &marker) const;
-  bool    moves_with_frame(const Marker &marker) const;
+  int  size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
+  int  add_coordinates(const std::string &body, const std::vector<std::string> &names);
+  bool is_lag(const Measure &u) const; ///< the measure is a virtual coordinate
+  void add_body(const Body &body);
+  void add_interfaces(const std::vector<fem::Interface> &interfaces);
+  void add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T
+  void add_loads(double mass, const std::array<Measure, 3> &translation);
+  void add_mass(double mass, const std::array<Measure, 3> &translation);
+  /// Inertia of a rigid body at its directors, the first coordinate of which is `first`.
+  void add_inertia(const std::string &what, const Eigen::Matrix3d &inertia, int first, bool is_whole_body);
+  /// Refuses a rigid body as a carrier.
+  void refuse_free_carrier(const Marker &carrier, const std::string &what) const;
+  /// Motion of the point of a body at the arm [m] from its reference point.
+  std::array<Measure, 3> moved_point(const Marker &marker, const Vector3 &arm) const;
+  Vector3                position_of(const std::string &marker) const;
+  bool                   moves_with_frame(const Marker &marker) const;
 
   void                          finish();
   void                          assemble_dense(int n);

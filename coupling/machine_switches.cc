@@ -115,16 +115,15 @@ double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &
 bool Machine::wants_multipliers() const
 {
   const auto watches_joint = [&](const Parts::PlacedSwitch &own)
-  { return parts_->placed[own.watched].first_multiplier >= 0; };
+  { return own.signal.element >= 0 && parts_->placed[own.watched].tells_multipliers(own.signal.quantity); };
   return parts_->reads_joints || std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
 }
 
 void Machine::will_read(const std::vector<Signal> &signals)
 {
-  parts_->reads_joints =
-      std::any_of(signals.begin(), signals.end(),
-                  [&](const Signal &signal)
-                  { return signal.element >= 0 && parts_->placed[signal.element].first_multiplier >= 0; });
+  const auto reads_joint = [&](const Signal &signal)
+  { return signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity); };
+  parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
 }
 
 bool Machine::forces_need_multipliers() const

@@ -59,6 +59,11 @@ Measure Marker::along(const Vector3 &direction) const
 }
 Measure Marker::about(const Vector3 &axis) const
 {
+  if (turns_freely)
+    throw std::invalid_argument(
+        "\"" + name +
+        "\" turns freely in space, so that no constant axis tells its angle; let the element act "
+        "on a [measure] of type \"angle\", or on a rotor that a rigid joint holds to the body");
   return projection(rotation, axis);
 }
 

@@ -24,9 +24,11 @@ struct Marker
   std::string            name;
   std::array<Measure, 3> translation;
   std::array<Measure, 3> rotation;
+  bool                   turns_freely = false; ///< in space, so that no measure tells its rotation
 
   Measure along(const Vector3 &direction) const; ///< d . translation, d made a unit vector
-  Measure about(const Vector3 &axis) const;      ///< a . rotation, a made a unit vector
+  /// a . rotation, a made a unit vector.  @throws std::invalid_argument if it turns freely
+  Measure about(const Vector3 &axis) const;
 };
 
 } // namespace gestell::coupling

@@ -159,6 +159,9 @@ public:
   /// Takes the transition of guard i at the motion where it crossed zero.
   virtual void transition(int i, const LocalMotion &motion, double *history) const;
 
+  /// Whether quantity i of an ideal joint follows from its multipliers.
+  virtual bool needs_multipliers(int quantity) const { return (void)quantity, n_constraints() > 0; }
+
   virtual std::vector<Quantity> quantities() const                                                      = 0;
   virtual double                quantity(int i, const LocalMotion &motion, const double *history) const = 0;
 

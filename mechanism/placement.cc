@@ -19,9 +19,49 @@ Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<
 {
 }
 
+Placement Placement::free(const Vector3d &point, const Vector3d &centre)
+{
+  Placement placement(point, centre, {});
+  placement.free_ = true;
+  return placement;
+}
+
+Vector3d Placement::translation(int i) const
+{
+  if (free_)
+    return i < 3 ? Vector3d(Vector3d::Unit(i)) : Vector3d(Vector3d::Zero());
+  return i < int(linear_.size()) ? linear_[i].translation : Vector3d::Zero();
+}
+
+/// Of directors that stay rigid: from u_i = theta x e_i follows theta = 1/2 sum e_i x u_i.
+Vector3d Placement::rotation(int i) const
+{
+  if (free_)
+    return i < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(0.5 * Vector3d::Unit(i / 3 - 1).cross(Vector3d::Unit(i % 3)));
+  return i < int(linear_.size()) ? linear_[i].rotation : n_;
+}
+
+/// sum arm_i d_i; linear, so that there is no bias.
+void Placement::move_freely(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const
+{
+  using Directors = Eigen::Map<const Eigen::Matrix3d>;
+  x.value         = arm + Directors(u + 3) * arm;
+  x.rate          = Directors(v + 3) * arm;
+  x.bias.setZero();
+  x.J.setZero(3, max_measures);
+  for (int i = 0; i < 3; ++i)
+    for (int d = 0; d < 3; ++d)
+      x.J(d, 3 + 3 * i + d) = arm[i];
+}
+
 /// The turned arm (1 + theta x) rho(phi) with its derivatives.
 void Placement::move(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const
 {
+  if (free_)
+  {
+    move_freely(arm, u, v, x);
+    return;
+  }
   const int n_linear = int(linear_.size());
   x.J.resize(3, n_measures());
   Vector3d theta = Vector3d::Zero(), theta_rate = Vector3d::Zero();
@@ -54,6 +94,12 @@ void Placement::position(const double *u, const double *v, MovedVector &x) const
 {
   move(point_ - centre_, u, v, x);
   x.value += centre_;
+  for (int d = 0; free_ && d < 3; ++d)
+  {
+    x.value[d] += u[d];
+    x.rate[d] += v[d];
+    x.J(d, d) = 1.;
+  }
   for (std::size_t i = 0; i < linear_.size(); ++i)
   {
     x.value += u[i] * linear_[i].translation;

@@ -19,12 +19,18 @@ using Vector3d = Eigen::Vector3d;
  * Each linear measure moves by t_i and turns by the small rotation r_i (a frame, a slide and its guide, a point); one
  * last measure may turn by any angle phi about n (a rotor on its carrier; a body in a plane).  Directions turn alike.
  *
- * Source: kinematics of rigid bodies; docs/theory/joints.md (1).
+ * A body that turns freely in space has the measures (u_c, u_1, u_2, u_3), 3 numbers each, in which all is linear:
+ *
+ *     x(u) = x_0 + u_c + sum (x_0 - c)_i u_i,     e(u) = e + sum e_i u_i,
+ *
+ * with the directors d_i = e_i + u_i, along x, y, z in the position described, which OrthonormalDirectors keeps rigid.
+ *
+ * Source: kinematics of rigid bodies; docs/theory/joints.md (1), (1a).
  */
 class Placement
 {
 public:
-  static constexpr int max_measures = 7;
+  static constexpr int max_measures = 12;
 
   /// What one measure does to the body at `centre`: translation [1 or m/rad] and small rotation per unit.
   struct LinearMeasure
@@ -35,8 +41,8 @@ public:
   /// A vector fixed to the body and how it moves:  x' = J u',  x'' = J u'' + bias.
   struct MovedVector
   {
-    Vector3d                                          value, rate, bias;
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 7> J;
+    Vector3d                                                     value, rate, bias;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_measures> J;
   };
 
   /// On the ground: no measures.
@@ -46,14 +52,17 @@ public:
   /// The same, which also turns about the unit vector n.
   Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear, const Vector3d &n);
 
-  int             n_measures() const { return int(linear_.size()) + (turns_ ? 1 : 0); }
+  /// A body in space: the displacement of its centre of mass and of its three directors.
+  static Placement free(const Vector3d &point, const Vector3d &centre);
+
+  int             n_measures() const { return free_ ? max_measures : int(linear_.size()) + (turns_ ? 1 : 0); }
   bool            turns() const { return turns_; }
   const Vector3d &point() const { return point_; }                                    ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
 
   /// What measure i does to the reference point and to the directions of the body, per unit at u = 0.
-  Vector3d translation(int i) const { return i < int(linear_.size()) ? linear_[i].translation : Vector3d::Zero(); }
-  Vector3d rotation(int i) const { return i < int(linear_.size()) ? linear_[i].rotation : n_; }
+  Vector3d translation(int i) const;
+  Vector3d rotation(int i) const;
 
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0
@@ -63,11 +72,12 @@ public:
 
 private:
   void move(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const;
+  void move_freely(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const;
 
   Vector3d                   point_, centre_;
   std::vector<LinearMeasure> linear_;
-  bool                       turns_ = false;
-  Vector3d                   n_     = Vector3d::Zero();
+  bool                       turns_ = false, free_ = false;
+  Vector3d                   n_ = Vector3d::Zero();
 };
 
 } // namespace gestell::mechanism

@@ -83,6 +83,26 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
     add_difference(w, x_1, x_2, of_1, of_2);
     return {std::atan2(y, x), rate, w.dot(d_bias) - 2. * stretch * rate};
   }
+  case Form::angle:
+  {
+    MovedVector e, f, moved;
+    first.direction(a, u, v, e);
+    first.direction(b, u, v, f);
+    second.direction(a, u + k_1, v + k_1, moved);
+    const double x = e.value.dot(moved.value), y = f.value.dot(moved.value), r2 = x * x + y * y;
+    if (!(r2 > 0.)) // body 2 has tilted by a right angle: it has no angle about this axis
+      return {0., 0., 0.};
+    const double x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
+                 y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
+    const Vector3d of_moved = (x * f.value - y * e.value) / r2, across = (x * f.bias - y * e.bias) / r2;
+    add_turn(of_moved, moved, of_2);
+    add_turn(Vector3d(x / r2 * moved.value), f, of_1);
+    add_turn(Vector3d(-y / r2 * moved.value), e, of_1);
+    return {std::atan2(y, x), rate,
+            of_moved.dot(moved.bias) + across.dot(moved.value) +
+                2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
+                2. * (x * x_rate + y * y_rate) / r2 * rate};
+  }
   case Form::ratio:
     break;
   }

@@ -14,6 +14,7 @@ namespace gestell::mechanism
  *     square         a_1 . b_2           cosine between directions carried by the two         [1]
  *     distance       |d|                                                                      [m]
  *     inclination    atan2(b . d, a . d) angle of the line about a x b, in (-pi, pi]          [rad]
+ *     angle          atan2(b_1 . a_2, a_1 . a_2)   of body 2 against body 1 about a x b       [rad]
  *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
  *
  * Ideal joints demand a value of it, elements act on it, signals tell it.
@@ -28,6 +29,7 @@ struct RelativeMeasure
     square,
     distance,
     inclination,
+    angle,
     ratio
   };
   enum class Carrier
@@ -39,7 +41,7 @@ struct RelativeMeasure
 
   Form                form    = Form::along;
   Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
-  Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of `inclination` at right angles to a
+  Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of both angles at right angles to a
   Carrier             carrier = Carrier::space;   ///< of a in `along`
   std::vector<double> ratios;                     ///< c_i [k] of `ratio`
 

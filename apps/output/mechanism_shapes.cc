@@ -16,7 +16,7 @@ constexpr double disc_width  = 0.25; ///< of its radius
 constexpr double rod_breadth = 0.08; ///< of its length
 
 // parts of the machine's size
-constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02;
+constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02, bar_of_body = 0.01;
 constexpr double pin_radius = 0.6; ///< of that of a plate
 
 Vector3d vector(const std::array<double, 3> &x)
@@ -147,15 +147,25 @@ Shape rod_shape(const Scenery &scenery, const coupling::DrawnRod &rod, const cou
   return shape;
 }
 
-/// A planar body or a point; `number` counts them.
+/// How a planar or rigid body is turned.
+Eigen::Matrix3d rotation(const coupling::Body &body, const Eigen::VectorXd &q)
+{
+  if (body.kind == coupling::BodyKind::planar)
+    return Eigen::AngleAxisd(q(body.coordinate + 2), vector(body.axis)).toRotationMatrix();
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  if (body.kind == coupling::BodyKind::rigid)
+    for (int i = 0; i < 3; ++i)
+      turned.col(i) += q.segment<3>(body.coordinate + 3 + 3 * i);
+  return turned;
+}
+
+/// A planar body, a rigid one or a point; `number` counts them.
 Shape free_shape(const coupling::Body &body, int number, double machine_size, const Eigen::VectorXd &q)
 {
-  const bool        planar = body.kind == coupling::BodyKind::planar;
-  const Vector3d    centre = vector(body.position), moved = translation(body.marker, q);
-  const double      radius = body.radius > 0. ? body.radius : (planar ? plate_radius : point_radius) * machine_size;
-  Eigen::AngleAxisd turned = Eigen::AngleAxisd::Identity();
-  if (planar)
-    turned = Eigen::AngleAxisd(q(body.coordinate + 2), vector(body.axis));
+  const bool            planar = body.kind == coupling::BodyKind::planar;
+  const Vector3d        centre = vector(body.position), moved = translation(body.marker, q);
+  const double          radius = body.radius > 0. ? body.radius : (planar ? plate_radius : point_radius) * machine_size;
+  const Eigen::Matrix3d turned = rotation(body, q);
 
   Shape shape;
   shape.name = body.name;
@@ -170,8 +180,12 @@ Shape free_shape(const coupling::Body &body, int number, double machine_size, co
     // Each a little thinner than the one before, so that no two faces lie in one plane.
     add_plate(shape, corners, vector(body.axis), radius, radius * (1. - 0.08 * (number % 6)));
   }
-  else
+  else if (body.kind == coupling::BodyKind::point || body.radius > 0. || body.points.empty())
     add_sphere(shape, centre, radius);
+  if (body.kind == coupling::BodyKind::rigid)
+    for (const auto &x : body.points)
+      if (const Vector3d arm = vector(x) - centre; arm.norm() > 1e-6 * machine_size)
+        add_bar(shape, centre, centre + arm, bar_of_body * machine_size);
   for (Vector3d &x : shape.points)
     x = centre + moved + turned * (x - centre);
   shape.displacement.assign(shape.points.size(), Vector3d::Zero());
@@ -199,7 +213,7 @@ Shape pins_shape(const Scenery &scenery, double radius, const Split &split, cons
   shape.name = "joints";
   for (const coupling::DrawnPin &pin : scenery.pins)
   {
-    const Vector3d at = position(pin.at, split.bodies), axis = vector(pin.axis);
+    const Vector3d at = position(pin.at, split.bodies), axis = direction(pin.at, vector(pin.axis), split.bodies);
     add_disc(shape, at, axis.unitOrthogonal(), axis, pin_radius * radius, 1.4 * radius);
     shape.displacement.resize(shape.points.size(), position(pin.at, q) - at);
   }
@@ -216,7 +230,7 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
   int                n_free = 0;
   std::vector<Shape> shapes;
   for (const coupling::Body &body : scenery.bodies)
-    if (body.kind == BodyKind::point || body.kind == BodyKind::planar)
+    if (body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid)
       shapes.push_back(free_shape(body, n_free++, size, q));
     else if (body.kind == BodyKind::rotor && body.radius > 0.)
       shapes.push_back(rotor_shape(scenery, body, q));

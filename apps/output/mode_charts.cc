@@ -31,9 +31,10 @@ bool is_angle(const Result &result, std::size_t i)
   for (const coupling::Body &body : result.scenery.bodies)
   {
     const bool rotor = body.kind == coupling::BodyKind::rotor, planar = body.kind == coupling::BodyKind::planar;
-    const int  n = planar || body.kind == coupling::BodyKind::point ? 3 : 1;
+    const bool rigid = body.kind == coupling::BodyKind::rigid; // of a director: it moves by the angle it turns by
+    const int  n     = rigid ? 12 : planar || body.kind == coupling::BodyKind::point ? 3 : 1;
     if (const int own = static_cast<int>(i) - body.coordinate; own >= 0 && own < n)
-      return rotor || (planar && own == 2);
+      return rotor || (planar && own == 2) || (rigid && own >= 3);
   }
   const std::string &name = i < result.coordinate_names.size() ? result.coordinate_names[i] : std::string();
   const std::string  end  = name.size() > 3 ? name.substr(name.size() - 3) : "";

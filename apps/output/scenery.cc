@@ -23,7 +23,7 @@ double Scenery::size() const
     box.extend(vector(interface.second));
   for (const coupling::Body &body : bodies)
   {
-    const bool free = body.kind == BodyKind::point || body.kind == BodyKind::planar;
+    const bool free = body.kind != BodyKind::rotor && body.kind != BodyKind::slider;
     if (!free && !(body.radius > 0.) && !(vector(body.size).minCoeff() > 0.))
       continue;
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(body.radius) + 0.5 * vector(body.size);
@@ -52,12 +52,26 @@ Eigen::Vector3d translation(const coupling::Marker &marker, const Eigen::VectorX
   return {value(marker.translation[0], q), value(marker.translation[1], q), value(marker.translation[2], q)};
 }
 
-Eigen::Vector3d position(const coupling::PlacedPoint &place, const Eigen::VectorXd &q)
+namespace
+{
+std::array<double, mechanism::Placement::max_measures> measures(const coupling::PlacedPoint &place,
+                                                                const Eigen::VectorXd       &q)
 {
   std::array<double, mechanism::Placement::max_measures> u{};
   for (std::size_t i = 0; i < place.measures.size(); ++i)
     u[i] = value(place.measures[i], q);
-  return place.placement.position(u.data());
+  return u;
+}
+} // namespace
+
+Eigen::Vector3d position(const coupling::PlacedPoint &place, const Eigen::VectorXd &q)
+{
+  return place.placement.position(measures(place, q).data());
+}
+
+Eigen::Vector3d direction(const coupling::PlacedPoint &place, const Eigen::Vector3d &e, const Eigen::VectorXd &q)
+{
+  return place.placement.direction(e, measures(place, q).data());
 }
 
 } // namespace gestell::apps

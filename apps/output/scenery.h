@@ -49,4 +49,7 @@ Eigen::Vector3d translation(const coupling::Marker &marker, const Eigen::VectorX
 /// Where [m] a place is for q, however far its body has turned.
 Eigen::Vector3d position(const coupling::PlacedPoint &place, const Eigen::VectorXd &q);
 
+/// Where a direction e fixed to the body of a place points for q.
+Eigen::Vector3d direction(const coupling::PlacedPoint &place, const Eigen::Vector3d &e, const Eigen::VectorXd &q);
+
 } // namespace gestell::apps

@@ -41,6 +41,9 @@ void add_body(coupling::Machine &machine, const BodyRequest &body)
   case coupling::BodyKind::planar:
     machine.add_planar(body.name, body.axis, body.mass, body.inertia, body.position);
     break;
+  case coupling::BodyKind::rigid:
+    machine.add_rigid(body.name, body.mass, body.tensor, body.position);
+    break;
   }
   machine.draw(body.name, body.position, body.radius, body.size);
 }

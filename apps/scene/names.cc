@@ -95,7 +95,7 @@ const MeasureRequest &Names::measure(const SceneTable &table, const std::string 
                (valid.empty() ? "; declare [measure." + written_key(name) + "]" : coupling::suggestion(name, valid)));
 }
 
-std::vector<Names::Coordinate> Names::coordinates() const
+std::vector<Names::Coordinate> Names::coordinates(bool rates) const
 {
   using coupling::BodyKind;
   std::vector<Coordinate> coordinates;
@@ -103,9 +103,14 @@ std::vector<Names::Coordinate> Names::coordinates() const
   {
     if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
       coordinates.push_back({body.name, body.kind == BodyKind::rotor});
-    else if (body.kind == BodyKind::point)
-      for (const char *axis : {".ux", ".uy", ".uz"})
-        coordinates.push_back({body.name + axis, false});
+    else if (body.kind == BodyKind::point || body.kind == BodyKind::rigid)
+    {
+      for (const char axis : {'x', 'y', 'z'})
+        coordinates.push_back({body.name + ".u" + axis, false});
+      for (const char axis : {'x', 'y', 'z'})
+        if (body.kind == BodyKind::rigid) // a rotation as axis times angle, or the angular velocity
+          coordinates.push_back({body.name + (rates ? ".w" : ".r") + axis, true});
+    }
     else
     {
       const auto names = coupling::planar_coordinates(body.name, body.axis);

@@ -32,13 +32,13 @@ public:
   const MeasureRequest &measure(const SceneTable &table, const std::string &key) const;
   const MeasureRequest *find_measure(const std::string &name) const; ///< null if there is none
 
-  /// A coordinate of a body that a start may give: its name, and whether it is an angle.
+  /// A coordinate of a body that a start may give, or its rate: its name, and whether it is an angle.
   struct Coordinate
   {
     std::string name;
     bool        angle;
   };
-  std::vector<Coordinate> coordinates() const;
+  std::vector<Coordinate> coordinates(bool rates) const;
 
   /// Body of that kind named by a key of `table`.
   const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;

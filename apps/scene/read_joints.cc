@@ -1,9 +1,11 @@
 #include "apps/scene/read_joints.h"
 
-#include "apps/scene/read_scalars.h"
 #include "apps/scene/read_contact.h"
+#include "apps/scene/read_scalars.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -38,6 +40,12 @@ double dot(const Vector3 &a, const Vector3 &b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+bool turns_freely(const Names &names, const std::string &marker)
+{
+  const BodyRequest *body = names.find_body(marker);
+  return body && body->kind == coupling::BodyKind::rigid;
+}
+
 MeasureRequest read_measure(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
@@ -53,19 +61,10 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
     measure.place = table.place();
     return measure;
   }
-  if (type == "angle")
-  {
-    const std::string of = names.marker(table, "from"), against = names.marker(table, "to", "ground");
-    if (of == against)
-      throw table.error("to", "is '" + against + "' like `from`; what is measured would never change");
-    measure.unit  = "rad";
-    measure.terms = {{1., difference(of, against, table.direction("about"), true), nullptr}};
-    return measure;
-  }
   PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
   if (from.marker == to.marker)
     throw table.error("to", "lies on '" + to.marker + "' like `from`; what is measured would never change");
-  measure.unit   = type == "inclination" ? "rad" : "m";
+  measure.unit   = type == "inclination" || type == "angle" ? "rad" : "m";
   measure.first  = from;
   measure.second = to;
   if (type == "distance")
@@ -74,6 +73,16 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
   {
     measure.form = Form::along;
     measure.a    = table.direction("direction");
+    std::swap(measure.first, measure.second);
+  }
+  else if (type == "angle" && !turns_freely(names, from.marker) && !turns_freely(names, to.marker))
+    measure.terms = {{1., difference(from.marker, to.marker, table.direction("about"), true), nullptr}};
+  else if (type == "angle") // of `from` against `to`
+  {
+    const Eigen::Vector3d axis(table.direction("about").data()), zero = axis.unitOrthogonal(), ahead = axis.cross(zero);
+    measure.form = Form::angle;
+    measure.a    = {zero[0], zero[1], zero[2]};
+    measure.b    = {ahead[0], ahead[1], ahead[2]};
     std::swap(measure.first, measure.second);
   }
   else
@@ -92,10 +101,35 @@ struct JointName
   const char *name;
   JointType   type;
 };
-constexpr JointName joint_names[] = {{"revolute", JointType::revolute}, {"spherical", JointType::spherical},
-                                     {"rigid", JointType::rigid},       {"prismatic", JointType::prismatic},
-                                     {"in-plane", JointType::in_plane}, {"distance", JointType::distance},
-                                     {"gear", JointType::gear}};
+constexpr JointName joint_names[] = {
+    {"revolute", JointType::revolute},       {"spherical", JointType::spherical}, {"universal", JointType::universal},
+    {"cylindrical", JointType::cylindrical}, {"rigid", JointType::rigid},         {"prismatic", JointType::prismatic},
+    {"in-plane", JointType::in_plane},       {"distance", JointType::distance},   {"gear", JointType::gear}};
+
+/// The axes of a joint that turns about some.
+void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  const auto one_is = [&](coupling::BodyKind kind)
+  {
+    for (const PlaceRequest *place : {&joint.from, &joint.to})
+      if (const BodyRequest *body = names.find_body(place->marker); body && body->kind == kind)
+        return true;
+    return false;
+  };
+  const bool turning = joint.type == JointType::revolute && one_is(coupling::BodyKind::rigid);
+  if ((turning || joint.type == JointType::universal) && one_is(coupling::BodyKind::point))
+    throw table.error("type", "needs directions on both bodies, but a point has none; use a spherical joint");
+  if (joint.type == JointType::universal)
+  {
+    joint.axis    = table.direction("axis_from");
+    joint.axis_to = table.direction("axis_to");
+    if (std::abs(dot(joint.axis, joint.axis_to)) > 1e-9)
+      throw table.error("axis_to", "must be at right angles to 'axis_from': they are the two bars of the cross");
+  }
+  else if (turning || joint.type == JointType::cylindrical || joint.type == JointType::prismatic ||
+           joint.type == JointType::in_plane)
+    joint.axis = table.direction("axis");
+}
 
 /// Joints of one equation on a scalar of the motion, by their names.
 using MeasureJointReader = void (*)(const SceneTable &table, const Names &names, JointRequest &joint);
@@ -247,8 +281,9 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
       known.read(table, names, joint);
       return joint;
     }
-  const bool together =
-      joint.type == JointType::revolute || joint.type == JointType::spherical || joint.type == JointType::rigid;
+  const bool together = joint.type == JointType::revolute || joint.type == JointType::spherical ||
+                        joint.type == JointType::universal || joint.type == JointType::cylindrical ||
+                        joint.type == JointType::rigid;
   const bool one_point = table.has("at");
   if (one_point && (table.has("at_from") || table.has("at_to")))
     throw table.error("at", "says where the joint is on both bodies; leave out 'at_from' and 'at_to'");
@@ -264,8 +299,7 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
     joint.to.at = joint.from.at;
   if (joint.type != JointType::distance && joint.to.at && !joint.from.at)
     joint.from.at = joint.to.at;
-  if (joint.type == JointType::prismatic || joint.type == JointType::in_plane)
-    joint.axis = table.direction("axis");
+  read_axes(table, names, joint);
   joint.friction = read_joint_friction(table, joint.type);
   if (joint.type == JointType::gear)
   {

@@ -51,7 +51,7 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
     const bool               frame = !rotors_only && name.rfind("frame.", 0) == 0;
     std::vector<std::string> valid;
     bool                     angle = name.size() > 2 && name[name.size() - 2] == 'r'; // frame.crown.rx
-    for (const auto &coordinate : names.coordinates())
+    for (const auto &coordinate : names.coordinates(rates))
     {
       const auto *body = names.find_body(coordinate.name);
       if (rotors_only && !(body && body->kind == coupling::BodyKind::rotor))

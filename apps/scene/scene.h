@@ -55,11 +55,12 @@ struct BodyRequest
 {
   std::string        name;
   coupling::BodyKind kind = coupling::BodyKind::rotor;
-  Vector3            axis{};                  ///< unit vector
-  std::string        carrier;                 ///< marker a rotor sits on, or a slider is guided by
-  double             inertia = 0., mass = 0.; ///< kg m^2, kg
-  Vector3            position{}, size{};      ///< [m], for pictures
-  double             radius = 0.;             ///< [m], for pictures
+  Vector3            axis{};                           ///< unit vector
+  std::string        carrier;                          ///< marker a rotor sits on, or a slider is guided by
+  double             inertia = 0., mass = 0.;          ///< kg m^2, kg
+  Eigen::Matrix3d    tensor = Eigen::Matrix3d::Zero(); ///< inertia of a rigid body in global axes [kg m^2]
+  Vector3            position{}, size{};               ///< [m], for pictures
+  double             radius = 0.;                      ///< [m], for pictures
   std::string        place;
 };
 
@@ -108,14 +109,16 @@ struct MeasureRequest
 
 enum class JointType
 {
-  revolute,  ///< the two places stay together, turning freely about one axis
-  spherical, ///< the two places stay together
-  rigid,     ///< the two places stay together and do not turn against each other
-  prismatic, ///< moves along an axis of the first body and does not turn against it
-  in_plane,  ///< stays in the plane across an axis of the first body
-  distance,  ///< the two places keep their distance, or it follows a law
-  gear,      ///< the angles (or displacements) of two bodies keep a ratio
-  measure    ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
+  revolute,    ///< the two places stay together, turning freely about one axis
+  spherical,   ///< the two places stay together
+  universal,   ///< the two places stay together, and an axis of each body at right angles to the other's
+  cylindrical, ///< turns about an axis of the first body and slides along it
+  rigid,       ///< the two places stay together and do not turn against each other
+  prismatic,   ///< moves along an axis of the first body and does not turn against it
+  in_plane,    ///< stays in the plane across an axis of the first body
+  distance,    ///< the two places keep their distance, or it follows a law
+  gear,        ///< the angles (or displacements) of two bodies keep a ratio
+  measure      ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
 };
 
 struct JointFrictionRequest
@@ -129,7 +132,8 @@ struct JointRequest
   std::string                                 name;
   JointType                                   type = JointType::revolute;
   PlaceRequest                                from, to;
-  Vector3                                     axis{};
+  Vector3                                     axis{};        ///< zero for a revolute joint of bodies without a choice
+  Vector3                                     axis_to{};     ///< of `universal`, on the second body
   std::optional<double>                       length;        ///< of `distance` [m]; none: as described
   double                                      ratio = 1.;    ///< of `gear`
   std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and `measure`

@@ -3,8 +3,13 @@
 #include "coupling/assembly.h"
 #include "coupling/closed_chains.h"
 #include "coupling/static_equilibrium.h"
+#include "mechanism/joints/orthonormal_directors.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 namespace gestell::apps
 {
@@ -39,6 +44,44 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
                               "'; give a body or \"frame.NAME.uz\"");
 }
 
+/// A rigid body of which `name` tells a rotation ("top.rx") or an angular velocity ("top.wx"), and the axis.
+const coupling::Body *turning_body(const coupling::Machine &machine, const std::string &name, char letter, int &axis)
+{
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos || name.size() != dot + 3 || name[dot + 1] != letter)
+    return nullptr;
+  axis = name[dot + 2] - 'x';
+  for (const coupling::Body &body : machine.bodies())
+    if (body.kind == coupling::BodyKind::rigid && body.name == name.substr(0, dot))
+      return &body;
+  return nullptr;
+}
+
+/// Sets the given coordinates in q; a rotation of a rigid body is given as a whole, by up to three values.
+void set_position(const std::vector<NamedValue> &values, const coupling::Machine &machine, Eigen::VectorXd &q,
+                  const std::function<void(int)> &mark)
+{
+  std::map<int, Eigen::Vector3d> rotations; // by the first coordinate of the directors
+  for (const auto &value : values)
+  {
+    int axis = 0;
+    if (const coupling::Body *body = turning_body(machine, value.name, 'r', axis))
+    {
+      auto &rotation = rotations.emplace(body->coordinate + 3, Eigen::Vector3d::Zero()).first->second;
+      rotation[axis] = value.value;
+    }
+    else if (!value.measure)
+      mark(set_coordinate(q, value, machine));
+  }
+  using mechanism::OrthonormalDirectors;
+  for (const auto &[first, rotation] : rotations)
+  {
+    Eigen::Map<Eigen::Matrix3d>(q.data() + first) = OrthonormalDirectors::measures(rotation);
+    for (int i = 0; i < OrthonormalDirectors::n_directors; ++i)
+      mark(first + i);
+  }
+}
+
 coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &machine, const std::vector<NamedValue> &q,
                                  const std::vector<NamedValue> &v)
 {
@@ -50,11 +93,13 @@ coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &ma
   for (const auto &value : q)
     if (value.measure)
       known.measures.emplace_back(value.name, value.value);
-    else
-      known.q_given[set_coordinate(known.state.q, value, machine)] = 1;
+  set_position(q, machine, known.state.q, [&known](int i) { known.q_given[i] = 1; });
+  int axis = 0;
   for (const auto &value : v)
     if (value.measure)
       known.rates.emplace_back(value.name, value.value);
+    else if (const coupling::Body *body = turning_body(machine, value.name, 'w', axis))
+      known.spins.push_back({body->name, axis, value.value});
     else
       known.v_given[set_coordinate(known.state.v, value, machine)] = 1;
   return known;
@@ -120,9 +165,7 @@ Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machi
   {
     coupling::KnownStart known = known_start(scene, machine, scene.modes.at, {});
     known.state.q              = initial_state(scene, machine).q;
-    for (const auto &value : scene.modes.at)
-      if (!value.measure)
-        set_coordinate(known.state.q, value, machine);
+    set_position(scene.modes.at, machine, known.state.q, [](int) {});
     return assembled(scene, machine, known).q;
   }
   Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());

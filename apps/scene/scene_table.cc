@@ -100,6 +100,11 @@ bool SceneTable::is_array(const std::string &key) const
   return value && value->type == Type::array;
 }
 
+bool SceneTable::is_matrix(const std::string &key) const
+{
+  return is_array(key) && !look_up(key)->elements.empty() && look_up(key)->elements.front().type == Type::array;
+}
+
 bool SceneTable::is_table(const std::string &key) const
 {
   const auto *value = look_up(key);

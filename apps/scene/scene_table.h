@@ -74,6 +74,7 @@ public:
 
   bool is_text(const std::string &key) const;
   bool is_array(const std::string &key) const;
+  bool is_matrix(const std::string &key) const; ///< an array of arrays
   bool is_table(const std::string &key) const;
 
   const std::string &path() const { return path_; }

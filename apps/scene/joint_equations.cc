@@ -1,0 +1,299 @@
+#include "apps/scene/joint_equations.h"
+
+#include "apps/scene/build_measures.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::Body;
+using coupling::BodyKind;
+using mechanism::IdealJoint;
+using mechanism::PlacedMeasure;
+using mechanism::Placement;
+using mechanism::RelativeMeasure;
+using mechanism::Vector3d;
+using Form = RelativeMeasure::Form;
+
+constexpr double immobile = 1e-12; ///< gradient of an equation that no motion of the two bodies changes
+
+std::string axis_name(const Vector3d &a, int number)
+{
+  for (int d = 0; d < 3; ++d)
+    if (std::abs(a[d] - 1.) < 1e-12)
+      return std::string(1, "xyz"[d]);
+  return std::to_string(number);
+}
+
+std::vector<Vector3d> global_axes()
+{
+  return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+}
+
+/// Unit vectors at right angles to the axis and to each other, at most so many, as near to `directions` as may be.
+std::vector<Vector3d> across(const Vector3d &axis, const std::vector<Vector3d> &directions, std::size_t at_most)
+{
+  std::vector<Vector3d> found;
+  for (const Vector3d &a : directions)
+  {
+    Vector3d side = a - a.dot(axis) * axis;
+    if (side.norm() < 1e-9 || found.size() == at_most ||
+        (found.size() == 1 && side.cross(found[0]).norm() < 1e-9 * side.norm()))
+      continue;
+    side.normalize();
+    if (!found.empty() && std::abs(side.dot(found[0])) > 1e-9)
+      side = axis.cross(found[0]);
+    found.push_back(side);
+  }
+  return found;
+}
+
+} // namespace
+
+RelativeMeasure rotation_about(const Pair &pair, const Vector3d &a, double factor)
+{
+  RelativeMeasure rotation;
+  rotation.form = Form::ratio;
+  for (int i = 0; i < pair.first.n_measures(); ++i)
+    rotation.ratios.push_back(-factor * pair.first.rotation(i).dot(a));
+  for (int i = 0; i < pair.second.n_measures(); ++i)
+    rotation.ratios.push_back(pair.second.rotation(i).dot(a));
+  return rotation;
+}
+
+RelativeMeasure angle_about(const Vector3d &a)
+{
+  RelativeMeasure angle;
+  angle.form = Form::angle;
+  angle.a    = a.unitOrthogonal();
+  angle.b    = a.cross(angle.a);
+  return angle;
+}
+
+RelativeMeasure seen_from_first(const Vector3d &a)
+{
+  RelativeMeasure displacement;
+  displacement.a       = a;
+  displacement.carrier = RelativeMeasure::Carrier::first;
+  return displacement;
+}
+
+// --- Pair
+
+Pair::Pair(const coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+{
+  const auto a = placed(machine, from), b = placed(machine, to);
+  first    = a.placement;
+  second   = b.placement;
+  measures = a.measures;
+  measures.insert(measures.end(), b.measures.begin(), b.measures.end());
+  for (const Body &body : machine.bodies())
+  {
+    if (body.name == from.marker)
+      on_first = &body;
+    if (body.name == to.marker)
+      on_second = &body;
+  }
+}
+
+const Body *Pair::planar() const
+{
+  for (const Body *body : {on_first, on_second})
+    if (body && body->kind == BodyKind::planar)
+      return body;
+  return nullptr;
+}
+
+bool Pair::in_space() const
+{
+  return (on_first && on_first->kind == BodyKind::rigid) || (on_second && on_second->kind == BodyKind::rigid);
+}
+
+bool Pair::has_point() const
+{
+  return (on_first && on_first->kind == BodyKind::point) || (on_second && on_second->kind == BodyKind::point);
+}
+
+double Pair::at_start(const RelativeMeasure &measure, double &largest_gradient) const
+{
+  const double zero[PlacedMeasure::max_measures] = {};
+  double       gradient[PlacedMeasure::max_measures];
+  const auto   value = PlacedMeasure{first, second, measure}.evaluate(zero, zero, gradient);
+  largest_gradient   = 0.;
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    largest_gradient = std::max(largest_gradient, std::abs(gradient[i]));
+  return value.s;
+}
+
+// --- JointEquations
+
+/// In the plane of a planar body only its directions count, as the plane itself does not move.
+std::vector<Vector3d> JointEquations::directions() const
+{
+  const Body *body = pair_.planar();
+  if (!body || pair_.in_space())
+    return global_axes();
+  std::vector<Vector3d> plane{vector(body->e_1), vector(body->e_2)};
+  if (partner_leaves_plane(*body))
+    plane.push_back(vector(body->axis));
+  return plane;
+}
+
+std::vector<Vector3d> JointEquations::axes_of_rotation() const
+{
+  const Body *body = pair_.planar();
+  return body && !pair_.in_space() ? std::vector<Vector3d>{vector(body->axis)} : global_axes();
+}
+
+/// A point, or a body of another plane, has to be held in this one too; a frame and what it carries does not, as the
+/// plane cannot yield.
+bool JointEquations::partner_leaves_plane(const Body &planar) const
+{
+  const Body *partner = pair_.on_first == &planar ? pair_.on_second : pair_.on_first;
+  return partner &&
+         (partner->kind == BodyKind::point ||
+          (partner->kind == BodyKind::planar && std::abs(vector(partner->axis).dot(vector(planar.axis))) < 1. - 1e-12));
+}
+
+void JointEquations::coincide()
+{
+  int number = 0;
+  for (const Vector3d &a : directions())
+    along(a, Carrier::space, "f" + axis_name(a, ++number), 0.);
+}
+
+void JointEquations::on_line(const Vector3d &axis, std::optional<double> distance)
+{
+  const bool in_plane = pair_.planar() && !pair_.in_space();
+  int        number   = 0;
+  for (const Vector3d &a : across(axis, directions(), in_plane ? 1 : 2))
+    along(a, Carrier::first, "f" + axis_name(a, ++number), distance);
+}
+
+void JointEquations::in_plane(const Vector3d &axis)
+{
+  along(axis, Carrier::first, "force", std::nullopt);
+}
+
+void JointEquations::no_rotation()
+{
+  if (pair_.has_point())
+    return;
+  int number = 0;
+  for (const Vector3d &a : axes_of_rotation())
+  {
+    const std::string name = "m" + axis_name(a, ++number);
+    if (pair_.in_space())
+    {
+      hold_about(a, a.unitOrthogonal(), name);
+      continue;
+    }
+    IdealJoint::Equation equation;
+    equation.name = pair_.planar() ? "torque" : name;
+    equation.unit = "N m";
+    ratio(equation, a, 1.);
+  }
+}
+
+void JointEquations::one_axis(const Vector3d &axis)
+{
+  if (pair_.has_point())
+    return;
+  int number = 0;
+  for (const Vector3d &a : across(axis, global_axes(), 2))
+    hold_about(a, axis, "m" + axis_name(a, ++number));
+}
+
+/// a . b_2 = 0 with b x a = axis: its multiplier is the torque on body 2 about the axis.
+void JointEquations::hold_about(const Vector3d &axis, const Vector3d &across, const std::string &name)
+{
+  at_right_angles(across, across.cross(axis).normalized(), name);
+}
+
+void JointEquations::at_right_angles(const Vector3d &a, const Vector3d &b, const std::string &name)
+{
+  IdealJoint::Equation equation;
+  equation.name         = name;
+  equation.unit         = "N m";
+  equation.measure.form = Form::square;
+  equation.measure.a    = a;
+  equation.measure.b    = b;
+  add(equation, 0.);
+}
+
+void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value)
+{
+  IdealJoint::Equation equation;
+  equation.name            = name;
+  equation.measure.a       = a;
+  equation.measure.carrier = carrier;
+  add(equation, value);
+}
+
+/// s stays as described, or is `value`; left out where neither body moves it.
+void JointEquations::add(IdealJoint::Equation equation, std::optional<double> value)
+{
+  double       gradient;
+  const double s  = pair_.at_start(equation.measure, gradient);
+  equation.offset = value ? *value : s;
+  if (gradient > immobile)
+    list.push_back(std::move(equation));
+}
+
+/// Rotation of body 2 about a = factor times that of body 1.
+void JointEquations::ratio(IdealJoint::Equation equation, const Vector3d &a, double factor)
+{
+  equation.measure = rotation_about(pair_, a, factor);
+  double largest   = 0.;
+  for (const double c : equation.measure.ratios)
+    largest = std::max(largest, std::abs(c));
+  if (largest > immobile)
+    list.push_back(equation);
+}
+
+void JointEquations::distance(const JointRequest &joint)
+{
+  IdealJoint::Equation equation;
+  equation.name         = "force";
+  equation.measure.form = Form::distance;
+  double       gradient;
+  const double s  = pair_.at_start(equation.measure, gradient);
+  equation.offset = joint.length ? *joint.length : s;
+  equation.driven = joint.law != nullptr;
+  if (!(equation.offset > 0.))
+    throw std::invalid_argument("the two places lie together, so that a distance has no direction; use a revolute or "
+                                "spherical joint, or give 'at_from' and 'at_to'");
+  list.push_back(equation);
+}
+
+void JointEquations::gear(double factor)
+{
+  IdealJoint::Equation equation;
+  equation.name         = "torque";
+  equation.unit         = pair_.on_second && pair_.on_second->kind == BodyKind::slider ? "N" : "N m";
+  equation.measure.form = Form::ratio;
+  const auto add_body   = [&](const Placement &placement, const Body *body, double c)
+  {
+    if (!body || body->kind == BodyKind::point || body->kind == BodyKind::rigid)
+      throw std::invalid_argument(
+          "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+    const Vector3d a = vector(body->axis);
+    for (int i = 0; i < placement.n_measures(); ++i)
+      equation.measure.ratios.push_back(
+          c * (body->kind == BodyKind::slider ? placement.translation(i) : placement.rotation(i)).dot(a));
+  };
+  add_body(pair_.first, pair_.on_first, -factor);
+  add_body(pair_.second, pair_.on_second, 1.);
+  if (equation.unit == "N")
+    equation.name = "force";
+  list.push_back(equation);
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "mechanism/joints/ideal_joint.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Two places with the measures of both.
+struct Pair
+{
+  Pair(const coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to);
+
+  const coupling::Body *planar() const;    ///< one of the two, if it is
+  bool                  in_space() const;  ///< one of the two turns freely
+  bool                  has_point() const; ///< one of the two has no rotation to compare with
+  /// Value of the measure in the position described, and the largest entry of its gradient.
+  double at_start(const mechanism::RelativeMeasure &measure, double &largest_gradient) const;
+
+  mechanism::Placement           first, second;
+  std::vector<coupling::Measure> measures;
+  const coupling::Body          *on_first = nullptr, *on_second = nullptr;
+};
+
+/// Rotation of body 2 about a, less `factor` times that of body 1: of bodies that turn about one axis, or little.
+mechanism::RelativeMeasure rotation_about(const Pair &pair, const mechanism::Vector3d &a, double factor);
+/// Angle of body 2 against body 1 about a, which both carry, in (-pi, pi]: of bodies that turn freely.
+mechanism::RelativeMeasure angle_about(const mechanism::Vector3d &a);
+/// Displacement of place 2 against place 1 along a, which body 1 carries.
+mechanism::RelativeMeasure seen_from_first(const mechanism::Vector3d &a);
+
+/**
+ * The equations of a joint between two places, one after the other.  Those that no motion of the two bodies changes are
+ * left out, by their gradient in the position the scene describes.
+ *
+ * Source: docs/theory/joints.md (3), (10).
+ */
+class JointEquations
+{
+public:
+  explicit JointEquations(const Pair &pair) : pair_(pair) {}
+
+  std::vector<mechanism::IdealJoint::Equation> list;
+
+  /// The two places stay together.
+  void coincide();
+  /// The second place stays on a line along `axis`, which turns with the first body: as described, or through the first
+  /// place.
+  void on_line(const mechanism::Vector3d &axis, std::optional<double> distance);
+  /// The second place stays as described in a plane across `axis`, which turns with the first body.
+  void in_plane(const mechanism::Vector3d &axis);
+  /// The bodies do not turn against each other.
+  void no_rotation();
+  /// They turn against each other about `axis` alone.
+  void one_axis(const mechanism::Vector3d &axis);
+  /// a of the first body stays at right angles to b of the second, to which it is so as described.
+  void at_right_angles(const mechanism::Vector3d &a, const mechanism::Vector3d &b, const std::string &name);
+  void distance(const JointRequest &joint);
+  /// The coordinate of body 2 is `factor` times that of body 1: angle of a rotor, displacement of a slider ...
+  void gear(double factor);
+
+private:
+  using Carrier = mechanism::RelativeMeasure::Carrier;
+
+  std::vector<mechanism::Vector3d> directions() const;
+  std::vector<mechanism::Vector3d> axes_of_rotation() const;
+  bool                             partner_leaves_plane(const coupling::Body &planar) const;
+  void along(const mechanism::Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value);
+  void ratio(mechanism::IdealJoint::Equation equation, const mechanism::Vector3d &a, double factor);
+  void hold_about(const mechanism::Vector3d &axis, const mechanism::Vector3d &across, const std::string &name);
+  void add(mechanism::IdealJoint::Equation equation, std::optional<double> value);
+
+  const Pair &pair_;
+};
+
+} // namespace gestell::apps
