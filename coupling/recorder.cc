@@ -298,8 +298,8 @@ void Recorder::balance()
   const EnergyState energy = energy_.state(integrator_.instant());
   result_.energy           = {energy.input, energy.stored, energy.dissipated,
                               std::max(result_.energy.residual, std::abs(energy.residual()))};
-  turned_over_             = std::max(
-                  {turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated, std::abs(energy.kinetic)});
+  turned_over_ =
+      std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated, energy.kinetic});
 }
 
 void Recorder::finish()

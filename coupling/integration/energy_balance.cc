@@ -1,5 +1,7 @@
 #include "coupling/integration/energy_balance.h"
 
+#include <algorithm>
+
 namespace gestell::coupling
 {
 
@@ -12,7 +14,7 @@ constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.32
 
 EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 {
-  for (Eigen::VectorXd *x : {&product_, &load_, &between_.q, &between_.v})
+  for (Eigen::VectorXd *x : {&product_, &load_, &kinetic_, &kinetic_begin_, &between_.q, &between_.v})
     x->setZero(system.size());
   between_.local.resize(system);
 }
@@ -48,8 +50,8 @@ EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 double EnergyBalance::stored(const Instant &instant)
 {
   system_.mass_times(instant.v, product_);
-  kinetic_      = 0.5 * instant.v.dot(product_);
-  double energy = kinetic_;
+  kinetic_      = 0.5 * instant.v.cwiseProduct(product_);
+  double energy = kinetic_.sum();
   system_.stiffness_times(instant.q, product_);
   energy += 0.5 * work_with_product(instant.q);
   if (system_.excitation().is_constant())
@@ -105,7 +107,9 @@ EnergyState EnergyBalance::state(const Instant &instant)
   }
   const double in_elements = system_.local_stored_energy(instant.local) - elements_begin_;
   const double change      = stored(instant) - stored_begin_;
-  return {work.input, change, work.damping - work.elements - in_elements, kinetic_ - kinetic_begin_};
+  const auto   exchange    = (kinetic_ - kinetic_begin_).array();
+  return {work.input, change, work.damping - work.elements - in_elements,
+          std::max(exchange.max(0.).sum(), -exchange.min(0.).sum())};
 }
 
 } // namespace gestell::coupling

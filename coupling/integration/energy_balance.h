@@ -10,7 +10,9 @@ namespace gestell::coupling
 struct EnergyState
 {
   double input = 0., stored = 0., dissipated = 0.;
-  double kinetic = 0.; ///< change of q'^T M q'/2, part of what is stored
+  /// Kinetic energy that some coordinates gained or others lost, whichever is more: a free top turns over what it
+  /// keeps.
+  double kinetic = 0.;
   double residual() const { return input - stored - dissipated; }
 };
 
@@ -63,8 +65,8 @@ private:
   Power                    first_, last_;      // at both ends of the last step
   Power                    work_begin_, work_; // integrals, likewise
   double                   t_begin_ = 0., t_ = 0.;
-  double                   stored_begin_ = 0., elements_begin_ = 0., kinetic_begin_ = 0.;
-  double                   kinetic_ = 0.; // at the instant of the last call of stored()
+  double                   stored_begin_ = 0., elements_begin_ = 0.;
+  Eigen::VectorXd          kinetic_, kinetic_begin_; // of every coordinate, at the instant of the last call of stored()
 };
 
 } // namespace gestell::coupling

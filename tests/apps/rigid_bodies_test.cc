@@ -134,10 +134,11 @@ TEST(RigidBody, UnsymmetricTopTumblesAsEulersEquationsSay)
   EXPECT_NEAR(order(coarse.rotation, fine.rotation), 2., 0.1) << fine.rotation;
   EXPECT_NEAR(order(coarse.spin, fine.spin), 2., 0.1) << fine.spin;
   EXPECT_LT(fine.spin, 2e-3);
-  EXPECT_GT(order(coarse.momentum, fine.momentum), 1.9) << fine.momentum;
-  EXPECT_GT(order(coarse.energy, fine.energy), 1.9) << fine.energy;
+  // Kept to the error of the method; its damping, of third order, has its share.
+  EXPECT_GT(order(coarse.momentum, fine.momentum), 1.8) << fine.momentum;
+  EXPECT_GT(order(coarse.energy, fine.energy), 1.8) << fine.energy;
   EXPECT_LT(fine.momentum, 1e-4);
-  EXPECT_LT(fine.energy, 1e-4);
+  EXPECT_LT(fine.energy, 1e-5);
 }
 
 /// Largest deviation of the axis of figure from its cone about the angular momentum.

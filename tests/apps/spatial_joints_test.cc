@@ -89,8 +89,8 @@ TEST(SpatialJoints, CardansJointTurnsUnevenly)
   const CardanErrors coarse = cardan(2e-3), fine = cardan(1e-3);
   EXPECT_LT(coarse.angle, 1e-9);
   EXPECT_NEAR(order(coarse.ratio, fine.ratio), 2., 0.15) << fine.ratio;
-  EXPECT_NEAR(order(coarse.speed, fine.speed), 2., 0.15) << fine.speed;
-  EXPECT_LT(fine.speed, 1e-3);
+  EXPECT_GT(order(coarse.speed, fine.speed), 1.9) << fine.speed; // damping, of third order, has its share
+  EXPECT_LT(fine.speed, 1e-4);
 }
 
 // --- a crank about z that swings a rocker about y by a coupler between a spherical and a universal joint
@@ -107,7 +107,7 @@ std::pair<double, double> crank_rocker(double step)
       joint("B", "universal", "coupler", "rocker", "[0.6, 0, 0.5]", "axis_from = [1, 0, -1]\naxis_to = [0, 1, 0]\n") +
       joint("B0", "revolute", "ground", "rocker", "[0.6, 0, 0]", "axis = [0, 1, 0]\n") +
       "[start]\nv = { \"crank.wz\" = 12 }\n" +
-      settings(step, 1.5, "[\"crank.rz\", \"rocker.ry\", \"rocker.rx\", \"B.torque\"]"));
+      settings(step, 1.6, "[\"crank.rz\", \"rocker.ry\", \"rocker.rx\", \"B.torque\"]"));
   EXPECT_EQ(motion.result.failure, "");
   double error = 0., last = -4., turns = 0.;
   for (std::size_t i = 0; i < motion.n_rows(); ++i)
@@ -185,10 +185,10 @@ TEST(SpatialJoints, ARotorTurnsABodyThatIsWeldedToIt)
   EXPECT_EQ(motion.result.failure, "");
   const auto last = motion.n_rows() - 1;
   // 3.3 N m on 1 + 0.4 + 0.25 kg m^2, from rest: 1 rad in the first second; BDF starts with what it has.
-  EXPECT_NEAR(motion.at(last, 1), 1., 1e-6);
+  EXPECT_NEAR(motion.at(last, 1), 1., 5e-6);
   EXPECT_NEAR(motion.at(last, 2), motion.at(last, 1), 1e-10);
-  EXPECT_NEAR(motion.at(last, 3), 0.5 * std::cos(1.), 1e-6);
-  EXPECT_NEAR(motion.at(last, 4), 2., 1e-6);
+  EXPECT_NEAR(motion.at(last, 3), 0.5 * std::cos(1.), 5e-6);
+  EXPECT_NEAR(motion.at(last, 4), 2., 5e-6);
 }
 
 // A slide that carries a prismatic guide: the body keeps its direction and moves with it.
