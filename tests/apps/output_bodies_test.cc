@@ -165,6 +165,38 @@ TEST(BodyShapes, ABodyWithASizeIsABoxAboutItsCentreOfMass)
   EXPECT_LT((box.sizes() - Vector3d(0.4, 0.2, 3.)).norm(), 1e-12);
 }
 
+// A box turned by a quarter about x and moved, with a bar to the joint that turns with it.
+TEST(BodyShapes, ARigidBodyIsABoxWithBarsToItsJoints)
+{
+  coupling::Body body;
+  body.name       = "link";
+  body.kind       = coupling::BodyKind::rigid;
+  body.coordinate = 0;
+  body.position   = {1., 2., 3.};
+  body.size       = {0.2, 0.4, 0.6};
+  body.points     = {{1., 2., 4.}};
+  for (int d = 0; d < 3; ++d)
+    body.marker.translation[d] = {{d, 1.}};
+  Scenery scenery;
+  scenery.bodies                            = {body};
+  Eigen::VectorXd q                         = Eigen::VectorXd::Zero(12);
+  q.head<3>()                               = Vector3d(0.5, 0., 0.);
+  const Eigen::Matrix3d turned              = Eigen::AngleAxisd(M_PI / 2., Vector3d::UnitX()).toRotationMatrix();
+  Eigen::Map<Eigen::Matrix3d>(q.data() + 3) = turned - Eigen::Matrix3d::Identity();
+  const Shape link = mechanism_shapes(scenery, q).front(), before = mechanism_shapes(scenery, 0. * q).front();
+  ASSERT_EQ(link.points.size(), before.points.size());
+  for (std::size_t i = 0; i < link.points.size(); ++i)
+    EXPECT_LT((link.points[i] - Vector3d(1.5, 2., 3.) - turned * (before.points[i] - Vector3d(1., 2., 3.))).norm(),
+              1e-12);
+  Eigen::AlignedBox3d box;
+  for (const Vector3d &x : link.points)
+    box.extend(x);
+  EXPECT_NEAR(box.min()[1], 1., 1e-12); // z of the joint has become -y
+  EXPECT_NEAR(box.max()[1], 2.3, 1e-12);
+  EXPECT_GT(volume(link), 0.2 * 0.4 * 0.6);
+  EXPECT_LT(open_area(link).norm(), 1e-12);
+}
+
 TEST(BodyShapes, BarsReachFromPlaceToPlaceAndOnTheFrameMoveWithIt)
 {
   for (const double angle : {0., 1., 2.5})
