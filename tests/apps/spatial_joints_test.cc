@@ -176,7 +176,7 @@ TEST(SpatialJoints, RigidAndPlanarBodiesMakeTheSameLinkage)
 TEST(SpatialJoints, TheCrankRockerOfTheScenesFollowsItsFormula)
 {
   const SceneRun motion("spatial_crank_rocker.toml",
-                        {"run.end=0.6 s", "output.step=20 ms", "output.picture_step=0", "parameters.c_P=1e4 kN/mm",
+                        {"run.end=0.8 s", "output.step=20 ms", "output.picture_step=0", "parameters.c_P=1e4 kN/mm",
                          "parameters.c_V=1e4 kN/mm", "parameters.c_B=1e4 kN/mm", "parameters.b_P=1 MN s/m"});
   EXPECT_EQ(motion.result.failure, "");
   const double r = 0.1, l_R = 0.5, x_B0 = 0.6;
