@@ -7,6 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <sstream>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 namespace gestell::coupling
 {
@@ -16,6 +19,33 @@ namespace
 
 constexpr double most_steps = 1e10, most_bytes = 1e9;
 constexpr int    most_samples = 8;
+
+/// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
+/// plane, die away to such numbers, on which a processor is seven times slower.
+class NoTinyNumbers
+{
+public:
+#ifdef __SSE2__
+  NoTinyNumbers() : before_(_mm_getcsr())
+  {
+    _mm_setcsr(before_ | flush_to_zero | denormals_are_zero);
+  }
+  ~NoTinyNumbers()
+  {
+    _mm_setcsr(before_);
+  }
+#else
+  NoTinyNumbers() = default;
+#endif
+  NoTinyNumbers(const NoTinyNumbers &)            = delete;
+  NoTinyNumbers &operator=(const NoTinyNumbers &) = delete;
+
+private:
+#ifdef __SSE2__
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  unsigned                  before_;
+#endif
+};
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts &...parts)
@@ -191,6 +221,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop)
 {
+  const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
   machine.will_read(signals);
   const MethodOptions method = with_largest_step(machine, options);
