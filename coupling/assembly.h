@@ -24,7 +24,7 @@ struct KnownStart
   std::vector<char>                           q_given, v_given; ///< [n] coordinates that keep their value
   std::vector<std::pair<std::string, double>> measures, rates;  ///< by the name of a NamedMeasure
   std::vector<std::pair<int, double>> shifts; ///< row of a driven joint, and by how much s - f(t) is not zero there
-  std::vector<KnownSpin>                      spins;            ///< those not given of a body are zero, if joints let
+  std::vector<KnownSpin>              spins;  ///< those not given of a body are zero, if joints let
 };
 
 /**

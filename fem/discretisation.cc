@@ -95,15 +95,17 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
     BlockMatrix C = assemble_stiffness(quadratic, specification.material);
     for (FrameOutput &output : support_forces(supports, C, kinematics))
       frame.outputs.push_back(std::move(output));
+    frame.B = specification.rayleigh_stiffness * kinematics.project(C);
     add_foundations(supports, &Support::stiffness, C);
     frame.C = kinematics.project(C);
   }
   {
     const BlockMatrix M = assemble_mass(quadratic, specification.material);
     frame.M             = kinematics.project(M);
+    frame.B += specification.rayleigh_mass * frame.M;
     weigh(quadratic, M, kinematics, frame);
   }
-  frame.B = kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
+  frame.B += kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
 
   const Eigen::Vector3d centre(frame.centre[0], frame.centre[1], frame.centre[2]);
   frame.rigid_motions = rigid_coordinates(quadratic, centre, constraints, kinematics, frame.interfaces);

@@ -105,6 +105,8 @@ struct FrameSpecification
   MeshOptions                            mesh;
   Material                               material;
   double                                 modal_damping_ratio = 0.;
+  double                                 rayleigh_mass = 0.; ///< alpha [1/s] of B = alpha M + beta C of the material
+  double                                 rayleigh_stiffness = 0.; ///< beta [s]
   std::map<std::string, SurfaceSelector> surfaces;
   std::vector<Support>                   supports;
   std::vector<InterfaceSpecification>    interfaces;

@@ -26,6 +26,13 @@ Placement Placement::free(const Vector3d &point, const Vector3d &centre)
   return placement;
 }
 
+Placement Placement::without(int i) const
+{
+  Placement rest = *this;
+  rest.linear_.erase(rest.linear_.begin() + i);
+  return rest;
+}
+
 Vector3d Placement::translation(int i) const
 {
   if (free_)

@@ -60,6 +60,11 @@ public:
   const Vector3d &point() const { return point_; }                                    ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
 
+  /// Whether measure i is one of those that may be left out: not the angle, nor those of a body in space.
+  bool is_linear(int i) const { return i < int(linear_.size()); }
+  /// The same place of a body without the linear measure i.
+  Placement without(int i) const;
+
   /// What measure i does to the reference point and to the directions of the body, per unit at u = 0.
   Vector3d translation(int i) const;
   Vector3d rotation(int i) const;

@@ -18,6 +18,8 @@ std::vector<AtlasEntry> failure_atlas()
           hard_contact(),
           order_at_play(),
           fixed_point_of_forces(),
+          drift_of_joints(),
+          first_multiplier_of_a_joint(),
           chatter()};
 }
 

@@ -37,6 +37,8 @@ AtlasEntry exact_force_at_contact();
 AtlasEntry hard_contact();
 AtlasEntry order_at_play();
 AtlasEntry fixed_point_of_forces();
+AtlasEntry drift_of_joints();
+AtlasEntry first_multiplier_of_a_joint();
 AtlasEntry chatter();
 
 /// All of them, in the order of the document.

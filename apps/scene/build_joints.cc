@@ -132,8 +132,10 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   }
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
-  machine.attach(joint.name, std::make_shared<IdealJoint>(pair.first, pair.second, equations.list, joint.law),
-                 pair.measures);
+  Pair felt = pair;
+  equations.leave_out_idle(felt);
+  machine.attach(joint.name, std::make_shared<IdealJoint>(felt.first, felt.second, equations.list, joint.law),
+                 felt.measures);
   if (joint.friction)
     add_joint_friction(machine, joint, pair, equations.list);
   draw_joint(machine, joint, pair);

@@ -296,4 +296,35 @@ void JointEquations::gear(double factor)
   list.push_back(equation);
 }
 
+void JointEquations::leave_out_idle(Pair &pair)
+{
+  const int         n_1 = pair.first.n_measures(), n = int(pair.measures.size());
+  std::vector<char> felt(n, 0);
+  double            u[PlacedMeasure::max_measures], G[PlacedMeasure::max_measures];
+  const double      at_rest[PlacedMeasure::max_measures] = {};
+  for (int sample = 0; sample < 3; ++sample) // in any position: what is zero in three of no order is zero everywhere
+  {
+    for (int i = 0; i < n; ++i)
+      u[i] = 0.5 * std::sin(1. + 7.3 * i + 2.1 * sample);
+    for (const IdealJoint::Equation &equation : list)
+    {
+      PlacedMeasure{pair.first, pair.second, equation.measure}.evaluate(u, at_rest, G);
+      for (int i = 0; i < n; ++i)
+        felt[i] = felt[i] || std::abs(G[i]) > immobile;
+    }
+  }
+  for (int i = n - 1; i >= 0; --i)
+  {
+    Placement &placement = i < n_1 ? pair.first : pair.second;
+    const int  own       = i < n_1 ? i : i - n_1;
+    if (felt[i] || !placement.is_linear(own))
+      continue;
+    placement = placement.without(own);
+    pair.measures.erase(pair.measures.begin() + i);
+    for (IdealJoint::Equation &equation : list)
+      if (!equation.measure.ratios.empty())
+        equation.measure.ratios.erase(equation.measure.ratios.begin() + i);
+  }
+}
+
 } // namespace gestell::apps

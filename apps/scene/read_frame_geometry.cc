@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -219,6 +220,44 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
     throw frame.error("has no interface; declare at least one [frame.interface.NAME] for the mechanism to act on");
 }
 
+/// The ratio of all modes, or Rayleigh's B = alpha M + beta C by the ratios at two frequencies:
+/// zeta = (alpha/omega + beta omega)/2.
+void read_damping(const SceneTable &damping, fem::FrameSpecification &specification)
+{
+  const auto ratio = [](const SceneTable &table)
+  {
+    const double zeta = table.not_negative("ratio", kind::number);
+    if (zeta >= 1.)
+      throw table.error("ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
+    return zeta;
+  };
+  if (!damping.has("rayleigh"))
+  {
+    specification.modal_damping_ratio = ratio(damping);
+    return;
+  }
+  if (damping.has("ratio"))
+    throw damping.error("rayleigh", "says how all modes are damped, as `ratio` does; leave out one of them");
+  const auto pairs = damping.table_array("rayleigh");
+  if (pairs.size() != 2)
+    throw damping.error("rayleigh", "has " + std::to_string(pairs.size()) +
+                                        " pairs; it needs two, [{ frequency = \"20 Hz\", ratio = 0.01 }, { ... }]");
+  double omega[2], zeta[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    omega[i] = 2. * M_PI * pairs[i].positive("frequency", kind::frequency);
+    zeta[i]  = ratio(pairs[i]);
+  }
+  if (!(omega[1] > omega[0]))
+    throw pairs[1].error("frequency", "must lie above that of the first pair");
+  const double squares             = omega[1] * omega[1] - omega[0] * omega[0];
+  specification.rayleigh_stiffness = 2. * (zeta[1] * omega[1] - zeta[0] * omega[0]) / squares;
+  specification.rayleigh_mass      = 2. * omega[0] * omega[1] * (zeta[0] * omega[1] - zeta[1] * omega[0]) / squares;
+  if (specification.rayleigh_stiffness < 0. || specification.rayleigh_mass < 0.)
+    throw damping.error("rayleigh", "would feed some vibrations instead of damping them: the two ratios differ by more "
+                                    "than their frequencies do; bring them nearer to each other");
+}
+
 } // namespace
 
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene)
@@ -235,10 +274,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   specification.unit     = frame.positive("unit", kind::length, 0.);
   specification.material = read_material(frame, scene);
   if (const auto damping = frame.optional_table("damping"))
-    specification.modal_damping_ratio = damping->not_negative("ratio", kind::number, 0.);
-  if (specification.modal_damping_ratio >= 1.)
-    throw frame.table("damping").error(
-        "ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
+    read_damping(*damping, specification);
 
   for (const auto &table : frame.tables("surface"))
     specification.surfaces[table.name()] = read_surface(table);

@@ -219,7 +219,7 @@ void read_carried_gear(const SceneTable &table, const Names &names, JointRequest
     const std::string  key    = first ? "from" : "to";
     const std::string &marker = first ? joint.from.marker : joint.to.marker;
     const BodyRequest *body   = names.find_body(marker);
-    if (!body || body->kind == coupling::BodyKind::point)
+    if (!body || body->kind == coupling::BodyKind::point || body->kind == coupling::BodyKind::rigid)
       throw table.error(key, "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
     if (marker == carrier)
       throw table.error("carrier", "is '" + carrier + "' like `" + key + "`; it must be what carries the wheels");

@@ -38,7 +38,7 @@ std::vector<NamedScalar> coordinates(const Names &names)
       add(name + ".displacement", false, name, body.axis);
     if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
       add(name, body.kind == BodyKind::rotor, name, body.axis);
-    if (body.kind == BodyKind::point || body.kind == BodyKind::planar)
+    if (body.kind != BodyKind::rotor && body.kind != BodyKind::slider)
       for (int d = 0; d < 3; ++d)
       {
         Vector3 axis{};

@@ -29,7 +29,8 @@ TEST_P(FailureAtlas, PredictedIsMeasured)
 INSTANTIATE_TEST_SUITE_P(Entries, FailureAtlas,
                          ::testing::Values(bdf3_on_a_frame, bdf_of_high_order, wilson_below_its_limit, wilson_overshoot,
                                            newmark_outside_its_limits, exact_force_at_contact, hard_contact,
-                                           order_at_play, fixed_point_of_forces, chatter));
+                                           order_at_play, fixed_point_of_forces, drift_of_joints,
+                                           first_multiplier_of_a_joint, chatter));
 
 TEST(FailureAtlas, GrowthIsMeasuredForOneRootAndForAPair)
 {

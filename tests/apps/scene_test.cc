@@ -352,13 +352,28 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
       {"radius = \"120 mm\"", "radius = \"120 kg\"", "scene.toml:7: frame.surface.\"bearing left\".cylinder.radius",
        "length"},
       {"cylinder =", "cylindre =", "scene.toml:6: frame.surface.\"bearing left\"", "'cylinder'"},
-      {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"}};
+      {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
+      {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
+      {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",
+       "damping.rayleigh", "feed"}};
   for (const auto &[piece, replacement, place, words] : cases)
   {
     const auto message = cad_complaint(piece, replacement);
     EXPECT_NE(message.find(place), std::string::npos) << replacement << ": " << message;
     EXPECT_NE(message.find(words), std::string::npos) << replacement << ": " << message;
   }
+}
+
+TEST(SceneFrame, DampingAfterRayleighHasItsTwoRatios)
+{
+  const SceneFolder folder;
+  folder.write("frame.step", "ISO-10303-21;");
+  const auto frame = apps::read_scene(folder.write("scene.toml", cad_scene("ratio = 0.02", R"(rayleigh =
+    [{ frequency = "20 Hz", ratio = 0.01 }, { frequency = "500 Hz", ratio = 0.02 }])")))
+                         .frame.geometry;
+  for (const auto &[hz, zeta] : {std::pair{20., 0.01}, {500., 0.02}})
+    EXPECT_NEAR(0.5 * (frame.rayleigh_mass / (2. * M_PI * hz) + frame.rayleigh_stiffness * 2. * M_PI * hz), zeta,
+                1e-15);
 }
 
 TEST(SceneFrame, MatricesFromFilesAreThoseWrittenInline)

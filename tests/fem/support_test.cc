@@ -53,6 +53,18 @@ TEST(Foundation, SinksByTheLoadOverItsTotalStiffness)
   EXPECT_NEAR(statics(block, Eigen::VectorXd::Unit(block.C.rows(), top))[top] * 4e8, 1., 1e-5);
 }
 
+TEST(Rayleigh, DampsInProportionToMassAndStiffnessOfTheMaterial)
+{
+  auto damped                = bar_on_springs();
+  damped.rayleigh_mass       = 3.;
+  damped.rayleigh_stiffness  = 2e-5;
+  auto floating              = bar_on_springs();
+  floating.supports          = {};
+  const auto            with = discretise(bar_mesh(), damped), without = discretise(bar_mesh(), bar_on_springs());
+  const Eigen::MatrixXd C = discretise(bar_mesh(), floating).C, B = with.B - without.B;
+  EXPECT_LT((B - 3. * Eigen::MatrixXd(with.M) - 2e-5 * C).norm(), 1e-12 * B.norm()) << "springs of the feet stay out";
+}
+
 TEST(Foundation, GivesStiffnessAndDampingOfItsTotalsToTranslations)
 {
   const auto            frame = discretise(bar_mesh(), bar_on_springs());
