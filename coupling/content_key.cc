@@ -97,7 +97,8 @@ std::string canonical(const fem::FrameSpecification &frame)
     to.add("surface", name).add("size", size);
   to.add("E", frame.material.E).add("nu", frame.material.nu).add("rho", frame.material.rho);
   to.add("zeta", frame.modal_damping_ratio);
-  to.add("alpha", frame.rayleigh_mass).add("beta", frame.rayleigh_stiffness);
+  if (frame.rayleigh_mass > 0. || frame.rayleigh_stiffness > 0.)
+    to.add("alpha", frame.rayleigh_mass).add("beta", frame.rayleigh_stiffness);
   for (const auto &[name, selector] : frame.surfaces)
   {
     to.add("surface", name);

@@ -28,7 +28,11 @@ bool is_zero(const MatrixXd &A)
 
 bool is_diagonal(const MatrixXd &A)
 {
-  return is_zero(A - MatrixXd(A.diagonal().asDiagonal()));
+  for (Eigen::Index j = 0; j < A.cols(); ++j)
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+      if (i != j && !(std::abs(A(i, j)) <= negligible * std::sqrt(std::abs(A(i, i) * A(j, j)))))
+        return false;
+  return true;
 }
 
 void require(bool condition, const std::string &message)

@@ -101,14 +101,15 @@ bool is_structure(const mechanism::ForceElement &element, const Eigen::VectorXd 
   constexpr double beside = 1e-3; // m or rad
   const auto       k      = u.size();
   Eigen::MatrixXd  K(k, k), D(k, k);
-  for (const double shift : {0., beside, -beside})
+  const auto       acts_at = [&](const Eigen::VectorXd &at)
   {
-    const Eigen::VectorXd at = u.array() + shift;
     element.engaged(at.data(), K.data(), D.data());
-    if (!K.isZero(0.) || !D.isZero(0.))
-      return true;
-  }
-  return false;
+    return !K.isZero(0.) || !D.isZero(0.);
+  };
+  bool acts = acts_at(u);
+  for (Eigen::Index i = 0; !acts && i < k; ++i) // each alone: two that move together may leave a distance as it is
+    acts = acts_at(u + beside * Eigen::VectorXd::Unit(k, i)) || acts_at(u - beside * Eigen::VectorXd::Unit(k, i));
+  return acts;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "coupling/linear_base.h"
 #include "coupling/machine.h"
+#include "mechanism/transmitted_element.h"
 
 #include <map>
 
@@ -12,7 +13,8 @@ namespace gestell::coupling
 struct Machine::Parts
 {
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
-  static constexpr int max_measures = 24; ///< per element
+  static constexpr int max_measures = ///< per element
+      mechanism::CombinedMeasure::max_measures + mechanism::TransmittedElement::max_virtual;
 
   /// Spring, damper and constant force on one measure, part of the base system.
   struct LinearElement

@@ -13,7 +13,7 @@ namespace gestell::coupling
 
 namespace
 {
-/// Share of the trace of E, at least: a body this thin cannot be told from one without thickness.
+/// Share of the largest moment that E has at least: a body this thin cannot be told from one without thickness.
 constexpr double thinnest = 1e-10;
 
 std::string listed(const Eigen::Vector3d &moments)

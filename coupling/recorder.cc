@@ -298,8 +298,8 @@ void Recorder::balance()
   const EnergyState energy = energy_.state(integrator_.instant());
   result_.energy           = {energy.input, energy.stored, energy.dissipated,
                               std::max(result_.energy.residual, std::abs(energy.residual()))};
-  turned_over_ =
-      std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated, energy.kinetic});
+  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated});
+  exchanged_   = std::max(exchanged_, energy.kinetic);
 }
 
 void Recorder::finish()
@@ -317,11 +317,13 @@ void Recorder::finish()
     look_anew(i);
   }
   const double residual = result_.energy.residual, negligible = 1e-6 * std::abs(energy_.at_begin());
-  if (residual <= std::max(0.01 * turned_over_, negligible))
+  // A motion that conserves its energy turns nothing over; what it exchanges within itself says what is little.
+  if (residual <= std::max({0.01 * turned_over_, 1e-4 * exchanged_, negligible}))
     return;
   const std::string open =
       "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";
-  if (residual <= 0.5 * turned_over_ || options_.force_unstable || !result_.failure.empty())
+  if (residual <= std::max(0.5 * turned_over_, 0.01 * exchanged_) || options_.force_unstable ||
+      !result_.failure.empty())
     result_.warnings.push_back(open + "the step is too large for this motion");
   else
     result_.failure = open + "this is no motion of the machine; take a smaller step or a method with a tolerance";

@@ -65,6 +65,7 @@ private:
   double                     row_step_ = 0., picture_step_ = 0.;
   long                       next_row_ = 0, next_picture_ = 0; ///< on their grids
   double                     turned_over_ = 0.;                ///< largest energy in the balance so far [J]
+  double                     exchanged_   = 0.; ///< kinetic energy that went to and fro between coordinates [J]
 };
 
 } // namespace gestell::coupling

@@ -1,7 +1,7 @@
 #include "coupling/swept_coordinate.h"
 
 #include "coupling/nearest_name.h"
-#include "mechanism/joints/ideal_joint.h"
+#include "mechanism/joints/constraint_element.h"
 
 #include <stdexcept>
 
@@ -11,11 +11,11 @@ namespace gestell::coupling
 namespace
 {
 
-using mechanism::IdealJoint;
+using mechanism::ConstraintElement;
 
-const IdealJoint *driven_joint(const ElementPlacement &placement)
+const ConstraintElement *driven_joint(const ElementPlacement &placement)
 {
-  const auto *joint = dynamic_cast<const IdealJoint *>(placement.element.get());
+  const auto *joint = dynamic_cast<const ConstraintElement *>(placement.element.get());
   return joint && joint->work() == mechanism::Work::input ? joint : nullptr;
 }
 
@@ -55,11 +55,13 @@ std::vector<SweptCoordinate> all_swept(const Machine &machine)
   for (std::size_t e = 0; e < machine.elements().size(); ++e)
   {
     const ElementPlacement &placement = machine.elements()[e];
-    if (driven_joint(placement))
+    if (const ConstraintElement *joint = driven_joint(placement))
     {
-      SweptCoordinate own{placement.name, "m"};
-      own.joint = int(e);
-      own.row   = row;
+      const bool      turns = joint->quantities().front().unit == "N m";
+      SweptCoordinate own{placement.name, turns ? "rad" : "m"};
+      own.full_turn = turns;
+      own.joint     = int(e);
+      own.row       = row;
       all.push_back(own);
     }
     row += placement.element->n_constraints();

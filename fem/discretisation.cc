@@ -90,22 +90,27 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, specification.material, kinematics));
 
+  Eigen::SparseMatrix<double> rayleigh(kinematics.n_coordinates(), kinematics.n_coordinates());
   // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
   {
     BlockMatrix C = assemble_stiffness(quadratic, specification.material);
     for (FrameOutput &output : support_forces(supports, C, kinematics))
       frame.outputs.push_back(std::move(output));
-    frame.B = specification.rayleigh_stiffness * kinematics.project(C);
+    if (specification.rayleigh_stiffness > 0.)
+      rayleigh += specification.rayleigh_stiffness * kinematics.project(C);
     add_foundations(supports, &Support::stiffness, C);
     frame.C = kinematics.project(C);
   }
   {
     const BlockMatrix M = assemble_mass(quadratic, specification.material);
     frame.M             = kinematics.project(M);
-    frame.B += specification.rayleigh_mass * frame.M;
+    if (specification.rayleigh_mass > 0.)
+      rayleigh += specification.rayleigh_mass * frame.M;
     weigh(quadratic, M, kinematics, frame);
   }
-  frame.B += kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
+  frame.B = kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
+  if (rayleigh.nonZeros() > 0)
+    frame.B += rayleigh;
 
   const Eigen::Vector3d centre(frame.centre[0], frame.centre[1], frame.centre[2]);
   frame.rigid_motions = rigid_coordinates(quadratic, centre, constraints, kinematics, frame.interfaces);

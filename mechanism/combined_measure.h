@@ -46,6 +46,8 @@ public:
   /// matrix += factor s''(u) [k x k, column major].
   void   add_curvature(const double *u, double factor, double *matrix, const double *history = nullptr) const;
   double size() const; ///< of the numbers whose sum s is [m or rad]
+  /// An angle that jumps by a turn where it passes 180 degrees.
+  bool wraps() const { return plain() && plain()->measure.wraps(); }
   /// The plain measure that this is, or null.
   const PlacedMeasure *plain() const;
   /// f'(x), 0 without f: -f' times the force on y acts on x.

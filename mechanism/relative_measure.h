@@ -39,6 +39,9 @@ struct RelativeMeasure
     second
   };
 
+  /// s jumps by a turn where it passes pi.
+  bool wraps() const { return form == Form::inclination || form == Form::angle; }
+
   Form                form    = Form::along;
   Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
   Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of both angles at right angles to a

@@ -62,6 +62,10 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
     return measure;
   }
   PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
+  if (type == "angle")
+    for (const char *key : {"at_from", "at_to"})
+      if (table.has(key))
+        throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
   if (from.marker == to.marker)
     throw table.error("to", "lies on '" + to.marker + "' like `from`; what is measured would never change");
   measure.unit   = type == "inclination" || type == "angle" ? "rad" : "m";
@@ -168,11 +172,22 @@ void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
 }
 
+/// Joints that count turns: a body that turns freely in space has no angle without end.
+void refuse_in_space(const SceneTable &table, const std::string &key, const std::string &marker, const Names &names)
+{
+  if (turns_freely(names, marker))
+    throw table.error(key, "'" + marker +
+                               "' is a rigid body, whose turns are not counted; put a rotor between, which a "
+                               "joint of type \"rigid\" holds to it");
+}
+
 void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   joint.from = names.place(table, "from", "at_from");
   joint.to   = names.place(table, "to", "at_to");
   check_two_places(table, joint.from, joint.to);
+  refuse_in_space(table, "from", joint.from.marker, names);
+  refuse_in_space(table, "to", joint.to.marker, names);
   const Vector3 axis  = table.direction("axis");
   const double  pitch = table.number("pitch", kind::length);
   if (pitch == 0.)
@@ -188,6 +203,7 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
   joint.from      = names.place(table, "from", "at_from");
   joint.to        = rack ? names.place(table, "to", "at_to") : names.place(table, "to", "at_to", "ground");
   check_two_places(table, joint.from, joint.to);
+  refuse_in_space(table, "to", joint.to.marker, names);
   const BodyRequest &wheel     = turning_body(table, "from", joint.from.marker, names);
   const double       radius    = table.positive("radius", kind::length);
   const Vector3      direction = table.direction("direction");
@@ -214,6 +230,7 @@ void read_prescribed(const SceneTable &table, const Names &names, JointRequest &
 void read_carried_gear(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   const std::string carrier = names.marker(table, "carrier");
+  refuse_in_space(table, "carrier", carrier, names);
   for (const bool first : {true, false})
   {
     const std::string  key    = first ? "from" : "to";

@@ -166,12 +166,31 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
                               : "there is no measure or coordinate '" + name + "'" + coupling::suggestion(name, valid));
 }
 
+/// Angles that jump by a turn are no part of a sum, nor of a function that is not the same after it.
+static void refuse_wrapping(const SceneTable &table, const std::string &key, const ScalarRequest &scalar)
+{
+  using Form = mechanism::RelativeMeasure::Form;
+  if (scalar.term.placed && (scalar.term.placed->form == Form::angle || scalar.term.placed->form == Form::inclination))
+    throw table.error(key,
+                      "the angle '" + scalar.name +
+                          "' jumps by a turn where it passes 180 degrees, which tears apart what is made of it; take "
+                          "the angle of a rotor or planar body, or, as `from`, a function with a `period` and no "
+                          "`rise`");
+}
+
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x)
 {
   x            = read_scalar(table, "from", names);
   const auto y = read_scalar(table, "to", names);
   if (table.text("from") == table.text("to"))
     throw table.error("to", "is '" + y.name + "' like `from`; a position function leads from one motion to another");
+  if (x.term.weight != 1.)
+    throw table.error("from", "'" + x.name +
+                                  "' is a multiple of another motion; name that one, and put the factor into "
+                                  "the function");
+  if (!table.has("period") || table.has("rise"))
+    refuse_wrapping(table, "from", x);
+  refuse_wrapping(table, "to", y);
   const bool     turns = x.unit == "rad";
   const Variable variable{"x", turns ? "angle" : "displacement", x.kind().dimension,
                           turns ? Counts::radians : Counts::nothing};
@@ -188,7 +207,8 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
   MeasureRequest measure;
   for (const auto &part : table.table_array("terms"))
   {
-    const auto     y      = read_scalar(part, "of", names);
+    const auto y = read_scalar(part, "of", names);
+    refuse_wrapping(part, "of", y);
     const Quantity factor = part.has("factor") ? part.quantity("factor") : Quantity{1., {}, true};
     Dimension      sum    = y.kind().dimension;
     for (std::size_t i = 0; i < sum.size(); ++i)

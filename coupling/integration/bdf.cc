@@ -51,6 +51,7 @@ void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   newest_ = 0;
   local_.p.setZero();
+  local_.lambda.setZero();
   set(t, q, v);
   implicit_.begin(past(0).u);
   begin_from(t);
@@ -64,6 +65,7 @@ void Bdf::begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vect
                                 " points v; it needs as many of both, 1 to " + std::to_string(capacity - 1));
   newest_ = 0;
   local_.p.setZero();
+  local_.lambda.setZero();
   for (int i = n - 1; i >= 0; --i)
   {
     push();

@@ -21,6 +21,9 @@ public:
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const final;
 
+  /// s(u) of the equation that follows the law; 0 if none does.
+  virtual double driven_value(const double *u) const { return (void)u, 0.; }
+
   Work work() const override { return law_ ? Work::input : Work::dissipated; }
 
   int                      n_history() const override { return law_ ? law_->n_history() : 0; }

@@ -45,8 +45,7 @@ public:
   void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
   std::string constraint_name(int i) const override { return equations_[i].name; }
 
-  /// s(u) of the equation that follows the law; 0 if none does.
-  double driven_value(const double *u) const;
+  double driven_value(const double *u) const override;
 
   /// Signals: every multiplier by the name of its equation, then "resultant": of all that are forces.
   std::vector<Quantity> quantities() const override;

@@ -16,6 +16,8 @@ void MeasureJoint::constraint(const LocalMotion &motion, const double *history, 
 {
   const auto s = measure().evaluate(motion.u, motion.v, G, of_function(motion, history)).s;
   *g           = s - parameters_.offset - prescribed(motion.t, history).value;
+  if (measure().wraps()) // the angle tells no turns, its law may
+    *g = std::remainder(*g, 2. * M_PI);
 }
 
 void MeasureJoint::constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const
@@ -24,6 +26,13 @@ void MeasureJoint::constraint_rates(const LocalMotion &motion, const double *his
   const auto f = prescribed(motion.t, history);
   *rate        = -f.rate;
   *bias        = measure().evaluate(motion.u, motion.v, G, of_function(motion, history)).bias - f.acceleration;
+}
+
+double MeasureJoint::driven_value(const double *u) const
+{
+  const double at_rest[CombinedMeasure::max_measures] = {};
+  double       G[CombinedMeasure::max_measures];
+  return measure().evaluate(u, at_rest, G).s;
 }
 
 double MeasureJoint::constraint_size() const

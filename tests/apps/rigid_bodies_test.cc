@@ -258,7 +258,7 @@ double torsion_error(double step)
   const auto motion = run("[body.top]\ntype = \"rigid\"\nmass = 1\ninertia = [0.4, 0.3, 0.5]\nposition = [0.1, 0, 0]\n"
                           "[joint.hinge]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"top\"\nat = [0.1, 0, 0]\n"
                           "axis = [0, 0, 1]\n[measure.twist]\ntype = \"angle\"\nfrom = \"top\"\nto = \"ground\"\n"
-                          "axis = [0, 0, 1]\n[element.spring]\ntype = \"cubic spring\"\non = \"twist\"\n"
+                          "about = [0, 0, 1]\n[element.spring]\ntype = \"cubic spring\"\non = \"twist\"\n"
                           "stiffness = 8\ncubic = 0\n[start]\nq = { \"top.rz\" = \"120 deg\" }\n" +
                           settings(step, 2.));
   EXPECT_EQ(motion.result.failure, "");

@@ -48,7 +48,7 @@ void read_journal_bearing(const SceneTable &table, const Names &names, Scene &sc
   bearing.exponent    = contact.exponent;
   bearing.friction    = read_sliding_friction(table);
   bearing.radius      = table.positive("radius", kind::length, 0.);
-  if (bearing.friction.kinetic > 0. && bearing.radius == 0.)
+  if ((bearing.friction.kinetic > 0. || bearing.friction.static_coefficient > 0.) && bearing.radius == 0.)
     throw table.error("needs 'radius' of the journal: its surface slides with radius times the speed of rotation");
   ElementRequest element;
   element.name    = table.name();
