@@ -191,7 +191,7 @@ signals = { phi = "arm.angle", F = "cylinder.force", Z = "hinge.fz", X = "hinge.
 TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
 {
   expect_complaint(slider(1., "1 s") + cylinder(""), "'flow'");
-  expect_complaint(slider(1., "1 s") + cylinder("valve = 2\nrated_flow = \"1 l/s\"\n"), "rated_drop");
+  expect_complaint(slider(1., "1 s") + cylinder("valve = 2\nrated_flow = \"1 cm^3/s\"\n"), "rated_drop");
   expect_complaint(slider(1., "1 s") + cylinder("valve = 2\nrated_flow = \"1 cm^3/s\"\nrated_drop = \"1 bar\"\n"
                                                 "supply_pressure = \"9 bar\"\n"),
                    "opening of the valve = 2");

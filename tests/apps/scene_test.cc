@@ -368,9 +368,9 @@ TEST(SceneFrame, DampingAfterRayleighHasItsTwoRatios)
 {
   const SceneFolder folder;
   folder.write("frame.step", "ISO-10303-21;");
-  const auto frame = apps::read_scene(folder.write("scene.toml", cad_scene("ratio = 0.02", R"(rayleigh =
-    [{ frequency = "20 Hz", ratio = 0.01 }, { frequency = "500 Hz", ratio = 0.02 }])")))
-                         .frame.geometry;
+  const auto text  = cad_scene("ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, "
+                                                "{ frequency = \"500 Hz\", ratio = 0.02 }]");
+  const auto frame = apps::read_scene(folder.write("scene.toml", text)).frame.geometry;
   for (const auto &[hz, zeta] : {std::pair{20., 0.01}, {500., 0.02}})
     EXPECT_NEAR(0.5 * (frame.rayleigh_mass / (2. * M_PI * hz) + frame.rayleigh_stiffness * 2. * M_PI * hz), zeta,
                 1e-15);

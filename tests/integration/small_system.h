@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <functional>
 
 namespace gestell::tests
@@ -74,6 +75,19 @@ public:
     law(state.u[0], state.v[0], p[0], dp_du, dp_dv);
     dp(0, 0) = w_u * dp_du + w_v * dp_dv;
   }
+  /// One block of all measures, in a matrix that is kept: steps are watched for what they take from the heap.
+  void local_tangent_blocks(const coupling::LocalState &state, double w_u, double w_v, double w_a, Vector &p,
+                            Vector &blocks) const override
+  {
+    tangent_.setZero(W.cols(), W.cols());
+    local_tangent(state, w_u, w_v, w_a, p, tangent_);
+    for (const coupling::HeldMeasure &h : held())
+    {
+      tangent_.row(h.measure).setZero();
+      tangent_.col(h.measure).setZero();
+    }
+    std::copy_n(tangent_.data(), tangent_.size(), blocks.data());
+  }
   void local_derivatives(const coupling::LocalState &state, Vector &p, Matrix &dp_du, Matrix &dp_dv) const override
   {
     if (law)
@@ -117,6 +131,7 @@ public:
 
 private:
   coupling::Excitation excitation_;
+  mutable Matrix       tangent_;
 };
 
 } // namespace gestell::tests
