@@ -26,11 +26,13 @@ bool is_zero(const MatrixXd &A)
   return A.size() == 0 || A.cwiseAbs().maxCoeff() == 0.;
 }
 
+/// But for what rounding of the modes leaves where theory has zeros, as of damping after Rayleigh.
 bool is_diagonal(const MatrixXd &A)
 {
+  constexpr double rounding = 1e-10; // of modes that are found to some 1e-12
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     for (Eigen::Index i = 0; i < A.rows(); ++i)
-      if (i != j && !(std::abs(A(i, j)) <= negligible * std::sqrt(std::abs(A(i, i) * A(j, j)))))
+      if (i != j && !(std::abs(A(i, j)) <= rounding * std::sqrt(std::abs(A(i, i) * A(j, j)))))
         return false;
   return true;
 }

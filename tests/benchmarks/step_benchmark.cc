@@ -44,11 +44,35 @@ void bdf2_steps(benchmark::State &state, const char *scene_file, const std::vect
   state.counters["coordinates"] = machine.size();
   state.counters["newton/step"] = double(bdf.work().newton) / double(bdf.work().steps);
 }
-// Whole runs of the scenes: 45 000 steps each.
+
+/// What Newton asks of the elements of the press once per iteration: forces and exact tangents, the rod's chain closed.
+void press_elements(benchmark::State &state)
+{
+  const apps::Scene  scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {});
+  apps::ProgressLine progress(true);
+  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
+  const auto            initial  = apps::prepare_start(scene, prepared);
+  coupling::Machine    &machine  = prepared.machine;
+  coupling::LocalState  local;
+  machine.gather(0., initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
+  machine.start(local);
+  Eigen::VectorXd tangent = Eigen::VectorXd::Zero(coupling::tangent_size(machine.force_blocks()));
+  for (auto _ : state)
+  {
+    machine.local_tangent_blocks(local, 1., 1e5, 1e10, local.p, tangent);
+    benchmark::DoNotOptimize(tangent.data());
+  }
+}
+BENCHMARK(press_elements);
+
+// Whole runs of the scenes: 45 000 steps each, 20 000 of the portal.
 BENCHMARK_CAPTURE(bdf2_steps, press_minimal, "press_minimal.toml", {})->Iterations(180000);
 #ifdef GESTELL_WITH_FEM
 BENCHMARK_CAPTURE(bdf2_steps, press_reduced, "press.toml", {})->Iterations(180000);
 BENCHMARK_CAPTURE(bdf2_steps, press_40_modes, "press.toml", {"reduction.modes=40"})->Iterations(180000);
+BENCHMARK_CAPTURE(bdf2_steps, portal_20, "portal_slider_crank.toml", {"reduction.modes=20"})->Iterations(200000);
+BENCHMARK_CAPTURE(bdf2_steps, portal_50, "portal_slider_crank.toml", {"reduction.modes=50"})->Iterations(200000);
+BENCHMARK_CAPTURE(bdf2_steps, portal_200, "portal_slider_crank.toml", {"reduction.modes=200"})->Iterations(200000);
 #endif
 
 } // namespace
