@@ -209,6 +209,26 @@ TEST(PinFriction, TakesTheSameFromEveryHalfSwing)
   EXPECT_NEAR(motion.signal("N").final, 2. * 9.81, 1e-2);
 }
 
+TEST(PinFriction, OfABodyInSpaceIsThatOfOneInAPlane)
+{
+  const std::string plane = with(with(pendulum, "signals = { angle = \"bar.angle\",", "signals = { x = \"bar.ux\","),
+                                 "coefficient = 0.01, radius = \"10 mm\", speed = \"0.1 um/s\"",
+                                 "coefficient = 0.1, radius = \"30 mm\", speed = \"1 mm/s\"");
+  const std::string given = "normal = [0, 1, 0]\nmass = \"2 kg\"\ninertia = \"0.05 kg m^2\"";
+  std::string       space =
+      with(with(plane, "\"planar\"", "\"rigid\""), given, "mass = \"2 kg\"\ninertia = [0.05, 0.05, 0.01]");
+  space = with(with(space, "at = [0, 0, 0]\n", "at = [0, 0, 0]\naxis = [0, 1, 0]\n"), "\"bar.angle\" = 0.02",
+               "\"bar.ry\" = 0.6");
+  const std::vector<std::string> fine{"run.step=0.2 ms", "run.end=1 s"};
+  const SceneRun                 in_plane = run(with(plane, "\"bar.angle\" = 0.02", "\"bar.angle\" = 0.6"), fine),
+                 in_space                 = run(space, fine);
+  ASSERT_EQ(in_space.result.failure, "");
+  // Angle and directors have errors of their own, of h^2: 4e-8 s^2 times x'' = 4 m/s^2 and the square of the frequency.
+  EXPECT_NEAR(in_space.signal("x").final, in_plane.signal("x").final, 1e-5);
+  EXPECT_NEAR(in_space.signal("M").max, in_plane.signal("M").max, 1e-4 * in_plane.signal("M").max);
+  EXPECT_GT(in_plane.signal("M").max, 0.05);
+}
+
 /// A slider-crank with friction in its pins and its guide, driven by its own speed.
 const std::string slider_crank = R"toml(
 [body.crank]

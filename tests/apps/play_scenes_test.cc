@@ -247,6 +247,24 @@ restitution = 0.5
 impact_speed = "0.1 m/s"
 )toml";
 
+TEST(Journal, OfABodyInSpaceIsThatOfOneInAPlane)
+{
+  const std::string journal =
+      with(journal_pin, "radius", "friction = { coefficient = 0.2, speed = \"5 mm/s\" }\nradius");
+  const std::string in_plane =
+      with(pendulum, "angle = \"bar.angle\"", "x = \"bar.ux\", z = \"bar.uz\", F = \"pin.force\"") + journal;
+  const std::string in_space =
+      with(with(in_plane, "\"planar\"\nnormal = [0, 1, 0]", "\"rigid\""), "\"0.05 kg m^2\"", "[0.05, 0.05, 0.03]");
+  const std::vector<std::string> first_contacts{"run.step=10 us", "run.end=40 ms"};
+  const SceneRun                 plane = run(in_plane, first_contacts), space = run(in_space, first_contacts);
+  ASSERT_EQ(space.result.failure, "");
+  EXPECT_GT(plane.signal("F").max, 20.);
+  // Both have errors of h^2 of their own: of a blow that lasts 2 ms, (2 pi h/2 ms)^2 = 1e-3.
+  EXPECT_NEAR(space.signal("F").max, plane.signal("F").max, 1e-3 * plane.signal("F").max);
+  for (const char *signal : {"x", "z"})
+    EXPECT_NEAR(space.signal(signal).final, plane.signal(signal).final, 1e-3 * std::abs(plane.signal("z").final));
+}
+
 // It falls through the play and hangs then: what differs is the play itself, and falls with it.
 TEST(Journal, BecomesAnIdealRevoluteJointAsThePlayVanishes)
 {
