@@ -269,6 +269,21 @@ double torsion_error(double step)
   return error;
 }
 
+// The measure tells no turns, the law that drives it goes on: 9 rad are 9 - 2 pi on it.
+TEST(RigidBody, IsDrivenThroughManyTurnsByAnAngleThatTellsNone)
+{
+  const auto motion =
+      run("[body.top]\ntype = \"rigid\"\nmass = 1\ninertia = [0.4, 0.3, 0.5]\nposition = [0.1, 0, 0]\n"
+          "[joint.hinge]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"top\"\nat = [0.1, 0, 0]\naxis = [0, 0, 1]\n"
+          "[measure.twist]\ntype = \"angle\"\nfrom = \"top\"\nto = \"ground\"\nabout = [0, 0, 1]\n"
+          "[joint.drive]\ntype = \"prescribed motion\"\non = \"twist\"\nmotion = { speed = \"3 rad/s\" }\n"
+          "[start]\nv = { \"top.wz\" = 3 }\n" +
+          settings(1e-3, 3.));
+  EXPECT_EQ(motion.result.failure, "");
+  const std::size_t last = motion.n_rows() - 1;
+  EXPECT_NEAR(triple(motion, last, rotation)[2], 9. - 2. * M_PI, 1e-9);
+}
+
 TEST(RigidBody, ATorsionSpringActsOnTheAngleBetweenBodies)
 {
   const double coarse = torsion_error(2e-3), fine = torsion_error(1e-3);
