@@ -85,19 +85,21 @@ TEST_P(QuantityOf, HasTheValueAndDimensionAnEngineerMeans)
 
 INSTANTIATE_TEST_SUITE_P(
     Units, QuantityOf,
-    ::testing::Values(
-        Reading{"40 mm", 0.04, {1, 0, 0}}, Reading{"40mm", 0.04, {1, 0, 0}}, Reading{"2.5 cm", 0.025, {1, 0, 0}},
-        Reading{"30 um", 30e-6, {1, 0, 0}}, Reading{"30 µm", 30e-6, {1, 0, 0}}, Reading{"1e-3 m", 1e-3, {1, 0, 0}},
-        Reading{"10 us", 1e-5, {0, 0, 1}}, Reading{"2 min", 120., {0, 0, 1}}, Reading{"3 t", 3000., {0, 1, 0}},
-        Reading{"1200 kN/mm", 1.2e9, {0, 1, -2}}, Reading{"600 kN s/m", 6e5, {0, 1, -1}},
-        Reading{"600 kN*s/m", 6e5, {0, 1, -1}}, Reading{"600 kN·s/m", 6e5, {0, 1, -1}},
-        Reading{"250 kg m^2", 250., {2, 1, 0}}, Reading{"250 kg m²", 250., {2, 1, 0}},
-        Reading{"250 kg*m^2", 250., {2, 1, 0}}, Reading{"1300 kN m/rad", 1.3e6, {2, 1, -2}},
-        Reading{"3 kN m s/rad", 3000., {2, 1, -1}}, Reading{"240 Nm", 240., {2, 1, -2}},
-        Reading{"9.81 m/s^2", 9.81, {1, 0, -2}}, Reading{"9.81 m s^-2", 9.81, {1, 0, -2}},
-        Reading{"9.81 m/s/s", 9.81, {1, 0, -2}}, Reading{"7850 kg/m^3", 7850., {-3, 1, 0}},
-        Reading{"210 GPa", 210e9, {-1, 1, -2}}, Reading{"15 kW", 15e3, {2, 1, -3}}, Reading{"200 Hz", 200., {0, 0, -1}},
-        Reading{"5 1/s", 5., {0, 0, -1}}, Reading{"10 N/(m s)", 10., {0, 1, -3}}, Reading{"2 %", 0.02, {0, 0, 0}}));
+    ::testing::Values(Reading{"40 mm", 0.04, {1, 0, 0}}, Reading{"60 l/min", 1e-3, {3, 0, -1}},
+                      Reading{"40mm", 0.04, {1, 0, 0}}, Reading{"2.5 cm", 0.025, {1, 0, 0}},
+                      Reading{"30 um", 30e-6, {1, 0, 0}}, Reading{"30 µm", 30e-6, {1, 0, 0}},
+                      Reading{"1e-3 m", 1e-3, {1, 0, 0}}, Reading{"10 us", 1e-5, {0, 0, 1}},
+                      Reading{"2 min", 120., {0, 0, 1}}, Reading{"3 t", 3000., {0, 1, 0}},
+                      Reading{"1200 kN/mm", 1.2e9, {0, 1, -2}}, Reading{"600 kN s/m", 6e5, {0, 1, -1}},
+                      Reading{"600 kN*s/m", 6e5, {0, 1, -1}}, Reading{"600 kN·s/m", 6e5, {0, 1, -1}},
+                      Reading{"250 kg m^2", 250., {2, 1, 0}}, Reading{"250 kg m²", 250., {2, 1, 0}},
+                      Reading{"250 kg*m^2", 250., {2, 1, 0}}, Reading{"1300 kN m/rad", 1.3e6, {2, 1, -2}},
+                      Reading{"3 kN m s/rad", 3000., {2, 1, -1}}, Reading{"240 Nm", 240., {2, 1, -2}},
+                      Reading{"9.81 m/s^2", 9.81, {1, 0, -2}}, Reading{"9.81 m s^-2", 9.81, {1, 0, -2}},
+                      Reading{"9.81 m/s/s", 9.81, {1, 0, -2}}, Reading{"7850 kg/m^3", 7850., {-3, 1, 0}},
+                      Reading{"210 GPa", 210e9, {-1, 1, -2}}, Reading{"15 kW", 15e3, {2, 1, -3}},
+                      Reading{"200 Hz", 200., {0, 0, -1}}, Reading{"5 1/s", 5., {0, 0, -1}},
+                      Reading{"10 N/(m s)", 10., {0, 1, -3}}, Reading{"2 %", 0.02, {0, 0, 0}}));
 
 constexpr double pi = 3.14159265358979323846;
 INSTANTIATE_TEST_SUITE_P(Angles, QuantityOf,
