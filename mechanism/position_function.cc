@@ -33,10 +33,14 @@ PositionFunction::PositionFunction(const Formula &formula, const std::optional<P
 /// Both ends of the period, a little inside, so that kinks that lie just there are on the side of the period.
 void PositionFunction::check_closure() const
 {
-  const double      inside = 1e-12 * period_->length, first = period_->begin, last = first + period_->length;
-  const auto        a = at(first + inside), b = at(last - inside);
-  const double      scale = std::max({std::abs(a.value), std::abs(b.value), std::abs(period_->rise),
-                                      std::abs(a.first) * period_->length, std::abs(b.first) * period_->length});
+  const double inside = 1e-12 * period_->length, first = period_->begin, last = first + period_->length;
+  const auto   a = at(first + inside), b = at(last - inside);
+  double       scale = std::abs(period_->rise);
+  for (int i = 0; i <= 32; ++i) // where the ends are flat and zero, rounding is that of what lies between
+  {
+    const auto between = at(first + inside + i / 32. * (period_->length - 2. * inside));
+    scale              = std::max({scale, std::abs(between.value), std::abs(between.first) * period_->length});
+  }
   const std::string name = "position function", out = "; close it, or give another 'rise', 'period' or 'begin'";
   const auto        compare = [&](const std::string &what, double here, double there, double unit)
   {
