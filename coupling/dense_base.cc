@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -96,69 +97,154 @@ private:
   MatrixXd A_inverse_;
 };
 
-bool is_ascending(const std::vector<int> &order)
+/// to = of x at the places of `which`, one behind the other.
+void gather(const VectorXd &x, const std::vector<int> &which, VectorXd &to)
 {
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (order[i] != int(i))
-      return false;
-  return true;
+  for (std::size_t i = 0; i < which.size(); ++i)
+    to[Eigen::Index(i)] = x[which[i]];
+}
+
+void scatter(const VectorXd &from, const std::vector<int> &which, VectorXd &x)
+{
+  for (std::size_t i = 0; i < which.size(); ++i)
+    x[which[i]] = from[Eigen::Index(i)];
 }
 
 /// (5.5.3/4-7) for a diagonal A_LL:  G = A_LL^-1 A_LN,  q_N = A_red^-1 (f_N - G^T f_L),  q_L = A_LL^-1 f_L - G q_N.
 class CondensedSolver final : public LinearSolver
 {
 public:
-  CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const std::vector<int> &order)
-      : order_(order), sorted_(is_ascending(order)), inverse_LL_(A_LL.cwiseInverse()),
-        G_(inverse_LL_.asDiagonal() * A_LN), A_red_inverse_(inverse(A_NN - A_LN.transpose() * G_, order)),
-        f_(order.size()), x_(order.size()), f_N_(A_NN.rows())
+  /// @param A_LN, M_LN  their first columns, up to the last one in either that is not zero [n_L x k]
+  CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const MatrixXd &M_NN,
+                  const MatrixXd &M_LN, const ModalRange &L, const std::vector<int> &N)
+      : L_(L), N_(N), inverse_LL_(A_LL.cwiseInverse()), M_LN_(M_LN), k_(A_LN.cols())
   {
+    const MatrixXd G    = inverse_LL_.asDiagonal() * A_LN;
+    MatrixXd       A    = A_NN;
+    MatrixXd       of_h = M_NN;
+    A.topLeftCorner(k_, k_) -= A_LN.transpose() * G;
+    of_h.topLeftCorner(k_, k_) -= G.transpose() * M_LN;
+    A_red_inverse_ = inverse(A, N);
+    of_h_          = A_red_inverse_ * of_h;
+    if (!find_multiple(A_LN, M_LN))
+      A_LN_ = A_LN;
+    for (VectorXd *x : {&x_N_, &h_N_, &f_N_})
+      x->setZero(A_NN.rows());
+    part_N_.setZero(k_);
+    x_L_.setZero(L.n);
   }
 
   void solve(const VectorXd &f, VectorXd &x) const override
   {
-    if (sorted_)
-      return solve_sorted(f, x);
-    for (Eigen::Index i = 0; i < f_.size(); ++i)
-      f_(i) = f(order_[i]);
-    solve_sorted(f_, x_);
-    for (Eigen::Index i = 0; i < x_.size(); ++i)
-      x(order_[i]) = x_(i);
+    const auto f_L = f.segment(L_.first, L_.n);
+    gather(f, N_, f_N_);
+    x_L_ = inverse_LL_.cwiseProduct(f_L);
+    subtract_A_NL_times(x_L_, f_N_);
+    x_N_.noalias() = A_red_inverse_ * f_N_;
+    scatter(x_N_, N_, x);
+    x.segment(L_.first, L_.n) = f_L;
+    subtract_A_LN_times(x_N_, x);
+    x.segment(L_.first, L_.n).array() *= inverse_LL_.array();
+  }
+
+  const std::vector<int> &leading() const override { return N_; }
+
+  void solve_leading(const VectorXd &h, const VectorXd &f, VectorXd &x) const override
+  {
+    const auto h_L = h.segment(L_.first, L_.n), f_L = f.segment(L_.first, L_.n);
+    gather(h, N_, h_N_);
+    gather(f, N_, f_N_);
+    if (is_multiple_)
+    {
+      x_L_ = h_L - multiple_ * inverse_LL_.cwiseProduct(h_L + f_L);
+      f_N_.head(k_).noalias() += M_LN_.transpose() * x_L_;
+    }
+    else
+    {
+      f_N_.head(k_).noalias() += M_LN_.transpose() * h_L;
+      x_L_ = inverse_LL_.cwiseProduct(h_L + f_L);
+      subtract_A_NL_times(x_L_, f_N_);
+    }
+    x_N_.noalias() = of_h_ * h_N_;
+    x_N_.noalias() += A_red_inverse_ * f_N_;
+    scatter(x_N_, N_, x);
+  }
+
+  void solve_following(const VectorXd &h, const VectorXd &f, VectorXd &x) const override
+  {
+    auto x_L = x.segment(L_.first, L_.n);
+    gather(h, N_, h_N_);
+    gather(x, N_, x_N_);
+    x_L = h.segment(L_.first, L_.n) + f.segment(L_.first, L_.n);
+    if (is_multiple_)
+      part_N_ = h_N_.head(k_) - multiple_ * x_N_.head(k_);
+    else
+    {
+      part_N_ = h_N_.head(k_);
+      x_L.noalias() -= A_LN_ * x_N_.head(k_);
+    }
+    x_L.noalias() += M_LN_ * part_N_;
+    x_L.array() *= inverse_LL_.array();
   }
 
 private:
-  void solve_sorted(const VectorXd &f, VectorXd &x) const
+  /// A_LN = multiple M_LN
+  bool find_multiple(const MatrixXd &A_LN, const MatrixXd &M_LN)
   {
-    const auto n_N = f_N_.size(), n_L = inverse_LL_.size();
-    f_N_ = f.head(n_N);
-    f_N_.noalias() -= G_.transpose() * f.tail(n_L);
-    x.head(n_N).noalias() = A_red_inverse_ * f_N_;
-    x.tail(n_L)           = inverse_LL_.cwiseProduct(f.tail(n_L));
-    x.tail(n_L).noalias() -= G_ * x.head(n_N);
+    const double square = M_LN.squaredNorm();
+    multiple_           = square > 0. ? A_LN.cwiseProduct(M_LN).sum() / square : 0.;
+    is_multiple_        = (A_LN - multiple_ * M_LN).norm() <= negligible * A_LN.norm();
+    return is_multiple_;
   }
 
-  std::vector<int> order_;  // N, then L
-  bool             sorted_; // in the order of the coordinates
+  /// f_N -= A_NL y
+  void subtract_A_NL_times(const VectorXd &y, VectorXd &f_N) const
+  {
+    if (is_multiple_)
+      f_N.head(k_).noalias() -= multiple_ * (M_LN_.transpose() * y);
+    else
+      f_N.head(k_).noalias() -= A_LN_.transpose() * y;
+  }
+
+  /// x_L -= A_LN x_N
+  void subtract_A_LN_times(const VectorXd &x_N, VectorXd &x) const
+  {
+    if (is_multiple_)
+      x.segment(L_.first, L_.n).noalias() -= multiple_ * (M_LN_ * x_N.head(k_));
+    else
+      x.segment(L_.first, L_.n).noalias() -= A_LN_ * x_N.head(k_);
+  }
+
+  ModalRange       L_;
+  std::vector<int> N_;
   VectorXd         inverse_LL_;
-  MatrixXd         G_, A_red_inverse_;
-  mutable VectorXd f_, x_, f_N_;
+  MatrixXd         M_LN_, A_LN_; ///< A_LN is empty where it is a multiple of M_LN
+  Eigen::Index     k_;
+  double           multiple_    = 0.;
+  bool             is_multiple_ = false;
+  MatrixXd         A_red_inverse_, of_h_; ///< A_red^-1 (M_NN - G^T M_LN)
+  mutable VectorXd x_N_, h_N_, f_N_, part_N_, x_L_;
 };
 
-std::vector<int> rest_then_modal(int n, const std::vector<int> &L)
+std::vector<int> all_but(int n, const ModalRange &L)
 {
-  std::vector<char> modal(n, 0);
-  for (const int i : L)
-  {
-    require(i >= 0 && i < n, "modal coordinate " + std::to_string(i) + " lies outside 0.." + std::to_string(n - 1));
-    require(!modal[i], "modal coordinate " + std::to_string(i) + " is named twice");
-    modal[i] = 1;
-  }
-  std::vector<int> order;
+  require(L.first >= 0 && L.n >= 0 && L.first + L.n <= n, "the modal coordinates " + std::to_string(L.first) + ".." +
+                                                              std::to_string(L.first + L.n - 1) + " lie outside 0.." +
+                                                              std::to_string(n - 1));
+  std::vector<int> rest;
   for (int i = 0; i < n; ++i)
-    if (!modal[i])
-      order.push_back(i);
-  order.insert(order.end(), L.begin(), L.end());
-  return order;
+    if (i < L.first || i >= L.first + L.n)
+      rest.push_back(i);
+  return rest;
+}
+
+/// Number of first columns that hold all which is not zero.
+Eigen::Index last_column(const MatrixXd &A)
+{
+  Eigen::Index k = A.cols();
+  while (k > 0 && is_zero(A.col(k - 1)))
+    --k;
+  return k;
 }
 
 void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
@@ -172,11 +258,9 @@ void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
 
 } // namespace
 
-DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const std::vector<int> &modal_coordinates)
-    : M_(M), B_(B), C_(C), order_(rest_then_modal(int(M.rows()), modal_coordinates)), sorted_(is_ascending(order_)),
-      n_N_(int(M.rows() - modal_coordinates.size())), x_(M.rows()), y_(M.rows())
+DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const ModalRange &modal)
+    : M_(M), B_(B), C_(C), L_(modal), N_(all_but(int(M.rows()), modal)), x_N_(N_.size()), y_N_(N_.size())
 {
-  const auto n_L = Eigen::Index(modal_coordinates.size());
   require(M.rows() > 0, "there are no coordinates");
   require_symmetric(M, "M", M.rows());
   require_symmetric(B, "B", M.rows());
@@ -184,7 +268,7 @@ DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
   mass_      = blocks_of(M);
   damping_   = blocks_of(B);
   stiffness_ = blocks_of(C);
-  require(mass_.LL.size() == 0 && (mass_.diagonal - VectorXd::Ones(n_L)).cwiseAbs().sum() <= negligible * n_L,
+  require(mass_.LL.size() == 0 && (mass_.diagonal - VectorXd::Ones(L_.n)).cwiseAbs().sum() <= negligible * L_.n,
           "the modal block of M must be the unit matrix");
   require(stiffness_.LL.size() == 0 && stiffness_.LN.size() == 0,
           "the modal block of C must be diagonal and uncoupled from the rest");
@@ -192,8 +276,8 @@ DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
 
 DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 {
-  const std::vector<int> N(order_.begin(), order_.begin() + n_N_), L(order_.begin() + n_N_, order_.end());
-  Blocks                 blocks{A(N, N), A(L, N), A(L, L).diagonal(), A(L, L)};
+  const auto LL = A.block(L_.first, L_.first, L_.n, L_.n);
+  Blocks     blocks{A(N_, N_), A.middleRows(L_.first, L_.n)(Eigen::all, N_), LL.diagonal(), LL};
   if (is_zero(blocks.LN))
     blocks.LN.resize(0, 0);
   if (is_diagonal(blocks.LL))
@@ -203,31 +287,20 @@ DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 
 void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
 {
-  if (sorted_)
-    return multiply_sorted(A, x, y);
-  for (Eigen::Index i = 0; i < x_.size(); ++i)
-    x_(i) = x(order_[i]);
-  multiply_sorted(A, x_, y_);
-  for (Eigen::Index i = 0; i < y_.size(); ++i)
-    y(order_[i]) = y_(i);
-}
-
-void DenseBase::multiply_sorted(const Blocks &A, const VectorXd &x, VectorXd &y) const
-{
-  const auto n_L = x.size() - n_N_;
-  const auto x_N = x.head(n_N_), x_L = x.tail(n_L);
-  auto       y_N = y.head(n_N_), y_L = y.tail(n_L);
-
-  y_N.noalias() = A.NN * x_N;
+  const auto x_L = x.segment(L_.first, L_.n);
+  auto       y_L = y.segment(L_.first, L_.n);
+  gather(x, N_, x_N_);
+  y_N_.noalias() = A.NN * x_N_;
   if (A.LL.size() > 0)
     y_L.noalias() = A.LL * x_L;
   else
     y_L = A.diagonal.cwiseProduct(x_L);
   if (A.LN.size() > 0)
   {
-    y_N.noalias() += A.LN.transpose() * x_L;
-    y_L.noalias() += A.LN * x_N;
+    y_N_.noalias() += A.LN.transpose() * x_L;
+    y_L.noalias() += A.LN * x_N_;
   }
+  scatter(y_N_, N_, y);
 }
 
 void DenseBase::mass_times(const VectorXd &x, VectorXd &y) const
@@ -247,14 +320,12 @@ void DenseBase::stiffness_times(const VectorXd &x, VectorXd &y) const
 
 std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, double w_C) const
 {
-  const auto n_L = Eigen::Index(order_.size()) - n_N_;
   require(std::isfinite(w_M) && std::isfinite(w_B) && std::isfinite(w_C),
           "the weights of the time step are no finite numbers");
-  if (n_L == 0 || (w_B != 0. && damping_.LL.size() > 0))
+  if (L_.n == 0 || (w_B != 0. && damping_.LL.size() > 0))
   {
-    std::vector<int> all(order_.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i] = int(i);
+    std::vector<int> all(M_.rows());
+    std::iota(all.begin(), all.end(), 0);
     const MatrixXd A = w_M * M_ + w_B * B_ + w_C * C_;
     require(A.allFinite(), "the matrix of the time step overflows");
     return std::make_unique<InverseSolver>(inverse(A, all));
@@ -262,16 +333,16 @@ std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, doubl
   // By blocks: the whole of A is mostly zeros, and integrators that change their step ask often.
   const MatrixXd NN       = w_M * mass_.NN + w_B * damping_.NN + w_C * stiffness_.NN;
   const VectorXd diagonal = w_M * mass_.diagonal + w_B * damping_.diagonal + w_C * stiffness_.diagonal;
-  MatrixXd       LN       = MatrixXd::Zero(n_L, n_N_);
-  if (mass_.LN.size() > 0)
-    LN += w_M * mass_.LN;
+  const auto     k        = std::max(last_column(mass_.LN), last_column(damping_.LN));
+  const MatrixXd of_mass  = mass_.LN.size() > 0 ? MatrixXd(mass_.LN.leftCols(k)) : MatrixXd::Zero(L_.n, k);
+  MatrixXd       LN       = w_M * of_mass;
   if (damping_.LN.size() > 0)
-    LN += w_B * damping_.LN;
+    LN += w_B * damping_.LN.leftCols(k);
   require(NN.allFinite() && LN.allFinite() && diagonal.allFinite(), "the matrix of the time step overflows");
-  for (Eigen::Index i = 0; i < n_L; ++i)
+  for (Eigen::Index i = 0; i < L_.n; ++i)
     if (diagonal(i) == 0.)
-      refuse_singular(order_[n_N_ + i]);
-  return std::make_unique<CondensedSolver>(NN, LN, diagonal, order_);
+      refuse_singular(L_.first + int(i));
+  return std::make_unique<CondensedSolver>(NN, LN, diagonal, mass_.NN, of_mass, L_, N_);
 }
 
 std::vector<SpectrumLine> DenseBase::spectrum() const

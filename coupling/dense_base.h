@@ -4,11 +4,16 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <vector>
 
 namespace gestell::coupling
 {
+
+/// The modal coordinates L of a base system: n of them, one behind the other.
+struct ModalRange
+{
+  int first = 0, n = 0;
+};
 
 /**
  * Small dense base system, with the structure that Craig-Bampton coordinates have.  With L the modal coordinates, N the
@@ -19,7 +24,10 @@ namespace gestell::coupling
  *
  * Multiplications leave out the zeros.  factorise() condenses L (5.5.3/1-7) where B_LL is diagonal:
  *
- *     q_N = A_red^-1 (f_N - A_NL A_LL^-1 f_L),     q_L = A_LL^-1 (f_L - A_LN q_N).
+ *     q_N = A_red^-1 (f_N - A_NL A_LL^-1 f_L),     q_L = A_LL^-1 (f_L - A_LN q_N);
+ *
+ * N leads then (LinearSolver), and for loads M h + f of a step one pass over M_LN does for each of the two where A_LN
+ * is a multiple of it, as without damping of q_N against q_L or with Rayleigh's.
  *
  * Where modal damping of the supported frame fills B_LL, the inverse of the whole A is kept, which for some sixty
  * coordinates multiplies faster than two triangles are solved.  A is scaled to unit diagonal before it is inverted, so
@@ -30,13 +38,11 @@ namespace gestell::coupling
 class DenseBase : public LinearBase
 {
 public:
-  /// @param M, B, C            symmetric [n x n]
-  /// @param modal_coordinates  L, without repeats; may be empty
+  /// @param M, B, C  symmetric [n x n]
   /// @throws std::invalid_argument for sizes, symmetry or structure that do not fit
-  DenseBase(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
-            const std::vector<int> &modal_coordinates);
+  DenseBase(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C, const ModalRange &modal = {});
 
-  int                           size() const override { return int(order_.size()); }
+  int                           size() const override { return int(M_.rows()); }
   void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
   void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
   void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
@@ -49,7 +55,7 @@ public:
   const Eigen::MatrixXd &stiffness() const { return C_; }
 
 private:
-  /// A matrix in the order (N, L), by the blocks that are not zero.
+  /// A matrix by the blocks that are not zero.
   struct Blocks
   {
     Eigen::MatrixXd NN;       // [n_N x n_N]
@@ -59,14 +65,12 @@ private:
   };
   Blocks blocks_of(const Eigen::MatrixXd &A) const;
   void   multiply(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-  void   multiply_sorted(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const; ///< in the order (N, L)
 
   Eigen::MatrixXd         M_, B_, C_;
-  std::vector<int>        order_;          // N, then L
-  bool                    sorted_ = false; // that is the order of the coordinates
-  int                     n_N_    = 0;
+  ModalRange              L_;
+  std::vector<int>        N_;
   Blocks                  mass_, damping_, stiffness_;
-  mutable Eigen::VectorXd x_, y_; // in the order (N, L)
+  mutable Eigen::VectorXd x_N_, y_N_;
 };
 
 } // namespace gestell::coupling

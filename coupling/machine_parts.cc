@@ -162,8 +162,8 @@ void Machine::Parts::finish()
 
 void Machine::Parts::assemble_dense(int n)
 {
-  Eigen::MatrixXd  mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
-  std::vector<int> modal;
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
+  ModalRange      modal;
   if (reduced)
   {
     mass.topLeftCorner(n_frame, n_frame)      = reduced->M;
@@ -171,13 +171,12 @@ void Machine::Parts::assemble_dense(int n)
     stiffness.topLeftCorner(n_frame, n_frame) = reduced->C;
     translation_loads.topRows(n_frame)        = reduced->translations_load;
     if (reduced->modal)
-      for (int i = n_interface; i < n_frame; ++i)
-        modal.push_back(i);
+      modal = {n_interface, n_frame - n_interface};
   }
   add_to(mass, M);
   add_to(damping, B);
   add_to(stiffness, C);
-  base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), std::move(modal));
+  base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
 }
 
 void Machine::Parts::assemble_sparse(int n)

@@ -11,12 +11,21 @@ Placement::Placement(const Vector3d &point) : point_(point), centre_(point) {}
 Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear)
     : point_(point), centre_(centre), linear_(std::move(linear))
 {
+  find_rotations();
 }
 
 Placement::Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear,
                      const Vector3d &n)
     : point_(point), centre_(centre), linear_(std::move(linear)), turns_(true), n_(n)
 {
+  find_rotations();
+}
+
+void Placement::find_rotations()
+{
+  rotates_ = false;
+  for (const LinearMeasure &measure : linear_)
+    rotates_ = rotates_ || !measure.rotation.isZero(0.);
 }
 
 Placement Placement::free(const Vector3d &point, const Vector3d &centre)
@@ -30,6 +39,7 @@ Placement Placement::without(int i) const
 {
   Placement rest = *this;
   rest.linear_.erase(rest.linear_.begin() + i);
+  rest.find_rotations();
   return rest;
 }
 
@@ -53,8 +63,11 @@ void Placement::move_freely(const Vector3d &arm, const double *u, const double *
 {
   using Directors = Eigen::Map<const Eigen::Matrix3d>;
   x.value         = arm + Directors(u + 3) * arm;
-  x.rate          = Directors(v + 3) * arm;
-  x.bias.setZero();
+  if (v)
+  {
+    x.rate = Directors(v + 3) * arm;
+    x.bias.setZero();
+  }
   x.J.setZero(3, max_measures);
   for (int i = 0; i < 3; ++i)
     for (int d = 0; d < 3; ++d)
@@ -71,30 +84,46 @@ void Placement::move(const Vector3d &arm, const double *u, const double *v, Move
   }
   const int n_linear = int(linear_.size());
   x.J.resize(3, n_measures());
-  Vector3d theta = Vector3d::Zero(), theta_rate = Vector3d::Zero();
-  for (int i = 0; i < n_linear; ++i)
-  {
-    theta += u[i] * linear_[i].rotation;
-    theta_rate += v[i] * linear_[i].rotation;
-  }
-  Vector3d rho = arm;
-  x.rate.setZero();
-  x.bias.setZero();
+  Vector3d rho = arm, first = Vector3d::Zero();
   if (turns_)
   {
-    const double   c = std::cos(u[n_linear]), s = std::sin(u[n_linear]), w = v[n_linear];
+    const double   c = std::cos(u[n_linear]), s = std::sin(u[n_linear]);
     const Vector3d along = n_.dot(arm) * n_, across = arm - along;
-    rho                   = along + c * across + s * n_.cross(arm);
-    const Vector3d first  = n_.cross(rho);
+    rho               = along + c * across + s * n_.cross(arm);
+    first             = n_.cross(rho);
+    x.J.col(n_linear) = first;
+  }
+  x.value        = rho;
+  Vector3d theta = Vector3d::Zero();
+  if (rotates_)
+  {
+    for (int i = 0; i < n_linear; ++i)
+    {
+      theta += u[i] * linear_[i].rotation;
+      x.J.col(i) = linear_[i].rotation.cross(rho);
+    }
+    x.value += theta.cross(rho);
+    if (turns_)
+      x.J.col(n_linear) += theta.cross(first);
+  }
+  else
+    x.J.leftCols(n_linear).setZero();
+  if (!v && n_measures() > 0)
+    return;
+
+  x.rate.setZero();
+  x.bias.setZero();
+  Vector3d theta_rate = Vector3d::Zero();
+  for (int i = 0; i < n_linear; ++i)
+    theta_rate += v[i] * linear_[i].rotation;
+  if (turns_)
+  {
+    const double   w      = v[n_linear];
     const Vector3d second = n_.cross(first);
-    x.J.col(n_linear)     = first + theta.cross(first);
     x.rate                = w * x.J.col(n_linear);
     x.bias                = w * w * (second + theta.cross(second)) + 2. * w * theta_rate.cross(first);
   }
-  for (int i = 0; i < n_linear; ++i)
-    x.J.col(i) = linear_[i].rotation.cross(rho);
   x.rate += theta_rate.cross(rho);
-  x.value = rho + theta.cross(rho);
 }
 
 void Placement::position(const double *u, const double *v, MovedVector &x) const
@@ -104,15 +133,19 @@ void Placement::position(const double *u, const double *v, MovedVector &x) const
   for (int d = 0; free_ && d < 3; ++d)
   {
     x.value[d] += u[d];
-    x.rate[d] += v[d];
     x.J(d, d) = 1.;
   }
   for (std::size_t i = 0; i < linear_.size(); ++i)
   {
     x.value += u[i] * linear_[i].translation;
-    x.rate += v[i] * linear_[i].translation;
     x.J.col(Eigen::Index(i)) += linear_[i].translation;
   }
+  if (!v)
+    return;
+  for (int d = 0; free_ && d < 3; ++d)
+    x.rate[d] += v[d];
+  for (std::size_t i = 0; i < linear_.size(); ++i)
+    x.rate += v[i] * linear_[i].translation;
 }
 
 void Placement::direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const

@@ -69,6 +69,7 @@ public:
   Vector3d translation(int i) const;
   Vector3d rotation(int i) const;
 
+  /// @param v  null: no rate and bias are wanted
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0
   void     direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;
@@ -76,13 +77,15 @@ public:
   Vector3d direction(const Vector3d &e, const double *u) const;
 
 private:
+  void find_rotations();
   void move(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const;
   void move_freely(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const;
 
   Vector3d                   point_, centre_;
   std::vector<LinearMeasure> linear_;
   bool                       turns_ = false, free_ = false;
-  Vector3d                   n_ = Vector3d::Zero();
+  bool                       rotates_ = false; ///< some linear measure does more than to translate
+  Vector3d                   n_       = Vector3d::Zero();
 };
 
 } // namespace gestell::mechanism

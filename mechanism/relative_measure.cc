@@ -32,12 +32,15 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
                                                  const MovedVector &x_1, const MovedVector &x_2, const double *u,
                                                  const double *v, double *gradient, Eigen::Index stride) const
 {
-  const int k_1 = first.n_measures(), k_2 = second.n_measures();
-  Gradient  of_1(gradient, k_1, Eigen::InnerStride<>(stride)),
+  const int     k_1 = first.n_measures(), k_2 = second.n_measures();
+  const double *v_2 = v ? v + k_1 : nullptr;
+  Gradient      of_1(gradient, k_1, Eigen::InnerStride<>(stride)),
       of_2(gradient + stride * k_1, k_2, Eigen::InnerStride<>(stride));
   of_1.setZero();
   of_2.setZero();
-  const Vector3d d = x_2.value - x_1.value, d_rate = x_2.rate - x_1.rate, d_bias = x_2.bias - x_1.bias;
+  const Vector3d d      = x_2.value - x_1.value;
+  const Vector3d d_rate = v ? Vector3d(x_2.rate - x_1.rate) : Vector3d::Zero();
+  const Vector3d d_bias = v ? Vector3d(x_2.bias - x_1.bias) : Vector3d::Zero();
   switch (form)
   {
   case Form::along:
@@ -49,9 +52,11 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
     }
     const bool  on_first = carrier == Carrier::first;
     MovedVector e;
-    (on_first ? first : second).direction(a, on_first ? u : u + k_1, on_first ? v : v + k_1, e);
+    (on_first ? first : second).direction(a, on_first ? u : u + k_1, on_first ? v : v_2, e);
     add_difference(e.value, x_1, x_2, of_1, of_2);
     add_turn(d, e, on_first ? of_1 : of_2);
+    if (!v)
+      return {e.value.dot(d), 0., 0.};
     return {e.value.dot(d), e.value.dot(d_rate) + e.rate.dot(d),
             e.value.dot(d_bias) + 2. * e.rate.dot(d_rate) + e.bias.dot(d)};
   }
@@ -59,9 +64,11 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
   {
     MovedVector e, f;
     first.direction(a, u, v, e);
-    second.direction(b, u + k_1, v + k_1, f);
+    second.direction(b, u + k_1, v_2, f);
     add_turn(f.value, e, of_1);
     add_turn(e.value, f, of_2);
+    if (!v)
+      return {e.value.dot(f.value), 0., 0.};
     return {e.value.dot(f.value), e.rate.dot(f.value) + e.value.dot(f.rate),
             e.bias.dot(f.value) + 2. * e.rate.dot(f.rate) + e.value.dot(f.bias)};
   }
@@ -88,16 +95,19 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
     MovedVector e, f, moved;
     first.direction(a, u, v, e);
     first.direction(b, u, v, f);
-    second.direction(a, u + k_1, v + k_1, moved);
+    second.direction(a, u + k_1, v_2, moved);
     const double x = e.value.dot(moved.value), y = f.value.dot(moved.value), r2 = x * x + y * y;
     if (!(r2 > 0.)) // body 2 has tilted by a right angle: it has no angle about this axis
       return {0., 0., 0.};
-    const double x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
-                 y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
-    const Vector3d of_moved = (x * f.value - y * e.value) / r2, across = (x * f.bias - y * e.bias) / r2;
+    const Vector3d of_moved = (x * f.value - y * e.value) / r2;
     add_turn(of_moved, moved, of_2);
     add_turn(Vector3d(x / r2 * moved.value), f, of_1);
     add_turn(Vector3d(-y / r2 * moved.value), e, of_1);
+    if (!v)
+      return {std::atan2(y, x), 0., 0.};
+    const Vector3d across = (x * f.bias - y * e.bias) / r2;
+    const double   x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
+                 y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
     return {std::atan2(y, x), rate,
             of_moved.dot(moved.bias) + across.dot(moved.value) +
                 2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
@@ -111,7 +121,7 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
   {
     gradient[stride * i] = ratios[i];
     s += ratios[i] * u[i];
-    rate += ratios[i] * v[i];
+    rate += v ? ratios[i] * v[i] : 0.;
   }
   return {s, rate, 0.};
 }
@@ -131,7 +141,7 @@ RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v,
   if (measure.form != RelativeMeasure::Form::ratio) // which looks at no place
   {
     first.position(u, v, x_1);
-    second.position(u + first.n_measures(), v + first.n_measures(), x_2);
+    second.position(u + first.n_measures(), v ? v + first.n_measures() : nullptr, x_2);
   }
   else
     x_1.value = x_1.rate = x_1.bias = x_2.value = x_2.rate = x_2.bias = Vector3d::Zero();

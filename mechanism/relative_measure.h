@@ -55,6 +55,7 @@ struct RelativeMeasure
   };
 
   /// @param x_1, x_2  the places at u, v [k]
+  /// @param v         null: s and G alone are wanted, the places know no rates
   /// @param gradient  G: k numbers, each `stride` behind the one before
   Value evaluate(const Placement &first, const Placement &second, const Placement::MovedVector &x_1,
                  const Placement::MovedVector &x_2, const double *u, const double *v, double *gradient,

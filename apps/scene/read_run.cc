@@ -139,6 +139,8 @@ coupling::MethodOptions read_method_options(const SceneTable &run)
   if (o.max_halvings < 0 || o.max_halvings > 40)
     throw run.error("max_halvings", "needs a number from 0 to 40");
   o.newton.tolerance = run.positive("newton_tolerance", kind::number, o.newton.tolerance);
+  if (run.has("newton_tolerance"))
+    o.newton.share_of_error = 0.;
   check_parameters(run, o);
   return o;
 }

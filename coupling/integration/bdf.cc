@@ -295,10 +295,13 @@ void Bdf::multistep(double t)
     predict(&Point::u, &Point::u_rate, local_.u);
     if (implicit_.is_sparse())
       predict(&Point::q, &Point::v, to.q);
+    implicit_.expect_good_predictions(options_.order <= 2 && n_past_ >= 3);
     formula_step(options_.order, points, t, options_.step, to);
+    implicit_.expect_good_predictions(false);
   }
   catch (const ConvergenceFailure &)
   {
+    implicit_.expect_good_predictions(false);
     ++work_.rejected;
     divided_step(past(0), options_.step, 1, to);
   }
@@ -322,26 +325,27 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
 {
   const BdfFormula &formula = bdf_formulas[order - 1];
   const double      h_beta = formula.beta0 * step, inverse = 1. / h_beta;
-  h_q_    = -formula.alpha[0] * past[0]->q;
-  h_w_    = -formula.alpha[0] * past[0]->w;
-  g_rate_ = -formula.alpha[0] * past[0]->u_rate;
-  g_      = -formula.alpha[0] * past[0]->u;
-  for (int i = 1; i < order; ++i)
+  const auto        history = [&](Eigen::VectorXd Point::*x, Eigen::VectorXd &to)
   {
-    h_q_ -= formula.alpha[i] * past[i]->q;
-    h_w_ -= formula.alpha[i] * past[i]->w;
-    g_rate_ -= formula.alpha[i] * past[i]->u_rate;
-    g_ -= formula.alpha[i] * past[i]->u;
-  }
+    if (order == 2) // in one pass
+      to = -formula.alpha[0] * past[0]->*x - formula.alpha[1] * past[1]->*x;
+    else
+      to = -formula.alpha[0] * past[0]->*x;
+    for (int i = 1; i < order && order != 2; ++i)
+      to -= formula.alpha[i] * past[i]->*x;
+  };
+  history(&Point::q, h_q_);
+  history(&Point::w, h_w_);
+  history(&Point::u_rate, g_rate_);
+  history(&Point::u, g_);
   load(t);
-  system_.mass_times(h_q_, f_);
-  f_ += h_beta * h_w_ + (h_beta * h_beta) * f_t_;
+  f_      = h_beta * h_w_ + (h_beta * h_beta) * f_t_;
   base_.t = t;
   base_.u.setZero();
   base_.v = -inverse * g_;
   base_.a = inverse * (base_.v - g_rate_);
   const StepForm form{1., h_beta, h_beta * h_beta, h_beta * h_beta, 1., inverse, inverse * inverse, h_beta};
-  implicit_.solve(implicit_.condensed(form, work_), f_, base_, to.q, local_, work_);
+  implicit_.solve(implicit_.condensed(form, work_), h_q_, f_, base_, to.q, local_, work_);
 
   to.t      = t;
   to.v      = inverse * (to.q - h_q_);

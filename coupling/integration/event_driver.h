@@ -59,6 +59,7 @@ private:
   };
 
   bool   first_crossing(Crossing &crossing);
+  bool   far_from_zero() const;
   void   locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing);
   double value_at(int guard, double t);
   double sign(int guard) const { return system_.crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
@@ -68,7 +69,7 @@ private:
   void   observe() const;
   void   make_room();
 
-  static constexpr int n_inside = 3; ///< samples inside a step
+  static constexpr int n_inside = 3, middle = 2; ///< samples inside a step
 
   SecondOrderSystem                        &system_;
   TimeIntegrator                           &integrator_;

@@ -42,12 +42,31 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
   throw ConvergenceFailure(message.str());
 }
 
+namespace
+{
+/// W acts on the coordinates N alone.
+bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
+{
+  std::vector<char> is_in_N(W.rows(), 0);
+  for (const int i : N)
+    is_in_N[i] = 1;
+  for (int j = 0; j < W.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+      if (!is_in_N[it.row()])
+        return false;
+  return !N.empty();
+}
+} // namespace
+
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
     : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks())
 {
   // What positions are wrong by, multipliers are by m/h^2 times that.
   if (G_.n_rows() > 0)
+  {
     options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
+    options_.share_of_error *= share_of_joints;
+  }
   const int n_u = static_cast<int>(system.directions().cols());
   xi_.setZero(n_u);
   xi_free_.setZero(n_u);
@@ -71,6 +90,8 @@ void ImplicitStep::begin(const Eigen::VectorXd &u)
   u_begin_ = u;
   scale_.setZero();
   contraction_ = unknown_contraction;
+  seen_ = seen_size_ = 1.;
+  levers_age_        = 0;
 }
 
 const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, IntegrationWork &work)
@@ -96,6 +117,11 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, Int
     ++work.solves;
   }
   made.S = W.transpose() * made.Y;
+  if (leads(made.solver->leading(), W))
+  {
+    made.Y_led = made.Y(made.solver->leading(), Eigen::all);
+    x_led_.setZero(made.Y_led.rows());
+  }
   return cache_.emplace(key, std::move(made)).first->second;
 }
 
@@ -118,14 +144,15 @@ void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd 
 
 /// Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves; of the
 /// measures of joints, what rounding in g = G u leaves, the difference of numbers as large as the block tells; other
-/// elements act on bodies that joints carry, and get their share.  G turns so little that once per step is enough.
+/// elements act on bodies that joints carry, and get their share.  G turns so little that
+/// once in some steps is enough.
 void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
 {
   const double left = rounding / options_.tolerance;
-  for (Eigen::Index i = 0; i < scale_.size(); ++i)
-    scale_[i] = std::max(
-        {scale_[i], std::abs(local.u[i] - u_begin_[i]), form.time * std::abs(local.v[i]), left * std::abs(local.u[i])});
-  if (!of_joints_too || G_.n_rows() == 0)
+  scale_            = scale_.cwiseMax((local.u - u_begin_).cwiseAbs())
+               .cwiseMax(form.time * local.v.cwiseAbs())
+               .cwiseMax(left * local.u.cwiseAbs());
+  if (!of_joints_too || G_.n_rows() == 0 || levers_age_++ % steps_of_levers != 0)
     return;
   double of_joints = 0.;
   for (std::size_t b = 0; b < G_.blocks().size(); ++b)
@@ -148,11 +175,34 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, boo
 /// Largest correction in the scales of the measures, at most 1.
 double ImplicitStep::size_of_correction() const
 {
-  double size = 0.;
-  for (int i = 0; i < correction_.size(); ++i)
-    if (correction_[i] != 0.)
-      size = std::max(size, std::abs(correction_[i]) / std::max(scale_[i], std::abs(correction_[i])));
-  return size;
+  if (correction_.size() == 0)
+    return 0.;
+  const auto size = correction_.cwiseAbs();
+  return size.cwiseQuotient(scale_.cwiseMax(size).cwiseMax(std::numeric_limits<double>::min())).maxCoeff();
+}
+
+/// What a correction leaves, by what the one before it left.  Newton's corrections shrink the faster the smaller they
+/// are; one that is larger than that seen last is thought to leave more in proportion.  Nothing is thought of one that
+/// has suddenly grown, as where a law bends.
+double ImplicitStep::remaining(int iteration, double size, double size_before)
+{
+  double contraction = contraction_;
+  if (iteration > 0 && size_before > 0.)
+  {
+    contraction = contraction_ = std::clamp(size / size_before, 1e-4, 1.);
+    seen_                      = size / size_before;
+    seen_size_                 = size_before;
+    unseen_                    = 0;
+  }
+  else if (good_predictions_ && unseen_ < most_unseen && size < sudden_growth * first_size_)
+  {
+    contraction = std::min(1., seen_ * std::max(1., size / seen_size_));
+    ++unseen_;
+  }
+  if (iteration == 0)
+    first_size_ = size;
+  const double left = contraction < 1. ? size * contraction / (1. - contraction) : size;
+  return std::min(size, left);
 }
 
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
@@ -161,7 +211,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
   const auto     &held        = system_.held();
   const bool      joints      = G_.n_rows() > 0;
   bool            turned      = joints; // G has, since Newton's matrix got it
-  double          size_before = 0.;
+  double          size_before = 0., tolerance = options_.tolerance;
   singular_ = joints_singular_ = false;
   for (const HeldMeasure &h : held)
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
@@ -206,10 +256,9 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     xi_.noalias() += damping * correction_;
     if (joints)
       local.lambda += damping * g_;
-    if (iteration > 0 && size_before > 0.)
-      contraction_ = std::clamp(size / size_before, 1e-4, 1.);
-    const double remaining = contraction_ < 1. ? size * contraction_ / (1. - contraction_) : size;
-    if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
+    if (iteration == 0 && good_predictions_)
+      tolerance = std::max(tolerance, options_.share_of_error * size);
+    if (damping == 1. && remaining(iteration, size, size_before) <= tolerance)
     {
       // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
       add_tangent_times(correction_, local.p);
@@ -239,8 +288,36 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     saddle_->forget_pivots();
     fail(base.t);
   }
-  const auto &W = system_.directions();
   condensed.solver->solve(f, x);
+  find_forces(condensed, base, x, local, work);
+  x.noalias() += condensed.Y.lazyProduct(local.p);
+}
+
+void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &h, const Eigen::VectorXd &f,
+                         const LocalState &base, Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+{
+  if (condensed.Y_led.size() == 0)
+  {
+    f_.resize(h.size());
+    system_.mass_times(h, f_);
+    f_ += f;
+    solve(condensed, f_, base, x, local, work);
+    return;
+  }
+  condensed.solver->solve_leading(h, f, x);
+  find_forces(condensed, base, x, local, work);
+  const std::vector<int> &N = condensed.solver->leading();
+  x_led_.noalias()          = condensed.Y_led.lazyProduct(local.p);
+  for (std::size_t i = 0; i < N.size(); ++i)
+    x[N[i]] += x_led_[Eigen::Index(i)];
+  condensed.solver->solve_following(h, f, x);
+}
+
+/// The forces p in A x = f + W p, where x holds what there is without them.
+void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x,
+                               LocalState &local, IntegrationWork &work)
+{
+  const auto &W = system_.directions();
   ++work.solves;
   local.t = base.t;
   if (W.cols() == 0)
@@ -259,9 +336,9 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
   {
     scale_       = scale_before_; // runaway iterates are no excursions
     contraction_ = unknown_contraction;
+    levers_age_  = 0;
     fail(base.t);
   }
-  x.noalias() += condensed.Y.lazyProduct(local.p);
 }
 
 void ImplicitStep::fail(double t) const

@@ -16,6 +16,8 @@ struct NewtonOptions
   double      tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
   int         max_iterations = 25;
   JointSolver joints         = JointSolver::automatic; ///< of systems with ideal joints
+  double      share_of_error = 1e-3; ///< of the first correction of a step that may be left where it is as large as the
+                                     ///< local error: expect_good_predictions(); 0: the tolerance alone counts
 };
 
 /**
@@ -72,6 +74,7 @@ public:
     std::unique_ptr<LinearSolver> solver; ///< null, and Y, S empty, if is_sparse()
     Eigen::MatrixXd               Y;      // [n x n_u]
     Eigen::MatrixXd               S;      // [n_u x n_u]
+    Eigen::MatrixXd               Y_led;  // [n_N x n_u] rows of Y of the leading coordinates; empty if W acts on others
   };
   const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
@@ -84,6 +87,13 @@ public:
   /// @throws ConvergenceFailure
   void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
              LocalState &local, IntegrationWork &work);
+  /// The same for M h + f instead of f; less work where few coordinates lead.
+  void solve(const Condensed &condensed, const Eigen::VectorXd &h, const Eigen::VectorXd &f, const LocalState &base,
+             Eigen::VectorXd &x, LocalState &local, IntegrationWork &work);
+
+  /// Whether the predictions that follow err as little as the formula does: Newton stops then where what is left is a
+  /// small share of the first correction, which is of the size of the local error.
+  void expect_good_predictions(bool good) { good_predictions_ = good && options_.share_of_error > 0.; }
 
   /// A new motion begins with the measures u: their excursions are counted from there.
   void begin(const Eigen::VectorXd &u);
@@ -91,7 +101,12 @@ public:
 private:
   static constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
   static constexpr double good_contraction    = 0.05; ///< of Newton's corrections: what was made of G serves on
+  static constexpr double sudden_growth       = 10.;  ///< of the first correction from step to step
+  static constexpr int    steps_of_levers     = 16;   ///< the levers of joints are looked at once in so many
+  static constexpr int    most_unseen         = 20;   ///< steps of one iteration before another one is looked at
 
+  void   find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
+                     IntegrationWork &work);
   void   grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too);
   bool   iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
   bool   iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
@@ -99,23 +114,29 @@ private:
   bool   factorise_sparse(IntegrationWork &work);
   void   add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const;
   double size_of_correction() const;
+  double remaining(int iteration, double size, double size_before);
   void   motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
 
   const SecondOrderSystem                   &system_;
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
-  Eigen::VectorXd                            xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
-  std::vector<ForceBlock>                    force_blocks_;
-  ConstraintJacobian                         G_;
-  Eigen::VectorXd                            g_;       ///< [n_c] g, then d_lambda
-  Eigen::VectorXd                            tangent_; ///< p' by blocks
-  std::unique_ptr<CondensedMatrix>           matrix_;  ///< null: sparse
-  bool                                       singular_ = false, joints_singular_ = false;
-  int                                        dependent_row_ = 0; ///< of the joints, where these are singular
-  std::unique_ptr<SaddleMatrix>              saddle_;            ///< null: condensed
-  Eigen::VectorXd                            y_;                 ///< [n + n_c + n_h] residual, then correction
-  double                                     contraction_;       ///< of Newton's corrections, as seen last
+  Eigen::VectorXd                  f_, x_led_, xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
+  std::vector<ForceBlock>          force_blocks_;
+  ConstraintJacobian               G_;
+  Eigen::VectorXd                  g_;       ///< [n_c] g, then d_lambda
+  Eigen::VectorXd                  tangent_; ///< p' by blocks
+  std::unique_ptr<CondensedMatrix> matrix_;  ///< null: sparse
+  bool                             singular_ = false, joints_singular_ = false;
+  int                              dependent_row_ = 0; ///< of the joints, where these are singular
+  std::unique_ptr<SaddleMatrix>    saddle_;            ///< null: condensed
+  Eigen::VectorXd                  y_;                 ///< [n + n_c + n_h] residual, then correction
+  bool                             good_predictions_ = false;
+  double                           contraction_; ///< of Newton's corrections, as seen last; what they may be
+  double                           seen_ = 1., seen_size_ = 1.; ///< the same, after a correction of that size
+  double                           first_size_ = 0.;            ///< of the first correction of a step
+  long                             levers_age_ = 0;             ///< [steps]
+  int                              unseen_     = 0;             ///< steps since
 };
 
 /// Tells which measures that stick leave their forces undetermined.

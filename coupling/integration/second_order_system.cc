@@ -24,6 +24,22 @@ Eigen::Index tangent_size(const std::vector<ForceBlock> &blocks)
   return size;
 }
 
+const std::vector<int> &LinearSolver::leading() const
+{
+  static const std::vector<int> none;
+  return none;
+}
+
+void LinearSolver::solve_leading(const Eigen::VectorXd &, const Eigen::VectorXd &, Eigen::VectorXd &) const
+{
+  throw std::logic_error("LinearSolver: there are no leading coordinates");
+}
+
+void LinearSolver::solve_following(const Eigen::VectorXd &, const Eigen::VectorXd &, Eigen::VectorXd &) const
+{
+  throw std::logic_error("LinearSolver: there are no leading coordinates");
+}
+
 bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
 {
   return false;

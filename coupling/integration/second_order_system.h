@@ -15,12 +15,25 @@
 namespace gestell::coupling
 {
 
-/// Solves  (w_M M + w_B B + w_C C) x = f  for fixed weights; made by SecondOrderSystem::factorise().
+/**
+ * Solves  A x = f,  A = w_M M + w_B B + w_C C,  for fixed weights; made by SecondOrderSystem::factorise().
+ *
+ * Where A is condensed to a few leading coordinates N, from which all others follow, an implicit step need not solve
+ * for the others before the forces on N are known:
+ *
+ *     solve_leading(h, f, x)     x_N of A x = M h + f        (then x_N += Y_N p for forces p on N)
+ *     solve_following(h, f, x)   the others, of the same equation, from the final x_N.
+ */
 class LinearSolver
 {
 public:
   virtual ~LinearSolver()                                                = default;
   virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
+
+  /// N; empty: there is no such division, and the other two must not be called.
+  virtual const std::vector<int> &leading() const;
+  virtual void solve_leading(const Eigen::VectorXd &h, const Eigen::VectorXd &f, Eigen::VectorXd &x) const;
+  virtual void solve_following(const Eigen::VectorXd &h, const Eigen::VectorXd &f, Eigen::VectorXd &x) const;
 };
 
 class SecondOrderSystem;

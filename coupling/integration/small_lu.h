@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,46 +30,7 @@ public:
   /// `redundant` rows cannot be, only when it is zero.
   bool factorise(bool redundant = true)
   {
-    constexpr double rounding = 1e-14;
-    const int        n        = static_cast<int>(pivot_.size());
-    least_                    = n > 0 ? a_(0, 0) : 1.;
-    row_size_.setZero();
-    for (int j = 0; redundant && j < n; ++j)
-      row_size_ = row_size_.cwiseMax(a_.col(j).cwiseAbs());
-    for (int k = 0; k < n; ++k)
-    {
-      int    pivot   = k;
-      double largest = std::abs(a_(k, k)), below = 0.;
-      for (int i = k + 1; i < n; ++i)
-      {
-        const double size = std::abs(a_(i, k));
-        below             = std::max(below, size);
-        if (size > largest)
-          largest = size, pivot = i;
-      }
-      pivot_[k] = pivot;
-      idle_[k]  = below == 0.;
-      failed_   = k;
-      if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
-        return false;
-      least_ = std::min(least_, pivot == k ? a_(k, k) : -1.);
-      if (pivot != k)
-      {
-        std::swap(row_size_[k], row_size_[pivot]);
-        for (int j = 0; j < n; ++j)
-          std::swap(a_(k, j), a_(pivot, j));
-      }
-      a_(k, k) = 1. / a_(k, k);
-      if (idle_[k])
-        continue;
-      for (int i = k + 1; i < n; ++i)
-        a_(i, k) *= a_(k, k);
-      for (int j = k + 1; j < n; ++j)
-        if (const double factor = a_(k, j); factor != 0.)
-          for (int i = k + 1; i < n; ++i)
-            a_(i, j) -= a_(i, k) * factor;
-    }
-    return true;
+    return with_size([&](const auto n) { return factorise_sized(n, redundant); });
   }
 
   /// Of the matrix factorised last; negative where rows were interchanged.  For I - S dp above 1/4: its solution goes
@@ -81,21 +43,91 @@ public:
   template <typename Vector>
   void solve_in_place(Vector &&x) const
   {
-    const int n = static_cast<int>(pivot_.size());
-    for (int k = 0; k < n; ++k)
-      std::swap(x[k], x[pivot_[k]]);
-    for (int k = 0; k < n; ++k)
-      for (int i = k + 1; !idle_[k] && i < n; ++i)
-        x[i] -= a_(i, k) * x[k];
-    for (int k = n - 1; k >= 0; --k)
-    {
-      x[k] *= a_(k, k);
-      for (int i = 0; i < k; ++i)
-        x[i] -= a_(i, k) * x[k];
-    }
+    with_size(
+        [&](const auto n)
+        {
+          const double *a = a_.data();
+          for (int k = 0; k < n; ++k)
+            std::swap(x[k], x[pivot_[k]]);
+          for (int k = 0; k < n; ++k)
+            for (int i = k + 1; !idle_[k] && i < n; ++i)
+              x[i] -= a[i + n * k] * x[k];
+          for (int k = n - 1; k >= 0; --k)
+          {
+            x[k] *= a[k + n * k];
+            for (int i = 0; i < k; ++i)
+              x[i] -= a[i + n * k] * x[k];
+          }
+          return true;
+        });
   }
 
 private:
+  /// Calls work with the number of unknowns as a constant where it is small: then the compiler unrolls all loops.
+  template <class Work>
+  bool with_size(const Work &work) const
+  {
+    switch (pivot_.size())
+    {
+    case 1:
+      return work(std::integral_constant<int, 1>{});
+    case 2:
+      return work(std::integral_constant<int, 2>{});
+    case 3:
+      return work(std::integral_constant<int, 3>{});
+    case 4:
+      return work(std::integral_constant<int, 4>{});
+    default:
+      return work(static_cast<int>(pivot_.size()));
+    }
+  }
+
+  template <class Size>
+  bool factorise_sized(const Size n, bool redundant)
+  {
+    constexpr double rounding = 1e-14;
+    double          *a        = a_.data();
+    least_                    = n > 0 ? a[0] : 1.;
+    row_size_.setZero();
+    for (int j = 0; redundant && j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        row_size_[i] = std::max(row_size_[i], std::abs(a[i + n * j]));
+    for (int k = 0; k < n; ++k)
+    {
+      int    pivot   = k;
+      double largest = std::abs(a[k + n * k]), below = 0.;
+      for (int i = k + 1; i < n; ++i)
+      {
+        const double size = std::abs(a[i + n * k]);
+        below             = std::max(below, size);
+        if (size > largest)
+          largest = size, pivot = i;
+      }
+      pivot_[k] = pivot;
+      idle_[k]  = below == 0.;
+      failed_   = k;
+      if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
+        return false;
+      least_ = std::min(least_, pivot == k ? a[k + n * k] : -1.);
+      if (pivot != k)
+      {
+        std::swap(row_size_[k], row_size_[pivot]);
+        for (int j = 0; j < n; ++j)
+          std::swap(a[k + n * j], a[pivot + n * j]);
+      }
+      const double inverse = a[k + n * k] = 1. / a[k + n * k];
+      if (idle_[k])
+        continue;
+      for (int i = k + 1; i < n; ++i)
+        a[i + n * k] *= inverse;
+      for (int j = k + 1; j < n; ++j)
+        if (const double factor = a[k + n * j]; factor != 0.)
+          for (int i = k + 1; i < n; ++i)
+            a[i + n * j] -= a[i + n * k] * factor;
+    }
+    return true;
+  }
+
   Eigen::MatrixXd   a_;
   Eigen::VectorXd   row_size_; ///< largest entry of each row before elimination
   std::vector<int>  pivot_;

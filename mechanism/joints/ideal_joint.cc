@@ -34,13 +34,13 @@ void IdealJoint::constraint(const LocalMotion &motion, const double *history, do
 {
   const int   n_c = n_constraints();
   MovedVector x_1, x_2;
-  first_.position(motion.u, motion.v, x_1);
-  second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
-  const double f = prescribed(motion.t, history).value;
+  first_.position(motion.u, nullptr, x_1);
+  second_.position(motion.u + first_.n_measures(), nullptr, x_2);
+  const double f = is_driven() ? prescribed(motion.t, history).value : 0.;
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
-    const auto      s        = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G + i, n_c).s;
+    const auto      s        = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, nullptr, G + i, n_c).s;
     g[i]                     = s - equation.offset - (equation.driven ? f : 0.);
   }
 }

@@ -15,6 +15,7 @@ namespace
 {
 
 using coupling::DenseBase;
+using coupling::ModalRange;
 using coupling::SparseBase;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -41,6 +42,7 @@ struct CraigBamptonLike
 {
   int              n = 16;
   MatrixXd         M, B, C;
+  ModalRange       L{6, 8};
   std::vector<int> modal{6, 7, 8, 9, 10, 11, 12, 13};
 
   explicit CraigBamptonLike(ModalBlock damping)
@@ -81,7 +83,7 @@ class DenseBaseOf : public ::testing::TestWithParam<ModalBlock>
 TEST_P(DenseBaseOf, MultipliesLikeItsMatrices)
 {
   const CraigBamptonLike like(GetParam());
-  const DenseBase        base(like.M, like.B, like.C, like.modal);
+  const DenseBase        base(like.M, like.B, like.C, like.L);
   const VectorXd         x = irregular(like.n, 1);
   VectorXd               y(like.n);
   base.mass_times(x, y);
@@ -95,7 +97,7 @@ TEST_P(DenseBaseOf, MultipliesLikeItsMatrices)
 TEST_P(DenseBaseOf, SolvesWithEveryWeightOfATimeStep)
 {
   const CraigBamptonLike like(GetParam());
-  const DenseBase        base(like.M, like.B, like.C, like.modal);
+  const DenseBase        base(like.M, like.B, like.C, like.L);
   const VectorXd         f = irregular(like.n, 1);
   for (const double h : {0., 1e-6, 1e-4, 1e-2})
   {
@@ -107,6 +109,34 @@ TEST_P(DenseBaseOf, SolvesWithEveryWeightOfATimeStep)
     EXPECT_LT(residual.cwiseAbs().cwiseQuotient(A.cwiseAbs() * x.cwiseAbs()).maxCoeff(), 1e-13) << "h = " << h;
   }
 }
+/// A x = M h + f + W p, with p known only after x_N of the first two.
+TEST(DenseBase, SolvesInTwoPartsAsInOne)
+{
+  const CraigBamptonLike like(ModalBlock::diagonal);
+  const int              n        = like.n;
+  MatrixXd               rayleigh = 3. * like.M + 1e-4 * like.C, other = like.B;
+  other.topRightCorner(6, n)(Eigen::all, like.modal) = irregular(6, 8); // not along M_NL
+  other                                              = (0.5 * (other + other.transpose())).eval();
+  const VectorXd h = irregular(n, 1), f = irregular(n, 2).col(1);
+  VectorXd       p = VectorXd::Zero(n);
+  p[1]             = 3.;
+  p[15]            = -2.;
+  for (const MatrixXd &B : {like.B, rayleigh, other})
+  {
+    const DenseBase base(like.M, B, like.C, like.L);
+    const auto      solver = base.factorise(1., 1e-3, 1e-6);
+    VectorXd        whole(n), x(n), share(n);
+    solver->solve(like.M * h + f + p, whole);
+    solver->solve(p, share);
+    x.setConstant(std::nan(""));
+    solver->solve_leading(h, f, x);
+    for (const int i : solver->leading())
+      x[i] += share[i];
+    solver->solve_following(h, f, x);
+    EXPECT_LT((x - whole).cwiseAbs().cwiseQuotient(whole.cwiseAbs()).maxCoeff(), 1e-11); // condition of A_red
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(BothDampings, DenseBaseOf, ::testing::Values(ModalBlock::diagonal, ModalBlock::full));
 
 TEST(DenseBase, LivesWithMasslessCoordinatesAsLongAsTheStepMatrixIsRegular)
@@ -126,7 +156,7 @@ TEST(DenseBase, NamesTheCoordinateThatMakesTheStepMatrixSingular)
   M(2, 2) = 0.;
   try
   {
-    DenseBase(M, zero, zero, {0}).factorise(1., 1e-3, 1e-6);
+    DenseBase(M, zero, zero, {0, 1}).factorise(1., 1e-3, 1e-6);
     FAIL();
   }
   catch (const std::invalid_argument &error)
@@ -143,11 +173,10 @@ TEST(DenseBase, RefusesWhatItsStructureDoesNotHold)
   coupled(0, 2) = coupled(2, 0) = 0.1;
   EXPECT_THROW(DenseBase(skew, zero, E, {}), std::invalid_argument);
   EXPECT_THROW(DenseBase(E, MatrixXd::Zero(2, 2), E, {}), std::invalid_argument);
-  EXPECT_THROW(DenseBase(2. * E, zero, E, {1}), std::invalid_argument);
-  EXPECT_THROW(DenseBase(E, zero, coupled, {2}), std::invalid_argument);
-  EXPECT_THROW(DenseBase(E, zero, E, {3}), std::invalid_argument);
-  EXPECT_THROW(DenseBase(E, zero, E, {1, 1}), std::invalid_argument);
-  EXPECT_NO_THROW(DenseBase(E, zero, E, {2}));
+  EXPECT_THROW(DenseBase(2. * E, zero, E, {1, 1}), std::invalid_argument);
+  EXPECT_THROW(DenseBase(E, zero, coupled, {2, 1}), std::invalid_argument);
+  EXPECT_THROW(DenseBase(E, zero, E, {3, 1}), std::invalid_argument);
+  EXPECT_NO_THROW(DenseBase(E, zero, E, {2, 1}));
 }
 
 /// Fixed-free chain of unit springs and masses: omega_j = 2 sin((2 j - 1) pi / (4 n + 2)).

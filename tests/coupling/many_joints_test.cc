@@ -22,9 +22,10 @@ using Vector = Eigen::VectorXd;
 MethodOptions method(Method kind, double step, JointSolver solver)
 {
   MethodOptions options;
-  options.method        = kind;
-  options.step          = step;
-  options.newton.joints = solver;
+  options.method                = kind;
+  options.step                  = step;
+  options.newton.joints         = solver;
+  options.newton.share_of_error = 0.; // so that both solve to the same end
   return options;
 }
 

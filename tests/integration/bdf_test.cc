@@ -131,6 +131,41 @@ TEST(Bdf, OneFactorisationServesEveryStepOfAFixedSize)
   EXPECT_LE(bdf.work().newton, 3 * 500);
 }
 
+/// Duffing's oscillator at t = 10, and Newton iterations per step.
+std::pair<double, double> duffing(double h, double share_of_error)
+{
+  SmallSystem system(Matrix::Identity(1, 1), 0.1 * Matrix::Identity(1, 1), Matrix::Identity(1, 1));
+  system.set_load([](double t) -> Vector { return Vector::Constant(1, std::cos(1.2 * t)); });
+  system.set_law(Vector::Ones(1),
+                 [](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   p     = -u * u * u;
+                   dp_du = -3. * u * u;
+                   dp_dv = 0.;
+                 });
+  Bdf::Options options;
+  options.step                  = h;
+  options.newton.share_of_error = share_of_error;
+  Bdf bdf(system, options);
+  bdf.begin(0., Vector::Ones(1), Vector::Zero(1));
+  while (bdf.instant().t < 10. - 0.5 * h)
+    bdf.advance();
+  return {bdf.instant().q[0], double(bdf.work().newton) / double(bdf.work().steps)};
+}
+
+TEST(Bdf, NewtonLeavesASmallShareOfTheErrorOfTheFormula)
+{
+  for (const double h : {0.02, 0.01, 0.005})
+  {
+    const auto [all, iterations_all]     = duffing(h, 0.);
+    const auto [share, iterations_share] = duffing(h, 1e-3);
+    const double truncation              = std::abs(all - duffing(h / 8., 0.).first);
+    EXPECT_LT(std::abs(share - all), 0.01 * truncation) << "h = " << h; // 1e-3 of a correction of some errors
+    EXPECT_GT(iterations_all, 1.9);
+    EXPECT_LT(iterations_share, 1.2);
+  }
+}
+
 TEST(Bdf, StepIsDividedWhereNewtonFails)
 {
   // A force whose Newton iteration has no solution for coarse steps: p grows faster than the step can balance.
