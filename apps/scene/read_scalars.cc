@@ -4,7 +4,9 @@
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -56,6 +58,48 @@ std::vector<NamedScalar> coordinates(const Names &names)
   return all;
 }
 
+constexpr double seen_overshoot = 0.05; // of a spline beyond its rows, by the steps between rows beside it
+
+/**
+ * A spline through rows that rise after a level stretch, or have a wrong value among them, swings beyond them.  It may
+ * do so only at an extreme, where the steps between rows change their sign.
+ */
+void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::CubicSpline::Point> &points, bool periodic,
+                       const mechanism::CubicSpline &spline)
+{
+  const int  n    = int(points.size()) - 1;
+  const auto step = [&](int i)
+  {
+    const int k = periodic ? (i + n) % n : std::clamp(i, 0, n - 1);
+    return points[k + 1].f - points[k].f;
+  };
+  double worst = 0., at = 0., by = 0.;
+  for (int i = 0; i < n; ++i)
+  {
+    const double steps[]  = {step(i - 1), step(i), step(i + 1)};
+    const auto [down, up] = std::minmax_element(std::begin(steps), std::end(steps));
+    const double scale    = std::max(std::abs(*down), std::abs(*up));
+    if ((*down < 0. && *up > 0.) || scale == 0.)
+      continue;
+    constexpr int n_between = 16;
+    const auto [low, high]  = std::minmax(points[i].f, points[i + 1].f);
+    for (int k = 1; k < n_between; ++k)
+    {
+      const double x = points[i].x + k * (points[i + 1].x - points[i].x) / n_between, f = spline.at(x).value;
+      const double beyond = std::max(low - f, f - high);
+      if (beyond > worst * scale)
+        worst = beyond / scale, at = x, by = beyond;
+    }
+  }
+  if (worst <= seen_overshoot)
+    return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the spline swings " << by << " beyond the rows on both sides of it at " << at << ", by " << 100. * worst
+       << " % of the steps between rows there; give more rows where the course bends, or round it";
+  table.warn("table", text.str());
+}
+
 /// f of `function` or `table`, whose argument is called `variable`.
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
@@ -99,7 +143,9 @@ std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, c
   const auto ends = period ? CubicSpline::Ends::periodic : CubicSpline::Ends::not_a_knot;
   try
   {
-    return std::make_shared<PositionFunction>(CubicSpline(points, ends));
+    const CubicSpline spline(points, ends);
+    warn_of_overshoot(table, points, period.has_value(), spline);
+    return std::make_shared<PositionFunction>(spline);
   }
   catch (const std::invalid_argument &e)
   {

@@ -393,6 +393,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   EXPECT_EQ(complaint(disc), "");
   EXPECT_EQ(complaint(ball), "");
   EXPECT_EQ(complaint(guide), "");
+  expect_complaint(with(ball, "restitution", "at_from = [0, 0, 0]\nrestitution"), "the point of `from` is `at`");
   expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' like `from`");
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");
