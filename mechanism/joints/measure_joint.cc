@@ -2,10 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace gestell::mechanism
 {
+namespace
+{
+
+/// What an ideal joint cannot follow: masses that take part would jump, with energy from nowhere.
+void refuse_jump(const std::string &kink, const std::string &what, double before, double behind)
+{
+  constexpr double rounded = 1e-6, relative = 1e-5; // constants of formulas may be rounded
+  if (std::abs(behind - before) <= rounded + relative * (std::abs(before) + std::abs(behind)))
+    return;
+  std::ostringstream message;
+  message
+      << what << " jumps from " << before << " to " << behind << " (" << kink
+      << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+         "element on a measure of type \"position function\", instead of the joint";
+  throw std::domain_error(message.str());
+}
+
+} // namespace
 
 MeasureJoint::MeasureJoint(const Parameters &parameters, std::shared_ptr<const MotionLaw> law)
     : ConstraintElement(std::move(law)), parameters_(parameters)
@@ -69,11 +89,27 @@ void MeasureJoint::guard_values(const LocalMotion &motion, const double *history
 
 void MeasureJoint::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const int of_law = ConstraintElement::n_guards(history);
+  const int         of_law   = ConstraintElement::n_guards(history);
+  double           *function = history + ConstraintElement::n_history();
+  const std::string kink     = guards(history)[i].kind;
   if (i < of_law)
+  {
+    const PrescribedMotion before = prescribed(motion.t, history);
     ConstraintElement::transition(i, motion, history);
-  else
-    measure().transition(i - of_law, motion.u, motion.v, history + ConstraintElement::n_history());
+    const PrescribedMotion behind = prescribed(motion.t, history);
+    refuse_jump(kink, "the prescribed motion", before.value, behind.value);
+    refuse_jump(kink, "the speed of the prescribed motion", before.rate, behind.rate);
+    return;
+  }
+  const auto s = [&]
+  {
+    double G[CombinedMeasure::max_measures];
+    return measure().evaluate(motion.u, motion.v, G, function).s;
+  };
+  const double value = s(), slope = measure().slope(motion.u, function);
+  measure().transition(i - of_law, motion.u, motion.v, function);
+  refuse_jump(kink, "the position function", 0., value - s());
+  refuse_jump(kink, "the slope of the position function", slope, measure().slope(motion.u, function));
 }
 
 std::vector<Quantity> MeasureJoint::quantities() const
