@@ -1,5 +1,6 @@
 #include "coupling/cylinder_watch.h"
 
+#include "coupling/element_law.h"
 #include "mechanism/elements/hydraulic_cylinder.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ CylinderWatch::CylinderWatch(const Machine &machine, const TimeIntegrator &integ
 {
   for (const ElementPlacement &placement : machine.elements())
   {
-    const auto *cylinder = dynamic_cast<const mechanism::HydraulicCylinder *>(placement.element.get());
+    const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
     if (!cylinder)
       continue;
     const auto add =

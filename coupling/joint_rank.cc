@@ -1,7 +1,6 @@
 #include "coupling/joint_rank.h"
 
 #include "coupling/dense_matrices.h"
-#include "coupling/nearest_name.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
 #include <algorithm>

@@ -46,7 +46,8 @@ std::string remedy(const MethodOptions &method)
   if (method.tolerance > 0.)
     return "; take a smaller tolerance";
   return method.method == Method::bdf && method.order < 4
-             ? "; take a smaller one, or order = 4, which loses far less where bodies spin or swing many times"
+             ? "; take a smaller one. Where bodies spin or swing many times, order = 4 with 60 steps or more per turn "
+               "loses far less"
              : "; take a smaller one";
 }
 

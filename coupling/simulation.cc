@@ -1,6 +1,7 @@
 #include "coupling/simulation.h"
 
 #include "coupling/cylinder_watch.h"
+#include "coupling/element_law.h"
 #include "coupling/integration/event_driver.h"
 #include "coupling/joint_rank.h"
 #include "coupling/recorder.h"
@@ -197,8 +198,7 @@ std::string advice(const Machine &machine, const MethodOptions &method, const In
             " is about to follow from the other joints; keep it off there, or make a joint compliant";
   bool rubs = false;
   for (const ElementPlacement &placement : machine.elements())
-    rubs = rubs || dynamic_cast<const mechanism::PointContact *>(placement.element.get()) ||
-           dynamic_cast<const mechanism::JournalBearing *>(placement.element.get());
+    rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
   if (rubs && controlled(method))
     text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
             "develops, or take a fixed step";
@@ -299,13 +299,13 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   recorder.finish();
   result.events = driver.events();
   warn_of_switches(machine, options.begin, result);
+  take_work(integrator->work(), driver.chattering_steps(), controlled(method), result);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   for (const std::string &warning : cylinders.warnings())
     result.warnings.push_back(warning);
   const Eigen::VectorXd &v = integrator->instant().v;
   for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
     result.warnings.push_back(warning);
-  take_work(integrator->work(), driver.chattering_steps(), controlled(method), result);
-  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   return result;
 }
 

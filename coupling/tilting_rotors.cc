@@ -26,6 +26,8 @@ Eigen::VectorXd rotation_about(const Machine &machine, const Marker &marker, con
 std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v)
 {
   std::vector<std::string> warnings;
+  if (machine.full_frame())
+    return warnings; // to factorise that would take longer than many a run
   for (const Body &body : machine.bodies())
   {
     const double speed = body.kind == BodyKind::rotor ? std::abs(v[body.coordinate]) : 0.;

@@ -20,7 +20,8 @@ namespace gestell::coupling
  * with the flexibilities f of its carrier against a moment about the directions w.
  *
  * @param v  velocities [n] of which each rotor's speed is taken
- * @return   a text for every rotor whose kappa is above 0.02
+ * @return   a text for every rotor whose kappa is above 0.02; none on an unreduced frame, which is too large to be
+ * asked
  */
 std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v);
 

@@ -167,7 +167,8 @@ using Carrier = mechanism::RelativeMeasure::Carrier;
 void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   ScalarRequest x;
-  joint.measure       = read_position_function(table, names, x);
+  joint.measure = read_position_function(table, names, x);
+  refuse_jumps(table, *joint.measure.function, x.kind());
   joint.value         = 0.;
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
 }

@@ -126,6 +126,19 @@ std::string found(const BodyRequest &body, const PartRequest &part, const std::s
   return text.str();
 }
 
+/// What reads CAD; a build without finite elements has none.
+coupling::FrameService &service(const SceneTable &table)
+{
+  try
+  {
+    return coupling::frame_service();
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw table.error("cad", e.what());
+  }
+}
+
 /// J about the axis through x: that about the centre of mass and m e^2.
 void read_rotor(const SceneTable &table, BodyRequest &body)
 {
@@ -151,7 +164,7 @@ void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &bo
   check_keys(table, body.kind);
   const Placement placement = read_placement(table);
   auto            part      = std::make_shared<PartRequest>();
-  part->shape = coupling::frame_service().measure({file, table.positive("unit", kind::length, 0.), table.place()});
+  part->shape               = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place()});
   place(part->shape, placement);
   part->density = read_density(table, scene, part->shape.volume);
 

@@ -3,6 +3,7 @@
 #include "apps/scene/read_profile.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
+#include "mechanism/slope_jump.h"
 
 #include <algorithm>
 #include <cmath>
@@ -248,6 +249,25 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   return measure;
 }
 
+void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind &x)
+{
+  if (!table.has("function") || !table.has("period"))
+    return; // how far it is used is not known; where it jumps the run ends
+  const double period = table.positive("period", x), begin = table.number("begin", x, 0.);
+  const double aside = 1e-3 * period; // kinks like to lie at the begin, and no step of the search should end on one
+  const auto   jump  = mechanism::first_jump(f, begin - M_SQRT1_2 * aside, begin + period - M_SQRT1_2 * aside);
+  if (!jump)
+    return;
+  const bool         turns = x.refused == Counts::turns;
+  const double       at    = std::round(1e9 * jump->x / period) / 1e9 * period + 0.; // located to rounding
+  std::ostringstream text;
+  text << jump->what << " jumps from " << jump->before << " to " << jump->behind << " at "
+       << (turns ? at * 180. / M_PI : at) << (turns ? " deg" : "") << " (" << jump->kink
+       << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+          "element on a measure of type \"position function\", instead of the joint";
+  throw table.error("function", text.str());
+}
+
 MeasureRequest read_sum(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
@@ -284,6 +304,7 @@ std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table,
     throw table.error("needs 'speed', or 'function', a formula of the time t, or 'table'");
   const auto f =
       read_function(table, {"t", "time", kind::time.dimension}, kind::time, turns ? kind::angle : kind::length);
+  refuse_jumps(table, *f, kind::time);
   return std::make_shared<mechanism::FunctionMotion>(*f);
 }
 

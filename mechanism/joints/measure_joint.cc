@@ -1,5 +1,7 @@
 #include "mechanism/joints/measure_joint.h"
 
+#include "mechanism/slope_jump.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -11,11 +13,10 @@ namespace gestell::mechanism
 namespace
 {
 
-/// What an ideal joint cannot follow: masses that take part would jump, with energy from nowhere.
+/// Masses would jump, with energy from nowhere.
 void refuse_jump(const std::string &kink, const std::string &what, double before, double behind)
 {
-  constexpr double rounded = 1e-6, relative = 1e-5; // constants of formulas may be rounded
-  if (std::abs(behind - before) <= rounded + relative * (std::abs(before) + std::abs(behind)))
+  if (!differ(before, behind))
     return;
   std::ostringstream message;
   message

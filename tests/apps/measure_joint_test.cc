@@ -386,6 +386,26 @@ TEST(Cam, AKinkOfItsCourseEndsTheRun)
   EXPECT_EQ(cam("20 mm*x*abs(x)").result.failure, "");
 }
 
+// Of a periodic one it is known before: rise and fall in straight lines, in sines, and one that ends short of a turn.
+TEST(Cam, AKinkOfAPeriodicCourseIsRefusedWithItsPlace)
+{
+  const auto said = [](const std::string &function)
+  {
+    return test::complaint(shaft_and_slide +
+                           "[joint.cam]\ntype = \"position function\"\nfrom = \"shaft\"\nto = "
+                           "\"slide\"\nperiod = \"360 deg\"\nfunction = \"" +
+                           function + "\"\n");
+  };
+  const std::string straight =
+      said("if(x < 90 deg, 40 mm*x/(90 deg), if(x < 180 deg, 40 mm*(180 deg - x)/(90 deg), 0))");
+  EXPECT_NE(straight.find("joint.cam.function: the slope jumps from 0 to 0.0254648 at 0 deg (next_period)"),
+            std::string::npos)
+      << straight;
+  EXPECT_EQ(said("if(x < 180 deg, 20 mm*(1 - cos(2*x)), 0)"), "");
+  const std::string short_of = said("if(x < 170 deg, 20 mm*(1 - cos(2*x)), 0)");
+  EXPECT_NE(short_of.find("the value jumps from 0.00120615 to 0 at 170 deg (if_1_"), std::string::npos) << short_of;
+}
+
 TEST(MeasureJoint, BadInputIsToldWithItsPlace)
 {
   const auto        joint = [](const std::string &keys) { return shaft_and_slide + "[joint.j]\n" + keys; };
