@@ -1,7 +1,7 @@
 #include "coupling/assembly.h"
 
 #include "coupling/dense_matrices.h"
-#include "mechanism/joints/orthonormal_directors.h"
+#include "coupling/joint_rank.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -17,8 +17,6 @@ namespace
 
 constexpr int    most_iterations = 60;
 constexpr double closed          = 1e-10; ///< m or rad: residual that counts as closed where rounding stops progress
-
-using mechanism::OrthonormalDirectors;
 
 /// Value of a measure, or of a rate: of a measure or of a rigid body's rotation.
 struct Demand
@@ -195,27 +193,8 @@ private:
     Eigen::VectorXd residual;
     Eigen::MatrixXd rows;
     evaluate({}, residual, rows, false);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i)
-      if (const double size = rows.row(i).norm(); size > 0.)
-        rows.row(i) /= size;
-    int first = 0; // bodies are rigid whatever the joints are: their rows are the longer ones and come first
-    for (const ElementPlacement &placement : machine_.elements())
-    {
-      const int n = placement.element->n_constraints();
-      if (dynamic_cast<const OrthonormalDirectors *>(placement.element.get()))
-        rows.middleRows(first, n) *= 2.;
-      first += n;
-    }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-10);
-    qr.compute(rows.transpose());
-    if (qr.rank() == n_c_)
-      return;
-    const int row = qr.colsPermutation().indices().tail(n_c_ - qr.rank()).maxCoeff();
-    throw std::invalid_argument(
-        "the joints say the same twice, or do not hold the mechanism in this position: " +
-        machine_.constraint_name(row) +
-        " follows from the others; leave that joint out, make it compliant, or start elsewhere");
+    if (const JointRank rank(machine_, rows); !rank.full())
+      throw std::invalid_argument(rank.dependence());
   }
 
   void turn()

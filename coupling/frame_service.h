@@ -3,6 +3,7 @@
 #include "coupling/reduced_frame.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
+#include "fem/part.h"
 
 #include <functional>
 #include <string>
@@ -45,8 +46,10 @@ struct MeshReport
 class FrameService
 {
 public:
-  virtual ~FrameService()                                                                             = default;
-  virtual MeshReport         mesh(const fem::FrameSpecification &frame, const Progress &progress)     = 0;
+  virtual ~FrameService()                                                                 = default;
+  virtual MeshReport mesh(const fem::FrameSpecification &frame, const Progress &progress) = 0;
+  /// Volume, centre and inertia of a part of the mechanism.
+  virtual fem::Part          measure(const fem::CadSource &part)                                      = 0;
   virtual fem::FrameMatrices assemble(const fem::FrameSpecification &frame, const Progress &progress) = 0;
   /// Craig-Bampton (5.5.3/14-23), modal damping included.
   virtual ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,

@@ -382,7 +382,16 @@ void Machine::transition(int i, const LocalState &state)
     return;
   }
   const auto &part = parts_->placed[active.element];
-  part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
+  try
+  {
+    part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
+  }
+  catch (const std::domain_error &beyond) // the element has no law that goes on from here
+  {
+    std::ostringstream message;
+    message << "at t = " << state.t << " s, \"" << parts_->elements[active.element].name << "\": " << beyond.what();
+    throw ConvergenceFailure(message.str());
+  }
   parts_->refresh_guards();
 }
 

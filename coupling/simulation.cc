@@ -1,7 +1,13 @@
 #include "coupling/simulation.h"
 
+#include "coupling/cylinder_watch.h"
+#include "coupling/element_law.h"
 #include "coupling/integration/event_driver.h"
+#include "coupling/joint_rank.h"
 #include "coupling/recorder.h"
+#include "coupling/tilting_rotors.h"
+#include "mechanism/elements/journal_bearing.h"
+#include "mechanism/elements/point_contact.h"
 
 #include <algorithm>
 #include <chrono>
@@ -183,6 +189,22 @@ void warn_of_closed_contacts(const Machine &machine, const InitialState &initial
                               "play, or start with rule = \"static\"");
 }
 
+/// What may lie behind a step that was not solved.
+std::string advice(const Machine &machine, const MethodOptions &method, const Instant &last)
+{
+  std::string text;
+  if (const std::string joint = JointRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
+    text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
+            " is about to follow from the other joints; keep it off there, or make a joint compliant";
+  bool rubs = false;
+  for (const ElementPlacement &placement : machine.elements())
+    rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
+  if (rubs && controlled(method))
+    text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
+            "develops, or take a fixed step";
+  return text;
+}
+
 void warn_of_fast_loads(const Machine &machine, RunResult &result)
 {
   const ReducedFrame *frame = machine.reduced_frame();
@@ -240,8 +262,15 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   EventDriver driver(machine, *integrator, event_options);
   Recorder    recorder(machine, *integrator, options, signals, samples_per_step(machine, method), result);
   driver.begin(options.begin, initial.q, initial.v);
-  driver.on_step([&recorder] { recorder.step(); });
+  CylinderWatch cylinders(machine, *integrator);
+  driver.on_step(
+      [&]
+      {
+        recorder.step();
+        cylinders.step();
+      });
   recorder.begin();
+  cylinders.begin();
 
   const long   progress_every = machine.size() > 1000 ? 4 : 1024;
   const double finish         = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
@@ -265,13 +294,18 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   }
   catch (const ConvergenceFailure &failure)
   {
-    result.failure = failure.what();
+    result.failure = failure.what() + advice(machine, method, integrator->instant());
   }
   recorder.finish();
   result.events = driver.events();
   warn_of_switches(machine, options.begin, result);
   take_work(integrator->work(), driver.chattering_steps(), controlled(method), result);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  for (const std::string &warning : cylinders.warnings())
+    result.warnings.push_back(warning);
+  const Eigen::VectorXd &v = integrator->instant().v;
+  for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
+    result.warnings.push_back(warning);
   return result;
 }
 

@@ -14,11 +14,9 @@ namespace gestell::fem
 namespace
 {
 
-const std::map<std::string, CadFile> kinds = {{".step", CadFile::step},
-                                              {".stp", CadFile::step},
-                                              {".brep", CadFile::brep},
-                                              {".geo", CadFile::geo},
-                                              {".msh", CadFile::mesh}};
+const std::map<std::string, CadFile> kinds = {{".step", CadFile::step}, {".stp", CadFile::step},
+                                              {".brep", CadFile::brep}, {".geo", CadFile::geo},
+                                              {".msh", CadFile::mesh},  {".stl", CadFile::triangles}};
 
 std::string extension(const std::string &path)
 {
@@ -78,15 +76,15 @@ bool is_step(const std::string &path)
   return kind != kinds.end() && kind->second == CadFile::step;
 }
 
-CadFile check_cad_file(const FrameSpecification &specification)
+CadFile check_cad_file(const CadSource &source)
 {
-  const std::string &path   = specification.cad;
+  const std::string &path   = source.path;
   const auto         refuse = [&](const std::string &why)
-  { throw std::invalid_argument(specification.place + ": " + path + " " + why); };
+  { throw std::invalid_argument(source.place + ": " + path + " " + why); };
   std::error_code ignored;
   if (path.empty())
-    throw std::invalid_argument(specification.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo or "
-                                                      ".msh file.");
+    throw std::invalid_argument(source.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo or "
+                                               ".msh file.");
   if (!std::filesystem::exists(path, ignored))
     refuse("does not exist; a relative path counts from the scene's folder.");
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -100,8 +98,8 @@ CadFile check_cad_file(const FrameSpecification &specification)
   if (kind == kinds.end())
     refuse("ends in \"" + extension(path) +
            "\"; .step, .stp, .brep, .geo and .msh are read: export the model as STEP.");
-  if (specification.unit < 0.)
-    throw std::invalid_argument(specification.place + ": unit = " + std::to_string(specification.unit) +
+  if (source.unit < 0.)
+    throw std::invalid_argument(source.place + ": unit = " + std::to_string(source.unit) +
                                 " m; it must be > 0, or be left out.");
 
   if (kind->second == CadFile::brep)

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "fem/frame_specification.h"
-
 #include <string>
 
 namespace gestell::fem
@@ -11,8 +9,17 @@ enum class CadFile
 {
   step,
   brep,
-  geo, ///< script of gmsh
-  mesh ///< .msh of gmsh
+  geo,      ///< script of gmsh
+  mesh,     ///< .msh of gmsh
+  triangles ///< .stl, a surface
+};
+
+/// A file with the geometry of a frame or a part.
+struct CadSource
+{
+  std::string path;
+  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
+  std::string place;     ///< heads messages
 };
 
 bool is_step(const std::string &path);
@@ -22,8 +29,8 @@ bool is_step(const std::string &path);
  *
  * @throws std::invalid_argument if it is missing, no file, empty, of a kind that is not read, a STEP file without its
  *         first or last line (ISO 10303-21: "ISO-10303-21;" and "END-ISO-10303-21;"), a BREP file without its head or
- *         its end, or if specification.unit < 0.
+ *         its end, or if source.unit < 0.
  */
-CadFile check_cad_file(const FrameSpecification &specification);
+CadFile check_cad_file(const CadSource &source);
 
 } // namespace gestell::fem

@@ -59,21 +59,21 @@ Solid solid_of(int tag, double unit, bool meshed)
   return solid;
 }
 
-void check_kernel(const FrameSpecification &specification)
+void check_kernel(const CadSource &source)
 {
   gmsh::vectorpair of_model, of_opencascade;
   gmsh::model::getEntities(of_model, 3);
   gmsh::model::occ::getEntities(of_opencascade, 3);
   if (of_model.size() != of_opencascade.size())
     throw std::invalid_argument(
-        specification.place + ": " + specification.cad +
+        source.place + ": " + source.path +
         " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
         "it with SetFactory(\"OpenCASCADE\"); or give the mesh made of it as .msh.");
 }
 
-void check_solids(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
+void check_solids(const CadModel &model, const CadSource &source, const GmshSession &session)
 {
-  const std::string head = specification.place + ": " + specification.cad;
+  const std::string head = source.place + ": " + source.path;
   if (model.solids.empty())
   {
     gmsh::vectorpair faces;
@@ -83,7 +83,7 @@ void check_solids(const CadModel &model, const FrameSpecification &specification
         faces.empty() ? "no shape"
                       : "no closed solid, only " + std::to_string(faces.size()) + " faces (shells or surfaces)";
     throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
-                                (said.empty() ? "" : " (gmsh: " + said + ")") + "; a frame needs at least one " +
+                                (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
                                 (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
                                               : "closed solid: sew the faces into a solid and export it as a solid."));
   }
@@ -93,19 +93,19 @@ void check_solids(const CadModel &model, const FrameSpecification &specification
                                   " m^3; it is open or turned inside out: repair it in the CAD program.");
 }
 
-void check_size(const CadModel &model, const FrameSpecification &specification)
+void check_size(const CadModel &model, const CadSource &source)
 {
   const double diagonal = model.diagonal();
   if (diagonal >= smallest_diagonal && diagonal <= largest_diagonal)
     return;
   const double likely = diagonal > largest_diagonal ? 1e-3 : 1e3;
   throw std::invalid_argument(
-      specification.place + ": " + specification.cad + " is " + text(diagonal) + " m across; frames from " +
-      text(smallest_diagonal) + " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
-      (is_step(specification.cad)
+      source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " + text(smallest_diagonal) +
+      " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
+      (is_step(source.path)
            ? "Export it again with the right unit, or set unit to the true length of what the file calls a millimetre"
            : "Set unit to the length of the file's unit, such as \"mm\"") +
-      " (unit = " + text(likely * (is_step(specification.cad) && specification.unit == 0. ? 1e-3 : model.unit)) +
+      " (unit = " + text(likely * (is_step(source.path) && source.unit == 0. ? 1e-3 : model.unit)) +
       " m would make it " + text(diagonal * likely) + " m).");
 }
 
@@ -124,14 +124,6 @@ std::vector<int> bodies_of(const std::vector<Solid> &solids)
         std::replace(body.begin(), body.end(), b, a);
     }
   return body;
-}
-
-bool boxes_touch(const Solid &a, const Solid &b, double tolerance)
-{
-  for (int d = 0; d < 3; ++d)
-    if (a.min[d] > b.max[d] + tolerance || b.min[d] > a.max[d] + tolerance)
-      return false;
-  return true;
 }
 
 void check_hanging_together(const CadModel &model, const FrameSpecification &specification)
@@ -172,33 +164,52 @@ double CadModel::volume() const
                          [](double sum, const Solid &solid) { return sum + solid.volume; });
 }
 
-CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
+bool boxes_touch(const Solid &a, const Solid &b, double tolerance)
 {
-  const CadFile file = check_cad_file(specification);
+  for (int d = 0; d < 3; ++d)
+    if (a.min[d] > b.max[d] + tolerance || b.min[d] > a.max[d] + tolerance)
+      return false;
+  return true;
+}
+
+CadModel open_cad(const CadSource &source, const GmshSession &session)
+{
+  const CadFile file = check_cad_file(source);
   CadModel      model;
-  model.meshed = file == CadFile::mesh;
-  model.unit   = specification.unit > 0. ? specification.unit : 1.;
-  if (file == CadFile::step && specification.unit > 0.)
+  model.meshed = file == CadFile::mesh || file == CadFile::triangles;
+  model.unit   = source.unit > 0. ? source.unit : 1.;
+  if (file == CadFile::step && source.unit > 0.)
     gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
 
-  session.run([&] { gmsh::open(specification.cad); },
-              specification.place + ": gmsh cannot read " + specification.cad + ": ",
+  session.run([&] { gmsh::open(source.path); }, source.place + ": gmsh cannot read " + source.path + ": ",
               "; it may be damaged: export the model again, and see whether gmsh opens it.");
   if (!model.meshed)
-    check_kernel(specification);
+    check_kernel(source);
 
   gmsh::vectorpair solids;
   gmsh::model::getEntities(solids, 3);
   for (const auto &[dim, tag] : solids)
     model.solids.push_back(solid_of(tag, model.unit, model.meshed));
-  check_solids(model, specification, session);
+  if (file != CadFile::triangles)
+    check_solids(model, source, session);
 
   auto &[x0, y0, z0] = model.min;
   auto &[x1, y1, z1] = model.max;
   gmsh::model::getBoundingBox(-1, -1, x0, y0, z0, x1, y1, z1);
   model.min = model.unit * model.min;
   model.max = model.unit * model.max;
-  check_size(model, specification);
+  check_size(model, source);
+  return model;
+}
+
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
+{
+  const CadSource source{specification.cad, specification.unit, specification.place};
+  if (check_cad_file(source) == CadFile::triangles)
+    throw std::invalid_argument(source.place + ": " + source.path +
+                                " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "
+                                "or give a mesh of tetrahedra as .msh.");
+  CadModel model = open_cad(source, session);
   if (!model.meshed) // a mesh is judged by its cells
   {
     check_hanging_together(model, specification);

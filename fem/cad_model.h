@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/cad_file.h"
 #include "fem/face.h"
 #include "fem/frame_specification.h"
 #include "fem/gmsh_session.h"
@@ -34,14 +35,26 @@ struct CadModel
 };
 
 /**
- * Reads a .step, .stp, .brep, .geo (OpenCASCADE kernel) or .msh file into gmsh.
+ * Reads a file of any kind into gmsh, for its solids; their faces are not looked at, nor whether they hang together.  A
+ * .stl has triangles and no solids.
  *
- * A STEP file knows its unit.  specification.unit > 0 overrides it: it is the true length [m] of what the file says
- * to be a millimetre (unit = 1 for a model drawn in metres that was written as millimetres).  For the other formats it
- * is the length of their unit, metre if not given.
+ * A STEP file knows its unit.  source.unit > 0 overrides it: it is the true length [m] of what the file says to be a
+ * millimetre (unit = 1 for a model drawn in metres that was written as millimetres).  For the other formats it is the
+ * length of their unit, metre if not given.
  *
  * @throws std::invalid_argument if the file is missing, empty, of another kind, cut off or unreadable, holds no closed
- *         solid, is smaller than 1 mm or larger than 200 m, or its solids do not hang together by common faces.
+ *         solid, or is smaller than 1 mm or larger than 200 m.
+ */
+CadModel open_cad(const CadSource &source, const GmshSession &session);
+
+/// Whether the boxes around two solids touch or overlap.
+bool boxes_touch(const Solid &a, const Solid &b, double tolerance);
+
+/**
+ * Reads the .step, .stp, .brep, .geo (OpenCASCADE kernel) or .msh file of a frame into gmsh, as open_cad() does, with
+ * its outer faces.
+ *
+ * @throws std::invalid_argument as open_cad(), or if its solids do not hang together by common faces.
  */
 CadModel read_cad(const FrameSpecification &specification, const GmshSession &session);
 

@@ -202,7 +202,7 @@ void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::strin
 
 } // namespace
 
-ExtractedMesh extract_mesh(const CadModel &model, const std::string &head)
+ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, Bodies bodies)
 {
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
@@ -213,7 +213,8 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head)
   std::vector<int> parent(mesh.cells.size());
   std::iota(parent.begin(), parent.end(), 0);
   const std::vector<CellFace> skin = join(sorted_faces(mesh), parent, head);
-  check_one_body(mesh, parent, head);
+  if (bodies == Bodies::one)
+    check_one_body(mesh, parent, head);
 
   std::map<Triangle, int> surface_of; // sorted triangle to tag
   gmsh::vectorpair        surfaces;

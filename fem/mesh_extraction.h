@@ -18,14 +18,20 @@ struct ExtractedMesh
   std::vector<std::size_t> node;         ///< for each point gmsh's tag
 };
 
+enum class Bodies
+{
+  one, ///< all cells hang together by common faces
+  any
+};
+
 /**
  * Takes the tetrahedra out of gmsh, in metres: cells positively oriented, the skin (faces of one cell only) outward.
  * Of quadratic tetrahedra only the corners are kept.
  *
  * @param head  "<place>: <file>", heads messages
  * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra, more than two cells share a face, or
- *         the cells do not hang together by common faces.
+ *         there are more bodies than one where one is wanted.
  */
-ExtractedMesh extract_mesh(const CadModel &model, const std::string &head);
+ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, Bodies bodies = Bodies::one);
 
 } // namespace gestell::fem

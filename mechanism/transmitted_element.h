@@ -38,6 +38,8 @@ public:
   TransmittedElement(const Placement &first, const Placement &second, const std::vector<RelativeMeasure> &measures,
                      std::shared_ptr<const ForceElement> law);
 
+  const ForceElement &law() const { return *law_; }
+
   int n_measures() const override { return n_motions() + n_virtual(); }
   /// history: that of the law, then that of the position function.
   int  n_history() const override { return law_->n_history() + function().n_history(); }

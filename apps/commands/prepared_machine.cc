@@ -90,6 +90,7 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
   }
   if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
     prepared.warnings = frame->notes;
+  prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
   return prepared;
 }
 
@@ -157,6 +158,13 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
   result.scenery  = scenery_of(small);
+  for (const BodyRequest &body : scene.bodies)
+    if (body.part)
+    {
+      result.bodies_from_cad.push_back(body.part->found);
+      if (!body.part->shape.points.empty())
+        result.scenery.parts.push_back({body.name, body.part->shape.points, body.part->shape.triangles});
+    }
   return result;
 }
 

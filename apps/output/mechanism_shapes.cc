@@ -192,6 +192,42 @@ Shape free_shape(const coupling::Body &body, int number, double machine_size, co
   return shape;
 }
 
+/// A body as its CAD file shows it.
+Shape part_shape(const Scenery &scenery, const DrawnPart &part, const coupling::Body &body, const Eigen::VectorXd &q)
+{
+  using coupling::BodyKind;
+  const Split     split(scenery, q);
+  const Vector3d  centre = vector(body.position);
+  Vector3d        moved = translation(body.marker, split.bodies), small = Vector3d::Zero();
+  Eigen::Matrix3d turned = rotation(body, q);
+  if (body.kind == BodyKind::rotor)
+  {
+    turned = Eigen::AngleAxisd(q(body.coordinate), vector(body.axis).normalized()).toRotationMatrix();
+    small  = translation(body.marker, split.frame);
+  }
+  else if (body.kind == BodyKind::slider)
+  {
+    const SliderPose pose(scenery, body, q);
+    moved = pose.ideal * pose.axis;
+    small = pose.displacement;
+  }
+
+  Shape shape;
+  shape.name      = body.name;
+  shape.triangles = part.triangles;
+  for (const auto &x : part.points)
+    shape.points.push_back(centre + moved + turned * (vector(x) - centre));
+  shape.displacement.assign(shape.points.size(), small);
+  return shape;
+}
+
+const DrawnPart *part_of(const Scenery &scenery, const std::string &body)
+{
+  const auto part = std::find_if(scenery.parts.begin(), scenery.parts.end(),
+                                 [&](const DrawnPart &candidate) { return candidate.body == body; });
+  return part != scenery.parts.end() ? &*part : nullptr;
+}
+
 Shape bar_shape(const coupling::DrawnBar &bar, double radius, const Split &split, const Eigen::VectorXd &q)
 {
   const Vector3d from = position(bar.from, split.bodies), to = position(bar.to, split.bodies), way = to - from;
@@ -230,7 +266,9 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
   int                n_free = 0;
   std::vector<Shape> shapes;
   for (const coupling::Body &body : scenery.bodies)
-    if (body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid)
+    if (const DrawnPart *part = part_of(scenery, body.name))
+      shapes.push_back(part_shape(scenery, *part, body, q));
+    else if (body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid)
       shapes.push_back(free_shape(body, n_free++, size, q));
     else if (body.kind == BodyKind::rotor && body.radius > 0.)
       shapes.push_back(rotor_shape(scenery, body, q));

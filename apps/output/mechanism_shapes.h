@@ -24,6 +24,9 @@ namespace gestell::apps
  *
  *     x = c + u1 e_1 + u2 e_2 + R(axis, phi) (x0 - c).
  *
+ * A body with a part (Scenery::parts) is drawn as that: x = c + u + R (x0 - c), of a rotor about its axis and with its
+ * carrier, of a slider along its way.
+ *
  * A point is a sphere of `radius` or a box.  What a scene gives no size is drawn in proportion to Scenery::size().
  * Distance joints are round bars between their places, all pins of revolute joints one shape, "joints".  The position
  * of points and planar bodies holds all of their motion; of places the motion of the frame is displacement.

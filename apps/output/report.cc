@@ -270,6 +270,13 @@ std::string numerics_section(const Result &result)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (!result.bodies_from_cad.empty())
+  {
+    html += "<h3>Bodies from CAD</h3><ul>";
+    for (const std::string &body : result.bodies_from_cad)
+      html += "<li>" + escape_xml(body) + "</li>";
+    html += "</ul>\n";
+  }
   if (!result.settings.empty())
     html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
   if (result.run)

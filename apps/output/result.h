@@ -57,6 +57,7 @@ struct Result
   std::vector<coupling::Mode>                 coupled_modes;
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
+  std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run
   Scenery                                     scenery;
 };

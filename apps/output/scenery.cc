@@ -32,6 +32,9 @@ double Scenery::size() const
     for (const auto &x : body.points)
       box.extend(vector(x));
   }
+  for (const DrawnPart &part : parts)
+    for (const auto &x : part.points)
+      box.extend(vector(x));
   for (const coupling::DrawnBar &bar : bars)
     for (const coupling::PlacedPoint *end : {&bar.from, &bar.to})
       box.extend(end->placement.point());

@@ -13,6 +13,14 @@
 namespace gestell::apps
 {
 
+/// The shape of a body as its CAD file shows it, in the position the scene describes.
+struct DrawnPart
+{
+  std::string                        body;
+  std::vector<std::array<double, 3>> points;    ///< [m]
+  std::vector<std::array<int, 3>>    triangles; ///< into points, outside counter-clockwise
+};
+
 /// What can be seen of a machine: the skin of its frame, its interfaces and the bodies of its mechanism.
 struct Scenery
 {
@@ -29,6 +37,7 @@ struct Scenery
   std::vector<coupling::DrawnRod>                            rods;
   std::vector<coupling::DrawnBar>                            bars;
   std::vector<coupling::DrawnPin>                            pins;
+  std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn by their sizes
 
   bool has_skin() const { return !points.empty(); }
 

@@ -211,6 +211,10 @@ std::string summary_json(const Result &result)
   json.text("version", result.version);
   json.text("command", result.command);
   write_model(json, result.model);
+  json.begin_array("bodies_from_cad");
+  for (const std::string &body : result.bodies_from_cad)
+    json.text("", body);
+  json.end_array();
   write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
   if (result.along)

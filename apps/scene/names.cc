@@ -18,6 +18,13 @@ const BodyRequest *Names::find_body(const std::string &name) const
   return found == bodies_.end() ? nullptr : &*found;
 }
 
+void Names::set_carrier(const std::string &body, const std::string &carrier)
+{
+  for (BodyRequest &known : bodies_)
+    if (known.name == body)
+      known.carrier = carrier;
+}
+
 std::vector<std::string> Names::body_names() const
 {
   std::vector<std::string> names;

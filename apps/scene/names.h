@@ -18,6 +18,7 @@ public:
   Names(const std::vector<std::string> &interfaces, bool any_interface);
 
   void add_body(const BodyRequest &body) { bodies_.push_back(body); }
+  void set_carrier(const std::string &body, const std::string &carrier);
   void add_place(const std::string &name, const PlaceRequest &place) { places_[name] = place; }
   void add_measure(const MeasureRequest &measure) { measures_.push_back(measure); }
 

@@ -52,16 +52,20 @@ std::string describe(const Dimension &dimension)
   return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
 }
 
+std::string with_article(const Kind &kind)
+{
+  const bool vowel = std::string("aeiou").find(kind.name.front()) != std::string::npos;
+  return (vowel ? "an " : "a ") + kind.name;
+}
+
 namespace
 {
 
 /// `shown`: the quantity as messages tell it behind its text, "3 kg".
 void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::string &text, const std::string &shown)
 {
-  const std::string needs = "needs a" +
-                            std::string(std::string("aei").find(kind.name[0]) != std::string::npos ? "n " : " ") +
-                            kind.name + " such as \"" + kind.example + "\", got ";
-  bool fits = !q.checked;
+  const std::string needs = "needs " + with_article(kind) + " such as \"" + kind.example + "\", got ";
+  bool              fits  = !q.checked;
   for (int more = 0; more <= kind.metre_range; ++more)
     fits = fits || equal(q.dimension, {kind.dimension[0] + more, kind.dimension[1], kind.dimension[2]});
   if (!fits && is_zero && equal(q.dimension, {}))

@@ -72,6 +72,7 @@ bool equal(const Dimension &a, const Dimension &b);
 
 /// "kg m^2/s^2", or "a plain number".
 std::string describe(const Dimension &dimension);
+std::string with_article(const Kind &kind); ///< "a length", "an angle"
 
 /// Value of a name in an expression; empty if there is no such parameter.
 using NameLookup = std::function<std::optional<Quantity>(const std::string &name)>;

@@ -1,6 +1,7 @@
 #include "apps/scene/read_bodies.h"
 
 #include "apps/scene/element_registry.h"
+#include "apps/scene/read_part.h"
 #include "coupling/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -59,7 +60,7 @@ Eigen::Matrix3d read_tensor(const SceneTable &table)
 }
 
 /// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
-BodyRequest read_body(const SceneTable &table)
+BodyRequest read_body(const SceneTable &table, const SceneTable &scene)
 {
   check_thing_name(table);
   BodyRequest body;
@@ -68,16 +69,20 @@ BodyRequest read_body(const SceneTable &table)
   const std::string type = table.choice("type", {"rotor", "slider", "point", "planar", "rigid"}, "");
   if (type == "point" || type == "planar" || type == "rigid")
   {
-    body.kind     = type == "point"    ? coupling::BodyKind::point
-                    : type == "planar" ? coupling::BodyKind::planar
-                                       : coupling::BodyKind::rigid;
+    body.kind = type == "point"    ? coupling::BodyKind::point
+                : type == "planar" ? coupling::BodyKind::planar
+                                   : coupling::BodyKind::rigid;
+    if (type == "planar")
+      body.axis = table.direction("normal");
+    if (table.has("cad"))
+    {
+      read_part(table, scene, body);
+      return body;
+    }
     body.mass     = table.positive("mass", kind::mass);
     body.position = table.vector("position", kind::length);
     if (type == "planar")
-    {
-      body.axis    = table.direction("normal");
       body.inertia = table.positive("inertia", kind::inertia);
-    }
     if (type == "rigid")
       body.tensor = read_tensor(table);
     body.size   = table.vector("size", kind::length, {});
@@ -87,7 +92,12 @@ BodyRequest read_body(const SceneTable &table)
   const bool rotor = type == "rotor";
   body.kind        = rotor ? coupling::BodyKind::rotor : coupling::BodyKind::slider;
   body.axis        = table.direction("axis");
-  body.position    = table.vector("position", kind::length, {});
+  if (table.has("cad"))
+  {
+    read_part(table, scene, body);
+    return body;
+  }
+  body.position = table.vector("position", kind::length, {});
   if (rotor)
   {
     body.inertia = table.positive("inertia", kind::inertia);
@@ -134,13 +144,16 @@ std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
   const auto               tables = scene.tables("body");
   for (const auto &table : tables)
   {
-    bodies.push_back(read_body(table));
+    bodies.push_back(read_body(table, scene));
     names.add_body(bodies.back());
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].kind == coupling::BodyKind::rotor || bodies[i].kind == coupling::BodyKind::slider)
+    {
       bodies[i].carrier =
           names.marker(tables[i], bodies[i].kind == coupling::BodyKind::rotor ? "on" : "guide", "ground");
+      names.set_carrier(bodies[i].name, bodies[i].carrier);
+    }
   return carriers_first(bodies);
 }
 

@@ -1,5 +1,6 @@
 #include "apps/scene/names.h"
 #include "apps/scene/read_frame.h"
+#include "apps/scene/read_material.h"
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
@@ -13,36 +14,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-fem::Material material_from(const SceneTable &table)
-{
-  fem::Material material;
-  material.E     = table.positive("E", kind::pressure);
-  material.nu    = table.number("nu", kind::number);
-  material.rho   = table.positive("rho", kind::density);
-  material.place = table.place();
-  if (material.nu <= -1. || material.nu >= 0.5)
-    throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
-  return material;
-}
-
-/// By name: [material.NAME] of the scene first, then the built-in ones (handbook values at room temperature).
-fem::Material read_material(const SceneTable &frame, const SceneTable &scene)
-{
-  std::map<std::string, fem::Material> known = {{"steel", {210e9, 0.3, 7850., ""}},
-                                                {"cast iron", {110e9, 0.26, 7200., ""}},
-                                                {"aluminium", {70e9, 0.33, 2700., ""}}};
-  for (const auto &table : scene.tables("material"))
-    known[table.name()] = material_from(table);
-  if (frame.is_table("material"))
-    return material_from(frame.table("material"));
-  std::vector<std::string> names;
-  for (const auto &entry : known)
-    names.push_back(entry.first);
-  fem::Material material = known.at(frame.choice("material", names, "steel"));
-  material.place         = frame.place("material");
-  return material;
-}
 
 fem::SurfaceSelector read_surface(const SceneTable &table)
 {
@@ -105,7 +76,7 @@ fem::Vector3 per_direction(const SceneTable &table, const std::string &key, cons
     value.fill(table.number(key, kind));
   for (const double x : value)
     if (x < 0.)
-      throw table.error(key, "needs a " + kind.name + " of zero or more in every direction");
+      throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
   return value;
 }
 

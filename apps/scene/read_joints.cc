@@ -167,7 +167,8 @@ using Carrier = mechanism::RelativeMeasure::Carrier;
 void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   ScalarRequest x;
-  joint.measure       = read_position_function(table, names, x);
+  joint.measure = read_position_function(table, names, x);
+  refuse_jumps(table, *joint.measure.function, x.kind());
   joint.value         = 0.;
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
 }
@@ -196,6 +197,21 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
                       difference(joint.to.marker, joint.from.marker, axis, true));
 }
 
+/// Whether a body or what carries it may move along a direction.
+bool moves_along(const Names &names, const std::string &marker, const Vector3 &direction)
+{
+  using coupling::BodyKind;
+  const BodyRequest *body = names.find_body(marker);
+  if (!body)
+    return marker != "ground";
+  if (body->kind == BodyKind::planar)
+    return std::abs(std::abs(dot(body->axis, direction)) - 1.) > 1e-9;
+  if (body->kind == BodyKind::slider && std::abs(dot(body->axis, direction)) > 1e-9)
+    return true;
+  const bool carried = body->kind == BodyKind::slider || body->kind == BodyKind::rotor;
+  return !carried || body->carrier != "ground";
+}
+
 /// The wheel `from` rolls on `to`, or moves the rack `to`.
 void read_rolling(const SceneTable &table, const Names &names, JointRequest &joint)
 {
@@ -209,6 +225,11 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
   const Vector3      direction = table.direction("direction");
   if (std::abs(dot(direction, wheel.axis)) > 1e-9)
     throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
+  if (!moves_along(names, joint.from.marker, direction) && !moves_along(names, joint.to.marker, direction))
+    throw table.error("direction", "neither '" + joint.from.marker + "' nor '" + joint.to.marker +
+                                       "' can move along it, so that the wheel could not turn; " +
+                                       (rack ? "give the direction in which the rack moves"
+                                             : "make the wheel a planar body, or let what carries it move"));
   const auto angle = difference(joint.from.marker, joint.to.marker, wheel.axis, true);
   if (rack)
     join_path_and_angle(joint, joint.from, joint.to, direction, Carrier::second, radius, angle);

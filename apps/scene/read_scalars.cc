@@ -3,8 +3,11 @@
 #include "apps/scene/read_profile.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
+#include "mechanism/slope_jump.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -56,6 +59,48 @@ std::vector<NamedScalar> coordinates(const Names &names)
   return all;
 }
 
+constexpr double seen_overshoot = 0.05; // of a spline beyond its rows, by the steps between rows beside it
+
+/**
+ * A spline through rows that rise after a level stretch, or have a wrong value among them, swings beyond them.  It may
+ * do so only at an extreme, where the steps between rows change their sign.
+ */
+void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::CubicSpline::Point> &points, bool periodic,
+                       const mechanism::CubicSpline &spline)
+{
+  const int  n    = int(points.size()) - 1;
+  const auto step = [&](int i)
+  {
+    const int k = periodic ? (i + n) % n : std::clamp(i, 0, n - 1);
+    return points[k + 1].f - points[k].f;
+  };
+  double worst = 0., at = 0., by = 0.;
+  for (int i = 0; i < n; ++i)
+  {
+    const double steps[]  = {step(i - 1), step(i), step(i + 1)};
+    const auto [down, up] = std::minmax_element(std::begin(steps), std::end(steps));
+    const double scale    = std::max(std::abs(*down), std::abs(*up));
+    if ((*down < 0. && *up > 0.) || scale == 0.)
+      continue;
+    constexpr int n_between = 16;
+    const auto [low, high]  = std::minmax(points[i].f, points[i + 1].f);
+    for (int k = 1; k < n_between; ++k)
+    {
+      const double x = points[i].x + k * (points[i + 1].x - points[i].x) / n_between, f = spline.at(x).value;
+      const double beyond = std::max(low - f, f - high);
+      if (beyond > worst * scale)
+        worst = beyond / scale, at = x, by = beyond;
+    }
+  }
+  if (worst <= seen_overshoot)
+    return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the spline swings " << by << " beyond the rows on both sides of it at " << at << ", by " << 100. * worst
+       << " % of the steps between rows there; give more rows where the course bends, or round it";
+  table.warn("table", text.str());
+}
+
 /// f of `function` or `table`, whose argument is called `variable`.
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
@@ -99,7 +144,9 @@ std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, c
   const auto ends = period ? CubicSpline::Ends::periodic : CubicSpline::Ends::not_a_knot;
   try
   {
-    return std::make_shared<PositionFunction>(CubicSpline(points, ends));
+    const CubicSpline spline(points, ends);
+    warn_of_overshoot(table, points, period.has_value(), spline);
+    return std::make_shared<PositionFunction>(spline);
   }
   catch (const std::invalid_argument &e)
   {
@@ -202,6 +249,25 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   return measure;
 }
 
+void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind &x)
+{
+  if (!table.has("function") || !table.has("period"))
+    return; // how far it is used is not known; where it jumps the run ends
+  const double period = table.positive("period", x), begin = table.number("begin", x, 0.);
+  const double aside = 1e-3 * period; // kinks like to lie at the begin, and no step of the search should end on one
+  const auto   jump  = mechanism::first_jump(f, begin - M_SQRT1_2 * aside, begin + period - M_SQRT1_2 * aside);
+  if (!jump)
+    return;
+  const bool         turns = x.refused == Counts::turns;
+  const double       at    = std::round(1e9 * jump->x / period) / 1e9 * period + 0.; // located to rounding
+  std::ostringstream text;
+  text << jump->what << " jumps from " << jump->before << " to " << jump->behind << " at "
+       << (turns ? at * 180. / M_PI : at) << (turns ? " deg" : "") << " (" << jump->kink
+       << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+          "element on a measure of type \"position function\", instead of the joint";
+  throw table.error("function", text.str());
+}
+
 MeasureRequest read_sum(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
@@ -238,6 +304,7 @@ std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table,
     throw table.error("needs 'speed', or 'function', a formula of the time t, or 'table'");
   const auto f =
       read_function(table, {"t", "time", kind::time.dimension}, kind::time, turns ? kind::angle : kind::length);
+  refuse_jumps(table, *f, kind::time);
   return std::make_shared<mechanism::FunctionMotion>(*f);
 }
 

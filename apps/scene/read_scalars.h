@@ -29,6 +29,9 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
 /// s = y - f(x) of the keys `from` (x), `to` (y), and `function` or `table`.
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x);
 
+/// Refuses a periodic `function` f(x) of an ideal joint that jumps, or whose slope does, with the place.
+void refuse_jumps(const SceneTable &table, const mechanism::PositionFunction &f, const Kind &x);
+
 /// The sum of `terms = [{ of = "pinion", factor = "r" }, ...]`.
 MeasureRequest read_sum(const SceneTable &table, const Names &names);
 

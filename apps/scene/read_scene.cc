@@ -185,6 +185,7 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);
   table.finish();
+  scene.warnings = table.warnings();
   return scene;
 }
 

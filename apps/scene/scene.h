@@ -6,6 +6,7 @@
 #include "coupling/simulation.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
+#include "fem/part.h"
 #include "mechanism/joints/motion_law.h"
 #include "mechanism/sliding_friction.h"
 
@@ -51,6 +52,14 @@ struct ReductionRequest
   coupling::ReductionOptions options;
 };
 
+/// The shape of a body from CAD, placed as the scene describes it.
+struct PartRequest
+{
+  fem::Part   shape;        ///< in the scene's coordinates; its inertia is for density one
+  double      density = 0.; ///< [kg/m^3]
+  std::string found;        ///< for people: file, mass, centre of mass, inertia
+};
+
 struct BodyRequest
 {
   std::string        name;
@@ -62,6 +71,8 @@ struct BodyRequest
   Vector3            position{}, size{};               ///< [m], for pictures
   double             radius = 0.;                      ///< [m], for pictures
   std::string        place;
+
+  std::shared_ptr<const PartRequest> part; ///< inertia, mass and position come from it; null if they are given
 };
 
 /// A point of a body, an interface or the ground, in the position the scene describes.
@@ -268,6 +279,7 @@ struct Scene
   RunRequest                         run;
   ModesRequest                       modes;
   std::vector<SignalRequest>         signals;
+  std::vector<std::string>           warnings; ///< of what is allowed and probably not meant
 };
 
 /**

@@ -12,17 +12,22 @@ namespace gestell::apps
 using Type = SceneNode::Type;
 
 SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path)
-    : SceneTable(node, parameters, path, path)
+    : SceneTable(node, parameters, path, path, std::make_shared<std::vector<std::string>>())
 {
 }
 
 SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path,
-                       const std::string &name)
-    : node_(&node), parameters_(&parameters), path_(path), name_(name)
+                       const std::string &name, const Warnings &warnings)
+    : node_(&node), parameters_(&parameters), path_(path), name_(name), warnings_(warnings)
 {
   node.used = true;
   if (node.type != Type::table)
     throw error("needs a table of keys, got " + described(node));
+}
+
+SceneTable SceneTable::below(const SceneNode &node, const std::string &path, const std::string &name) const
+{
+  return {node, *parameters_, path, name, warnings_};
 }
 
 // --- places and errors
@@ -56,6 +61,11 @@ std::invalid_argument SceneTable::error(const std::string &what) const
 std::invalid_argument SceneTable::error(const std::string &key, const std::string &what) const
 {
   return std::invalid_argument(place(key) + ": " + what);
+}
+
+void SceneTable::warn(const std::string &key, const std::string &what) const
+{
+  warnings_->push_back(place(key) + ": " + what);
 }
 
 // --- looking up
@@ -131,7 +141,7 @@ mechanism::Formula SceneTable::expression(const std::string &key, const SceneNod
 {
   const std::string at = value.place.text() + ": " + path_of(key) + ": ";
   if (value.type != Type::text && value.type != Type::integer && value.type != Type::real)
-    throw std::invalid_argument(at + "needs a " + kind.name + " such as \"" + kind.example + "\", got " +
+    throw std::invalid_argument(at + "needs " + with_article(kind) + " such as \"" + kind.example + "\", got " +
                                 described(value));
   try
   {
@@ -149,12 +159,12 @@ mechanism::Formula SceneTable::expression(const std::string &key, const SceneNod
 mechanism::Formula SceneTable::formula(const std::string &key, const std::vector<Variable> &variables,
                                        const Kind &kind) const
 {
-  return expression(key, demand(key, "a formula of a " + kind.name), variables, kind);
+  return expression(key, demand(key, "a formula of " + with_article(kind)), variables, kind);
 }
 
 double SceneTable::number(const std::string &key, const Kind &kind) const
 {
-  return evaluate(key, demand(key, "a " + kind.name + " such as \"" + kind.example + "\""), kind);
+  return evaluate(key, demand(key, with_article(kind) + " such as \"" + kind.example + "\""), kind);
 }
 
 Quantity SceneTable::quantity(const std::string &key) const
@@ -187,8 +197,8 @@ double SceneTable::positive(const std::string &key, const Kind &kind) const
 {
   const double value = number(key, kind);
   if (value <= 0.)
-    throw error(key,
-                "needs a " + kind.name + " above zero such as \"" + kind.example + "\", got " + node_->find(key)->text);
+    throw error(key, "needs " + with_article(kind) + " above zero such as \"" + kind.example + "\", got " +
+                         node_->find(key)->text);
   return value;
 }
 
@@ -201,7 +211,7 @@ double SceneTable::not_negative(const std::string &key, const Kind &kind) const
 {
   const double value = number(key, kind);
   if (value < 0.)
-    throw error(key, "needs a " + kind.name + " of zero or more, got " + node_->find(key)->text);
+    throw error(key, "needs " + with_article(kind) + " of zero or more, got " + node_->find(key)->text);
   return value;
 }
 
@@ -286,6 +296,8 @@ std::vector<std::array<double, 2>> SceneTable::pairs(const std::string &key, con
 
 Vector3 SceneTable::vector(const std::string &key, const Kind &kind) const
 {
+  if (const SceneNode &value = demand(key, "three numbers [x, y, z]"); value.type != Type::array)
+    throw error(key, "needs three numbers [x, y, z], got " + described(value));
   const auto x = numbers(key, kind);
   if (x.size() != 3)
     throw error(key, "needs three values [x, y, z], got " + std::to_string(x.size()));
@@ -377,7 +389,7 @@ std::string SceneTable::file(const std::string &key) const
 
 SceneTable SceneTable::table(const std::string &key) const
 {
-  return {demand(key, "a table of keys"), *parameters_, path_of(key), key};
+  return below(demand(key, "a table of keys"), path_of(key), key);
 }
 
 std::optional<SceneTable> SceneTable::optional_table(const std::string &key) const
@@ -403,7 +415,7 @@ std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
   if (value->type != Type::array)
     throw error(key, "needs an array of tables [{ ... }, { ... }], got " + described(*value));
   for (const auto &element : value->elements)
-    result.push_back({element, *parameters_, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key});
+    result.push_back(below(element, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "apps/scene/scene_node.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -85,12 +86,18 @@ public:
   std::invalid_argument error(const std::string &what) const;
   std::invalid_argument error(const std::string &key, const std::string &what) const;
 
+  /// Notes what is allowed and probably not meant, for the user to read.
+  void                            warn(const std::string &key, const std::string &what) const;
+  const std::vector<std::string> &warnings() const { return *warnings_; } ///< of the whole scene
+
   /// Refuses keys nobody asked for, here and in all tables below that were read; call after reading everything.
   void finish() const;
 
 private:
-  SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path, const std::string &name);
-
+  using Warnings = std::shared_ptr<std::vector<std::string>>; ///< shared by all tables of a scene
+  SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path, const std::string &name,
+             const Warnings &warnings);
+  SceneTable       below(const SceneNode &node, const std::string &path, const std::string &name) const;
   const SceneNode *look_up(const std::string &key) const;
   const SceneNode &demand(const std::string &key, const std::string &what) const;
   std::string      path_of(const std::string &key) const;
@@ -102,6 +109,7 @@ private:
   const SceneNode  *node_;
   const Parameters *parameters_;
   std::string       path_, name_;
+  Warnings          warnings_;
 };
 
 } // namespace gestell::apps

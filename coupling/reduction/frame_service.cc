@@ -64,6 +64,8 @@ public:
     return report_of(fem::report_geometry(frame, progress), frame);
   }
 
+  fem::Part measure(const fem::CadSource &part) override { return fem::measure_part(part); }
+
   fem::FrameMatrices assemble(const fem::FrameSpecification &frame, const Progress &progress) override
   {
     use_one_blas_thread();

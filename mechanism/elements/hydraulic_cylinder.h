@@ -98,6 +98,10 @@ public:
     p[2] = m.u[2] + (lag / P.area_b) * c.q_b * exp(Number((c.p_b - P.pressure_b) / P.bulk_modulus));
   }
 
+  /// Strokes x [m] at which an oil column ends: -L_a and L_b.
+  double lower_end() const { return -parameters_.volume_a / parameters_.area_a; }
+  double upper_end() const { return parameters_.volume_b / parameters_.area_b; }
+
   /// Of closed columns.
   void engaged(const double *u, double *K, double *D) const override;
   Work work() const override { return Work::input; }

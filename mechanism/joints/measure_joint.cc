@@ -1,11 +1,32 @@
 #include "mechanism/joints/measure_joint.h"
 
+#include "mechanism/slope_jump.h"
+
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace gestell::mechanism
 {
+namespace
+{
+
+/// Masses would jump, with energy from nowhere.
+void refuse_jump(const std::string &kink, const std::string &what, double before, double behind)
+{
+  if (!differ(before, behind))
+    return;
+  std::ostringstream message;
+  message
+      << what << " jumps from " << before << " to " << behind << " (" << kink
+      << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+         "element on a measure of type \"position function\", instead of the joint";
+  throw std::domain_error(message.str());
+}
+
+} // namespace
 
 MeasureJoint::MeasureJoint(const Parameters &parameters, std::shared_ptr<const MotionLaw> law)
     : ConstraintElement(std::move(law)), parameters_(parameters)
@@ -69,11 +90,27 @@ void MeasureJoint::guard_values(const LocalMotion &motion, const double *history
 
 void MeasureJoint::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const int of_law = ConstraintElement::n_guards(history);
+  const int         of_law   = ConstraintElement::n_guards(history);
+  double           *function = history + ConstraintElement::n_history();
+  const std::string kink     = guards(history)[i].kind;
   if (i < of_law)
+  {
+    const PrescribedMotion before = prescribed(motion.t, history);
     ConstraintElement::transition(i, motion, history);
-  else
-    measure().transition(i - of_law, motion.u, motion.v, history + ConstraintElement::n_history());
+    const PrescribedMotion behind = prescribed(motion.t, history);
+    refuse_jump(kink, "the prescribed motion", before.value, behind.value);
+    refuse_jump(kink, "the speed of the prescribed motion", before.rate, behind.rate);
+    return;
+  }
+  const auto s = [&]
+  {
+    double G[CombinedMeasure::max_measures];
+    return measure().evaluate(motion.u, motion.v, G, function).s;
+  };
+  const double value = s(), slope = measure().slope(motion.u, function);
+  measure().transition(i - of_law, motion.u, motion.v, function);
+  refuse_jump(kink, "the position function", 0., value - s());
+  refuse_jump(kink, "the slope of the position function", slope, measure().slope(motion.u, function));
 }
 
 std::vector<Quantity> MeasureJoint::quantities() const

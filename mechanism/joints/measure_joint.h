@@ -51,7 +51,8 @@ public:
   }
   std::vector<Guard> guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  /// @throws std::domain_error where function or law, or their slopes, jump
+  void transition(int i, const LocalMotion &motion, double *history) const override;
 
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;

@@ -188,6 +188,40 @@ signals = { phi = "arm.angle", F = "cylinder.force", Z = "hinge.fz", X = "hinge.
   }
 }
 
+/// The number behind "at t = " of the warning that says this; nan if there is none.
+double warned_at(const SceneRun &motion, const std::string &what)
+{
+  for (const std::string &warning : motion.result.warnings)
+    if (warning.find(what) != std::string::npos)
+      return std::stod(warning.substr(warning.find("at t = ") + 7));
+  return std::nan("");
+}
+
+// x = v/w sin w t; chamber A of 0.2 m is without pressure at x = 0.2 m (exp(p_0/K) - 1).
+TEST(HydraulicCylinder, CavitationIsWarnedOfWithItsTime)
+{
+  const std::string start = "pressure_a = \"10 bar\"\npressure_b = \"200 bar\"\nflow = 0\n[start]\nrule = \"given\"\n"
+                            "v = { slide = \"80 mm/s\" }\n[element.weight]\ntype = \"force\"\nfrom = \"slide\"\n"
+                            "constant = \"22 kN\"\n"; // holds 1.2e-3 m^2 200 bar - 2e-3 m^2 10 bar
+  const double      m = 200., w = std::sqrt(c_oil / m), x = 0.2 * std::expm1(1e6 / 1.4e9);
+  const auto        motion = run(slider(m, "20 ms") + cylinder(start), {"run.step=10 us", "output.picture_step=0"});
+  // The columns become softer by x/L, 7e-4, on the way.
+  EXPECT_NEAR(warned_at(motion, "cylinder: the pressure in chamber A falls below zero"), std::asin(w * x / 0.08) / w,
+              2e-3 / w);
+  EXPECT_TRUE(std::isnan(warned_at(motion, "chamber B"))) << "it stays above 200 bar - K x/L";
+}
+
+// 0.12 m/s from the middle: chamber B ends at 0.41667 m, and the last hundredth of both columns is 6.17 mm.
+TEST(HydraulicCylinder, TheEndOfItsStrokeIsWarnedOfWithItsTime)
+{
+  const std::string flow   = "pressure_a = \"60 bar\"\npressure_b = \"100 bar\"\nflow = \"240 cm^3/s\"\n[start]\n"
+                             "v = { slide = \"120 mm/s\" }\n";
+  const auto        motion = run(slider(200., "3.45 s") + cylinder(flow), {"run.step=1 ms", "output.picture_step=0"});
+  EXPECT_NEAR(warned_at(motion, "the end of its stroke on the side of chamber B"), (0.416667 - 0.00616667) / 0.12,
+              1e-4);
+  EXPECT_TRUE(std::isnan(warned_at(motion, "the end of its stroke on the side of chamber A")));
+}
+
 TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
 {
   expect_complaint(slider(1., "1 s") + cylinder(""), "'flow'");

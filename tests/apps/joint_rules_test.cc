@@ -137,5 +137,114 @@ position = [0, 0, 0]
   }
 }
 
+/// A four-bar linkage of bodies in space: cranks of 0.1 and 0.3 m on the ground, a coupler between them.
+std::string four_bar(const std::string &fourth)
+{
+  std::string scene;
+  for (const std::string at : {"crank [0, 0, 0.05]", "coupler [0.2, 0, 0.2]", "rocker [0.4, 0, 0.15]"})
+    scene += "[body." + at.substr(0, at.find(' ')) +
+             "]\ntype = \"rigid\"\nmass = 1\ninertia = [1, 1, 1]\nposition = " + at.substr(at.find(' ') + 1) + "\n";
+  const auto joint = [&](const std::string &name, const std::string &from, const std::string &to, const std::string &at,
+                         const std::string &type)
+  {
+    scene += "[joint." + name + "]\ntype = \"" + type + "\"\nfrom = \"" + from + "\"\nto = \"" + to + "\"\nat = " + at +
+             "\n" + (type == "spherical" ? "" : "axis = [0, 1, 0]\n");
+  };
+  joint("a", "ground", "crank", "[0, 0, 0]", "revolute");
+  joint("b", "crank", "coupler", "[0, 0, 0.1]", "revolute");
+  joint("c", "coupler", "rocker", "[0.4, 0, 0.3]", fourth);
+  joint("d", "ground", "rocker", "[0.4, 0, 0]", "revolute");
+  return scene;
+}
+
+// Four parallel hinges in space: 6*3 - 4*5 = -2 motions by counting, one by seeing: three equations follow from others.
+TEST(JointRules, AllEquationsThatFollowFromOthersAreNamed)
+{
+  const std::string said = complaint(four_bar("revolute") + settings + "signals = { }\n");
+  EXPECT_NE(said.find("3 equations are too many"), std::string::npos) << said;
+  EXPECT_NE(said.find("follows from the equations of \""), std::string::npos) << said;
+  EXPECT_NE(said.find("a spherical joint in place of a revolute"), std::string::npos) << said;
+  std::size_t lines = 0;
+  for (std::size_t i = said.find("which holds"); i != std::string::npos; i = said.find("which holds", i + 1))
+    ++lines;
+  EXPECT_EQ(lines, 3u) << said;
+  const std::string less = complaint(four_bar("spherical") + settings + "signals = { }\n"); // two rotations less
+  EXPECT_NE(less.find("one equation is too much"), std::string::npos) << less;
+}
+
+/// Crank and rod of 0.1 and 0.3 m, whose slider is pulled at constant speed to where they are stretched at 0.4 m.
+TEST(JointRules, AFailureNearADeadPositionIsNamed)
+{
+  const auto motion = run(R"toml(
+[body.crank]
+type = "planar"
+normal = [0, 1, 0]
+mass = 1
+inertia = 0.01
+position = [0, 0, "0.05 m"]
+[body.rod]
+type = "planar"
+normal = [0, 1, 0]
+mass = 1
+inertia = 0.01
+position = ["0.5*sqrt(0.08 m^2)", 0, "0.05 m"]
+[body.slide]
+type = "slider"
+axis = [1, 0, 0]
+mass = 1
+position = ["sqrt(0.08 m^2)", 0, 0]
+[joint.pivot]
+type = "revolute"
+from = "ground"
+to = "crank"
+at = [0, 0, 0]
+[joint.pin]
+type = "revolute"
+from = "crank"
+to = "rod"
+at = [0, 0, "0.1 m"]
+[joint.wrist]
+type = "revolute"
+from = "rod"
+to = "slide"
+at = ["sqrt(0.08 m^2)", 0, 0]
+[joint.pull]
+type = "prescribed motion"
+on = "slide.displacement"
+motion = { speed = "1 m/s" }
+)toml" + settings + "signals = { x = \"slide.displacement\" }\n");
+  EXPECT_LT(motion.signal("x").final, 0.4 - std::sqrt(0.08) + 1e-3);
+  EXPECT_NE(motion.result.failure.find("near a dead position"), std::string::npos) << motion.result.failure;
+}
+
+// kappa = J W^2/(c + W^2 m) = 0.5*2500/(10 000 + 2500) = 0.1 at 50 rad/s, 0.0012 at 5 rad/s.
+TEST(Rotor, OnACarrierThatTiltsIsWarnedOfItsGyroscopicMoments)
+{
+  const auto warnings = [](const std::string &speed)
+  {
+    return run(R"(
+[frame]
+mass = [[1, 0], [0, 1]]
+stiffness = [[1e4, 0], [0, 1e4]]
+[frame.interface.seat]
+rows = { rx = 1, rz = 2 }
+[body.wheel]
+type = "rotor"
+axis = [0, 1, 0]
+on = "frame.seat"
+inertia = 0.5
+[start]
+v = { wheel = ")" +
+               speed + "\" }\n" + settings + "signals = { w = \"wheel.speed\" }\n")
+        .result.warnings;
+  };
+  const auto fast = warnings("50 rad/s");
+  ASSERT_FALSE(fast.empty());
+  EXPECT_NE(fast.back().find("the rotor wheel is carried by what tilts"), std::string::npos) << fast.back();
+  EXPECT_NE(fast.back().find("10 %"), std::string::npos) << fast.back();
+  for (const std::string &warning : warnings("5 rad/s"))
+    EXPECT_EQ(warning.find("tilts"), std::string::npos) << warning;
+}
+
 } // namespace
 } // namespace gestell::tests

@@ -321,6 +321,91 @@ motion = { function = "1 mm*(1 - cos(15 rad/s*t))" }
             1e-3 * 8e3 * x);
 }
 
+// The natural spline through a step of height 1 swings by 7 to 9 % beyond its level parts; the same rise in a
+// sine has its extremes where the steps change their sign, and no level part.
+TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsIsWarnedOf)
+{
+  const test::SceneFolder folder;
+  const auto              warnings = [&](const std::string &rows, const std::string &more)
+  {
+    const auto path = folder.write("scene.toml", shaft_and_slide +
+                                                     "[joint.cam]\ntype = \"position function\"\nfrom = "
+                                                     "\"shaft\"\nto = \"slide\"\ntable = [" +
+                                                     rows + "]\n" + more);
+    return apps::read_scene(path).warnings;
+  };
+  const auto step = warnings("[0, 0], [1, 0], [2, 0], [3, 1], [4, 1], [5, 1]", "");
+  ASSERT_EQ(step.size(), 1u);
+  EXPECT_NE(step[0].find("scene.toml:14: joint.cam.table: the spline swings"), std::string::npos) << step[0];
+  std::string sine;
+  for (int i = 0; i < 12; ++i)
+    sine +=
+        (i ? ", [" : "[") + std::to_string(i * M_PI / 6.) + ", " + std::to_string(std::sin(0.1 + i * M_PI / 6.)) + "]";
+  EXPECT_TRUE(warnings(sine, "period = \"360 deg\"\n").empty());
+  EXPECT_TRUE(warnings("[0, 0], [1, 1], [2, 3], [3, 4]", "").empty());
+}
+
+// An ideal joint would make masses jump, with energy from nowhere; what only bends is followed.
+TEST(PrescribedMotion, AJumpOfTheSpeedEndsTheRun)
+{
+  const auto driven = [](const std::string &function)
+  {
+    return run(rotor(0.2, "1 s") +
+                   "[joint.drive]\ntype = \"prescribed motion\"\non = \"shaft.angle\"\nmotion = { "
+                   "function = \"" +
+                   function + "\" }\n",
+               {"run.step=10 ms", "output.picture_step=0"});
+  };
+  const std::string failure = driven("if(t < 0.305 s, 0, 2*(t - 0.305 s)/s)").result.failure;
+  EXPECT_NE(
+      failure.find("at t = 0.305 s, \"drive\": the speed of the prescribed motion jumps from 0 to 2 (if_1_rises)"),
+      std::string::npos)
+      << failure;
+  EXPECT_NE(failure.find("through a spring"), std::string::npos) << failure;
+  EXPECT_NE(driven("0.1*step(t - 0.305 s)").result.failure.find("the prescribed motion jumps from 0 to 0.1"),
+            std::string::npos);
+  const auto smooth = driven("if(t < 0.305 s, 0, 2*((t - 0.305 s)/s)^2)");
+  EXPECT_EQ(smooth.result.failure, "");
+  EXPECT_NEAR(smooth.signal("phi").final, 2. * 0.695 * 0.695, 1e-9);
+}
+
+TEST(Cam, AKinkOfItsCourseEndsTheRun)
+{
+  const auto cam = [](const std::string &function)
+  {
+    return run(shaft_and_slide +
+               "[start]\nq = { shaft = -0.5 }\nv = { shaft = 2 }\n[joint.cam]\ntype = \"position "
+               "function\"\nfrom = \"shaft\"\nto = \"slide\"\nfunction = \"" +
+               function + "\"\n" + settings("1 ms", "phi = \"shaft.angle\""));
+  };
+  const auto kink = cam("20 mm*abs(x)");
+  EXPECT_NE(kink.result.failure.find("the slope of the position function jumps from -0.02 to 0.02 (abs_1_rises)"),
+            std::string::npos)
+      << kink.result.failure;
+  EXPECT_NEAR(kink.signal("phi").final, 0., 1e-9) << "it ends at the kink";
+  EXPECT_EQ(cam("20 mm*x*abs(x)").result.failure, "");
+}
+
+// Of a periodic one it is known before: rise and fall in straight lines, in sines, and one that ends short of a turn.
+TEST(Cam, AKinkOfAPeriodicCourseIsRefusedWithItsPlace)
+{
+  const auto said = [](const std::string &function)
+  {
+    return test::complaint(shaft_and_slide +
+                           "[joint.cam]\ntype = \"position function\"\nfrom = \"shaft\"\nto = "
+                           "\"slide\"\nperiod = \"360 deg\"\nfunction = \"" +
+                           function + "\"\n");
+  };
+  const std::string straight =
+      said("if(x < 90 deg, 40 mm*x/(90 deg), if(x < 180 deg, 40 mm*(180 deg - x)/(90 deg), 0))");
+  EXPECT_NE(straight.find("joint.cam.function: the slope jumps from 0 to 0.0254648 at 0 deg (next_period)"),
+            std::string::npos)
+      << straight;
+  EXPECT_EQ(said("if(x < 180 deg, 20 mm*(1 - cos(2*x)), 0)"), "");
+  const std::string short_of = said("if(x < 170 deg, 20 mm*(1 - cos(2*x)), 0)");
+  EXPECT_NE(short_of.find("the value jumps from 0.00120615 to 0 at 170 deg (if_1_"), std::string::npos) << short_of;
+}
+
 TEST(MeasureJoint, BadInputIsToldWithItsPlace)
 {
   const auto        joint = [](const std::string &keys) { return shaft_and_slide + "[joint.j]\n" + keys; };
@@ -344,6 +429,11 @@ TEST(MeasureJoint, BadInputIsToldWithItsPlace)
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"slide\"\nto = \"shaft\"\nradius = \"1 m\"\ndirection = [0, 1, 0]\n"),
       "no rotor");
+  expect_complaint(
+      joint("type = \"rack\"\nfrom = \"shaft\"\nto = \"slide\"\nradius = \"1 m\"\ndirection = [1, 0, 0]\n"),
+      "neither 'shaft' nor 'slide' can move along it"); // the slide moves along z
+  expect_complaint(joint("type = \"rolling\"\nfrom = \"shaft\"\nradius = \"1 m\"\ndirection = [1, 0, 0]\n"),
+                   "make the wheel a planar body");
   expect_complaint(joint("type = \"prescribed motion\"\non = \"shaft.angle\"\nmotion = { speed = \"1 m/s\" }\n"),
                    "angular speed");
   expect_complaint(

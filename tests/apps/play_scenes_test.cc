@@ -122,6 +122,17 @@ TEST(PointOnPlane, SlidesDownASlopeByTheLawOfCoulomb)
   expect_closed_balance(motion, 1e-9);
 }
 
+// The block bounces on a slope that holds it, with friction that develops within 1e-11 m/s: a jump for any step.
+TEST(PointOnPlane, AFailureOfAControlledStepNamesTheSpeedOfFriction)
+{
+  std::string steep = with(slope, "coefficient = 0.2, speed = \"0.1 mm/s\"", "coefficient = 0.7, speed = 1e-11");
+  steep             = with(steep, "q = { \"block.ux\" = \"-d*sin(a)\", \"block.uz\" = \"-d*cos(a)\" }\n", "");
+  steep             = with(steep, "\"1 m/s * cos(a)\", \"block.uz\" = \"-1 m/s * sin(a)\"", "-0.5, \"block.uz\" = 0.3");
+  const SceneRun motion = run(with(steep, "step = \"0.2 ms\"", "tolerance = 1e-6"));
+  EXPECT_NE(motion.result.failure.find("give its friction a larger 'speed'"), std::string::npos)
+      << motion.result.failure;
+}
+
 // --- a start inside a contact
 
 bool warned(const SceneRun &motion, const std::string &name)
@@ -393,6 +404,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   EXPECT_EQ(complaint(disc), "");
   EXPECT_EQ(complaint(ball), "");
   EXPECT_EQ(complaint(guide), "");
+  expect_complaint(with(ball, "restitution", "at_from = [0, 0, 0]\nrestitution"), "the point of `from` is `at`");
   expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' like `from`");
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");

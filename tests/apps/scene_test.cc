@@ -179,22 +179,23 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Values, SceneMistake,
-    ::testing::Values(Mistake{"\"250 kg m^2\"", "\"250 kg\"", "body.crank.inertia",
-                              "needs a moment of inertia such as"},
-                      Mistake{"\"250 kg m^2\"", "[250]", "body.crank.inertia", "got an array"},
-                      Mistake{"\"250 kg m^2\"", "\"0 kg m^2\"", "body.crank.inertia", "above zero"},
-                      Mistake{"\"250 kg m^2\"", "true", "body.crank.inertia", "got true"},
-                      Mistake{"\"250 kg m^2\"", "inf", "body.crank.inertia", "finite"},
-                      Mistake{"mass = \"mass_of_slide\"", "mass = \"mass_of_slid\"", "body.slide.mass",
-                              "did you mean 'mass_of_slide'"},
-                      Mistake{"mass = \"mass_of_slide\"", "mass = \"-1 kg\"", "body.slide.mass", "above zero"},
-                      Mistake{"gravity = [0, 0, -9.81]", "gravity = [0, -9.81]", "gravity", "three values"},
-                      Mistake{"gravity = [0, 0, -9.81]", "gravity = \"9.81 m/s^2\"", "gravity", "needs an array"},
-                      Mistake{"axis    = [0, 1, 0]", "axis = [0, 0, 0]", "body.crank.axis", "cannot be [0, 0, 0]"},
-                      Mistake{"radius        = \"80 mm\"", "radius = \"stroke/2\"", "", "depends on itself: ", 1},
-                      Mistake{"radius        = \"80 mm\"", "sin = 3", "parameters.sin", "choose another name"},
-                      Mistake{"radius        = \"80 mm\"", "radius = true", "parameters.radius", "got true"},
-                      Mistake{"length       = \"800 mm\"", "length = \"70 mm\"", "element.rod", "length", 5}));
+    ::testing::Values(
+        Mistake{"\"250 kg m^2\"", "\"250 kg\"", "body.crank.inertia", "needs a moment of inertia such as"},
+        Mistake{"\"250 kg m^2\"", "[250]", "body.crank.inertia", "got an array"},
+        Mistake{"\"250 kg m^2\"", "\"0 kg m^2\"", "body.crank.inertia", "above zero"},
+        Mistake{"\"250 kg m^2\"", "true", "body.crank.inertia", "got true"},
+        Mistake{"\"250 kg m^2\"", "inf", "body.crank.inertia", "finite"},
+        Mistake{"mass = \"mass_of_slide\"", "mass = \"mass_of_slid\"", "body.slide.mass",
+                "did you mean 'mass_of_slide'"},
+        Mistake{"mass = \"mass_of_slide\"", "mass = \"-1 kg\"", "body.slide.mass", "above zero"},
+        Mistake{"gravity = [0, 0, -9.81]", "gravity = [0, -9.81]", "gravity", "three values"},
+        Mistake{"gravity = [0, 0, -9.81]", "gravity = \"9.81 m/s^2\"", "gravity", "needs three numbers [x, y, z], got"},
+        Mistake{"gravity = [0, 0, -9.81]", "gravity = [0, 0, \"9.81 m\"]", "gravity", "needs an acceleration"},
+        Mistake{"axis    = [0, 1, 0]", "axis = [0, 0, 0]", "body.crank.axis", "cannot be [0, 0, 0]"},
+        Mistake{"radius        = \"80 mm\"", "radius = \"stroke/2\"", "", "depends on itself: ", 1},
+        Mistake{"radius        = \"80 mm\"", "sin = 3", "parameters.sin", "choose another name"},
+        Mistake{"radius        = \"80 mm\"", "radius = true", "parameters.radius", "got true"},
+        Mistake{"length       = \"800 mm\"", "length = \"70 mm\"", "element.rod", "length", 5}));
 
 INSTANTIATE_TEST_SUITE_P(
     References, SceneMistake,

@@ -36,6 +36,9 @@ void check_two_bodies(const SceneTable &table, const PlaceRequest &from, const P
 /// A point of `from` on a plane that `to` carries.
 void read_contact_point(const SceneTable &table, const Names &names, Scene &scene)
 {
+  for (const char *key : {"at_from", "at_to"})
+    if (table.has(key))
+      throw table.error(key, "is no key of a contact: the point of `from` is `at`, a point of the plane `through`");
   const PlaceRequest point = names.place(table, "from");
   PlaceRequest       plane{names.marker(table, "to", "ground"), {}};
   check_two_bodies(table, point, plane);
