@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double massless    = 1e-13; // mu relative to the largest, below which a mode has no mass
 constexpr int    most_shifts = 20;    // times ten each
+constexpr double certain     = 1e3;   ///< times what rounding leaves: a rigid motion is not said to grow
 constexpr double rigid = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
@@ -114,7 +115,7 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
   int             p  = 0;
   while (p < n && mu(n - 1 - p) > massless * mu(n - 1))
     ++p;
-  DenseModes modes{VectorXd(p), solver.eigenvectors().rightCols(p).rowwise().reverse()};
+  DenseModes modes{VectorXd(p), solver.eigenvectors().rightCols(p).rowwise().reverse(), VectorXd::Zero(p)};
   L.matrixU().solveInPlace(modes.V);
   modes.V = d.asDiagonal() * modes.V;
   for (int j = 0; j < p; ++j)
@@ -124,6 +125,8 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
     const double square   = v.dot(C * v);
     const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
     modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
+    if (-square > certain * rounding)
+      modes.growth(j) = std::sqrt(-square);
   }
   return modes;
 }

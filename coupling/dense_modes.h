@@ -12,6 +12,8 @@ struct DenseModes
 {
   Eigen::VectorXd omega; // [p] rad/s; rigid motions have 0
   Eigen::MatrixXd V;     // [n x p]
+  /// [p] 1/s, of exp(growth t): motions that C drives away, whose omega is 0.
+  Eigen::VectorXd growth;
 };
 
 /**
@@ -20,7 +22,8 @@ struct DenseModes
  * Solved is  M v = mu (C + s M) v,  omega^2 = 1 / mu - s,  so that M may be singular (such coordinates have no mode of
  * their own: p = rank M) and C may be singular (rigid motions).  s lies below the lowest quotient C_ii / M_ii and is
  * zero if C is regular, which keeps the low frequencies accurate; Rayleigh quotients mend the high ones.  Motions that
- * C drives away (v^T C v < 0: the geometric stiffness of a linkage about to fall) have omega = 0 too; for them s grows.
+ * C drives away (v^T C v < 0: the geometric stiffness of a linkage about to fall) have omega = 0 and sqrt(-omega^2) as
+ * their growth; for them s grows.
  *
  * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
  * their signs: what rounding in C leaves.

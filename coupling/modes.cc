@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,8 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double two_pi = 6.283185307179586;
+constexpr double two_pi            = 6.283185307179586;
+constexpr double rounding_of_ratio = 1e-12;
 
 /// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes:
 /// (s^2 E + s V^T B V + diag(omega^2)) y = 0; each undamped mode takes the vibrating solution in which it is largest.
@@ -49,7 +51,8 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
       continue;
     taken[best]                   = true;
     result[j].damped_frequency_hz = s[best].imag() / two_pi;
-    result[j].damping_ratio       = -s[best].real() / std::abs(s[best]);
+    const double ratio            = -s[best].real() / std::abs(s[best]);
+    result[j].damping_ratio       = std::abs(ratio) > rounding_of_ratio ? ratio : 0.;
   }
 }
 
@@ -65,6 +68,7 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
   {
     const Eigen::VectorXd v = modes.V.col(static_cast<Eigen::Index>(j));
     result[j].frequency_hz  = modes.omega[static_cast<Eigen::Index>(j)] / two_pi;
+    result[j].growth        = modes.growth[static_cast<Eigen::Index>(j)];
     result[j].shape         = v;
     for (int d = 0; d < 3; ++d)
       result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
@@ -93,16 +97,25 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
   return modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes);
 }
 
-std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
-                                   int n_modes)
+namespace
+{
+
+/// M, B, K [p x p] of the motions Z [n x p] that are left free; with dampers and stiffness engaged.
+struct Linear
+{
+  Eigen::MatrixXd M, B, K, Z;
+};
+
+Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation)
 {
   if (machine.full_frame())
     throw std::invalid_argument("modes: the machine has " + std::to_string(machine.size()) +
                                 " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
-  Eigen::MatrixXd K, B;
-  engaged_matrices(machine, q, linearisation.open, K, B);
-  K += dense_stiffness(machine);
-  B += dense_damping(machine);
+  Linear linear;
+  engaged_matrices(machine, q, linearisation.open, linear.K, linear.B);
+  linear.M = dense_mass(machine);
+  linear.K += dense_stiffness(machine);
+  linear.B += dense_damping(machine);
 
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
   LocalState            local;
@@ -113,17 +126,144 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
   {
     if (jointed)
       local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
-    K += geometric_stiffness(machine, local, linearisation.acting);
+    linear.K += geometric_stiffness(machine, local, linearisation.acting);
   }
-  if (!jointed && linearisation.fixed.empty())
-    return modes_of(dense_mass(machine), B, K, machine.translation_loads(), n_modes, linearisation.damping);
-  const Eigen::MatrixXd Z = free_motions(machine, local, linearisation.fixed);
-  std::vector<Mode>     modes =
-      modes_of(Z.transpose() * dense_mass(machine) * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
-               Z.transpose() * machine.translation_loads(), n_modes, linearisation.damping);
+  linear.Z = free_motions(machine, local, linearisation.fixed);
+  return linear;
+}
+
+} // namespace
+
+std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
+                                   int n_modes)
+{
+  const auto [M, B, K, Z] = linearised(machine, q, linearisation);
+  std::vector<Mode> modes = modes_of(Z.transpose() * M * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
+                                     Z.transpose() * machine.translation_loads(), n_modes, linearisation.damping);
   for (Mode &mode : modes)
     mode.shape = Z * mode.shape;
   return modes;
+}
+
+namespace
+{
+
+/// Adds -dp/du and -dp/dv [n x n] of the elements that are no structure, as they are at a motion.
+/// @return whether there are any
+bool add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
+{
+  const Eigen::VectorXd structure = acting_measures(machine, local.u, Acting::structure);
+  const auto           &W         = machine.directions();
+  bool                  any       = false;
+  int                   first     = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const mechanism::ForceElement &element = *placement.element;
+    const int                      k       = element.n_measures();
+    mechanism::LocalMotion motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
+    std::vector<double>    history(element.n_history() + 1);
+    double                 rate;
+    const bool             drives = structure[first] == 0. && placement.joint < 0;
+    if (drives)
+      element.start(motion, history.data());
+    if (drives && !element.holds(history.data(), rate)) // what sticks gives no way
+    {
+      Eigen::VectorXd p(k);
+      Eigen::MatrixXd du(k, k), dv(k, k);
+      element.derivatives(motion, history.data(), p.data(), du.data(), dv.data());
+      const Eigen::MatrixXd own = W.middleCols(first, k);
+      K -= own * du * own.transpose();
+      B -= own * dv * own.transpose();
+      any = any || !du.isZero(0.) || !dv.isZero(0.);
+    }
+    first += k;
+  }
+  return any;
+}
+
+constexpr double slowest = 1.; ///< [rad/s] weight of motions without frequency in the state
+
+/// d/dt (Omega y, y', x) of motions V y and virtual coordinates x.
+Eigen::MatrixXd state_matrix(const Linear &linear, const DenseModes &modes, const Eigen::MatrixXd &V,
+                             const Eigen::MatrixXd &L)
+{
+  const Eigen::Index    p = V.cols(), m = L.cols();
+  const Eigen::VectorXd omega = modes.omega.cwiseMax(slowest);
+  const Eigen::MatrixXd K_y   = V.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd       A     = Eigen::MatrixXd::Zero(2 * p + m, 2 * p + m);
+  A.block(0, p, p, p)         = omega.asDiagonal();
+  A.block(p, 0, p, p)         = -K_y;
+  A.block(p, p, p, p)         = -V.transpose() * linear.B * V;
+  if (m == 0)
+    return A;
+  A.block(p, 2 * p, p, m) = -V.transpose() * linear.K * L;
+  Eigen::MatrixXd x_rate(m, 2 * p + m); // T x' = ...
+  x_rate << -L.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal(), -L.transpose() * linear.B * V,
+      -L.transpose() * linear.K * L;
+  const Eigen::VectorXd T = (L.transpose() * linear.B * L).diagonal();
+  A.bottomRows(m)         = T.cwiseInverse().asDiagonal() * x_rate;
+  return A;
+}
+
+/// The coordinate that a solution (y', x) moves most: by its kinetic energy, or without any the lag.
+std::string moved_most(const Machine &machine, const Eigen::MatrixXd &M, const Eigen::MatrixXd &V,
+                       const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
+{
+  Eigen::Index most = 0;
+  if (y_rate.norm() <= 1e-9 * x.norm())
+  {
+    x.cwiseAbs().maxCoeff(&most);
+    return machine.coordinate_name(machine.virtual_coordinates()[most]);
+  }
+  const Eigen::VectorXcd v = V * y_rate;
+  v.conjugate().cwiseProduct(M * v).real().maxCoeff(&most);
+  return machine.coordinate_name(int(most));
+}
+
+} // namespace
+
+double Pole::frequency_hz() const
+{
+  return s.imag() / two_pi;
+}
+
+double Pole::damping_ratio() const
+{
+  const double ratio = -s.real() / std::abs(s);
+  return std::abs(ratio) > rounding_of_ratio ? ratio : 0.;
+}
+
+std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double t,
+                                  const Linearisation &linearisation)
+{
+  Linear            linear = linearised(machine, q, linearisation);
+  std::vector<Pole> poles;
+  LocalState        local;
+  local.resize(machine);
+  machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
+  const auto      &lags = machine.virtual_coordinates();
+  const auto       m    = Eigen::Index(lags.size());
+  const auto      &Z    = linear.Z;
+  const DenseModes modes =
+      dense_modes(Z.transpose() * linear.K * Z, Z.transpose() * linear.M * Z); // of the structure alone
+  if (!add_drives(machine, local, linear.K, linear.B) && m == 0)
+    return poles;
+  const Eigen::MatrixXd V = Z * modes.V;
+  Eigen::MatrixXd       L = Eigen::MatrixXd::Zero(machine.size(), m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    L(lags[i], i) = 1.;
+  const Eigen::Index                        p = V.cols();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(linear, modes, V, L));
+  const Eigen::VectorXcd                    s       = solver.eigenvalues();
+  const Eigen::MatrixXcd                    vectors = solver.eigenvectors();
+  const double                              largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;
+  // A motion at rest is a double root; rounding parts it by the root of what it leaves in the matrix.
+  const double rest = 10. * std::sqrt(std::numeric_limits<double>::epsilon() * std::max(largest, slowest) * slowest);
+  for (Eigen::Index k = 0; k < s.size(); ++k)
+    if (std::abs(s[k]) > rest && s[k].imag() >= 0.)
+      poles.push_back({s[k], moved_most(machine, linear.M, V, vectors.col(k).segment(p, p), vectors.col(k).tail(m))});
+  std::sort(poles.begin(), poles.end(), [](const Pole &a, const Pole &b) { return std::abs(a.s) < std::abs(b.s); });
+  return poles;
 }
 
 } // namespace gestell::coupling

@@ -2,7 +2,9 @@
 
 #include "coupling/dense_matrices.h"
 
+#include <complex>
 #include <optional>
+#include <string>
 
 namespace gestell::coupling
 {
@@ -12,7 +14,19 @@ struct Mode
   double          frequency_hz = 0., damped_frequency_hz = 0.;
   double          damping_ratio = 0.; ///< nan where the mode does not vibrate
   Vector3         effective_mass{};   ///< [kg] x, y, z
+  double          growth = 0.;        ///< [1/s] of exp(growth t), undamped: leaves an unstable configuration
   Eigen::VectorXd shape;              ///< undamped, mass normalised, in the coordinates it belongs to
+};
+
+/// A motion exp(s t) of the machine with its dampers, drives and lags: one of each conjugate pair.
+struct Pole
+{
+  std::complex<double> s;     ///< [1/s], imaginary part >= 0
+  std::string          moves; ///< the coordinate with most of the kinetic energy, or the lag
+
+  bool   vibrates() const { return s.imag() > 0.; }
+  double frequency_hz() const;  ///< damped
+  double damping_ratio() const; ///< -Re s / |s|; negative: it grows
 };
 
 /// Modes of the frame alone as it is supported, interface free; shapes in the frame's coordinates.  An unreduced frame
@@ -48,6 +62,21 @@ struct Linearisation
  */
 std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
                                    int n_modes);
+/**
+ * Poles of the same machine at an operating point, the configuration q with the speeds v at the time t,
+ *
+ *     y'' + V^T B_o V y' + V^T K_o V y = ...,     T x' + x = p(y, y', x),
+ *
+ * in its undamped modes V and the virtual coordinates x of drives and controllers.  Structural elements are engaged as
+ * in K; elements that are no structure (drives, tools, friction of a motor's characteristic) enter with dp/du and dp/dv
+ * at that motion.  Joints are taken as they stand.  Those at rest, s = 0, are left out; the slowest comes first.  None
+ * if the machine has neither drives nor virtual coordinates: its modes tell all.
+ *
+ * Source: docs/theory/modes_along.md (6).
+ */
+std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double t,
+                                  const Linearisation &linearisation);
+
 /// The same with the elements named in `open` not engaged, and geometric stiffness.
 inline std::vector<Mode> coupled_modes(const Machine &machine, const Eigen::VectorXd &q,
                                        const std::vector<std::string> &open, int n_modes)

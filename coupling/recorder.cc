@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <set>
-#include <sstream>
 
 namespace gestell::coupling
 {
@@ -15,13 +13,6 @@ namespace
 
 constexpr double nearby  = 0.25; ///< a parabola errs by about that share of its length about a peak at its end
 constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
-
-std::string percent(double share)
-{
-  std::ostringstream text;
-  text << std::setprecision(2) << 100. * share << " %";
-  return text.str();
-}
 
 struct Point
 {
@@ -127,7 +118,10 @@ void Recorder::begin()
     look_anew(i);
   }
   if (options_.energy)
+  {
     energy_.begin(integrator_.instant());
+    guard_ = EnergyGuard(energy_.at_begin());
+  }
   rows();
   pictures();
 }
@@ -306,11 +300,10 @@ void Recorder::pictures()
 void Recorder::balance()
 {
   energy_.step(integrator_, power_rule(options_.method));
-  const EnergyState energy = energy_.state(integrator_.instant());
-  result_.energy           = {energy.input, energy.stored, energy.dissipated,
-                              std::max(result_.energy.residual, std::abs(energy.residual()))};
-  turned_over_ = std::max({turned_over_, std::abs(energy.input), std::abs(energy.stored), energy.dissipated});
-  exchanged_   = std::max(exchanged_, energy.kinetic);
+  const Instant    &now    = integrator_.instant();
+  const EnergyState energy = energy_.state(now);
+  guard_.step(energy, now.q.size() > 0 ? now.q.cwiseAbs().maxCoeff() : 0.);
+  result_.energy = {energy.input, energy.stored, energy.dissipated, guard_.residual(), guard_.exchanged()};
 }
 
 void Recorder::finish()
@@ -327,17 +320,15 @@ void Recorder::finish()
                                "\" on, which did not happen: its extremes are those of the end");
     look_anew(i);
   }
-  const double residual = result_.energy.residual, negligible = 1e-6 * std::abs(energy_.at_begin());
-  // A motion that conserves its energy turns nothing over; what it exchanges within itself says what is little.
-  if (residual <= std::max({0.01 * turned_over_, 1e-4 * exchanged_, negligible}))
+  const EnergyGuard::Verdict verdict = guard_.verdict();
+  if (verdict == EnergyGuard::Verdict::closed)
     return;
-  const std::string open =
-      "the energy balance is open by " + percent(residual / turned_over_) + " of the energy turned over: ";
-  if (residual <= std::max(0.5 * turned_over_, 0.01 * exchanged_) || options_.force_unstable ||
-      !result_.failure.empty())
-    result_.warnings.push_back(open + "the step is too large for this motion" + remedy(options_.method));
+  if (verdict == EnergyGuard::Verdict::open)
+    result_.warnings.push_back(guard_.words() + remedy(options_.method));
+  else if (options_.force_unstable || !result_.failure.empty())
+    result_.warnings.push_back(guard_.words());
   else
-    result_.failure = open + "this is no motion of the machine; take a smaller step or a method with a tolerance";
+    result_.failure = guard_.words();
 }
 
 } // namespace gestell::coupling

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/energy_balance.h"
+#include "coupling/energy_guard.h"
 #include "coupling/simulation.h"
 
 #include <vector>
@@ -56,6 +56,7 @@ private:
   const std::vector<Signal> &signals_;
   RunResult                 &result_;
   EnergyBalance              energy_;
+  EnergyGuard                guard_;
   std::vector<int>           coordinates_; ///< that signals read
   Instant                    between_;
   std::vector<Sample>        samples_;               ///< of the last step, both ends included
@@ -64,8 +65,6 @@ private:
   bool                       earlier_known_ = false; ///< and nothing jumped since
   double                     row_step_ = 0., picture_step_ = 0.;
   long                       next_row_ = 0, next_picture_ = 0; ///< on their grids
-  double                     turned_over_ = 0.;                ///< largest energy in the balance so far [J]
-  double                     exchanged_   = 0.; ///< kinetic energy that went to and fro between coordinates [J]
 };
 
 } // namespace gestell::coupling

@@ -252,6 +252,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   const auto wall_start = std::chrono::steady_clock::now();
   result.method         = method_name(method);
   warn_of_fast_loads(machine, result);
+  result.warnings.insert(result.warnings.end(), initial.notes.begin(), initial.notes.end());
   if (!initial.settled)
     warn_of_closed_contacts(machine, initial, result);
 

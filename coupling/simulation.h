@@ -52,6 +52,7 @@ struct WorkCounts : IntegrationWork
 struct EnergySummary
 {
   double input = 0., stored = 0., dissipated = 0., residual = 0.; ///< [J]
+  double exchanged = 0.; ///< [J] that the residual is measured against, see EnergyGuard
 };
 
 struct RunResult

@@ -1,11 +1,15 @@
 #include "coupling/static_equilibrium.h"
 
 #include "coupling/dense_matrices.h"
+#include "coupling/dense_modes.h"
+#include "coupling/static_balance.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -19,56 +23,66 @@ constexpr int    most_iterations = 50, most_parts = 64;
 constexpr double converged = 1e-13; ///< correction, against the size of q
 constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
 constexpr double balanced  = 1e-9;  ///< residual beside its forces that counts as none along a free motion
+constexpr double stays     = 1e-6;  ///< [m, rad] a start this near an equilibrium is meant to be it
+
+// Relaxation.
+constexpr int    most_steps = 1000, most_of_step = 15, most_pushes = 5;
+constexpr double first_step = 0.01, shortest_step = 1e-9, longest_step = 1e3; ///< [s]
+constexpr double way_of_step = 0.3, growing_way = 0.1; ///< [m, rad] in a step; share of the way so far, for lengths
+constexpr double settled_at = 10.;                     ///< [s] a step so long is ruled by stiffness, not by inertia
+constexpr double settled    = 1e-7;                    ///< its motion, against the size of q
+constexpr double push       = 0.01;                    ///< [m, rad] off an unstable equilibrium
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+double largest(const VectorXd &x)
+{
+  return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.;
+}
+
+/// A motion that leaves an equilibrium.
+struct Growth
+{
+  double   rate = 0.; ///< [1/s] of exp(rate t), without damping
+  VectorXd motion;    ///< [n]
+};
+
 class Equilibrium
 {
 public:
-  /// @param held  what is kept where it is, or null; see held_equilibrium()
   Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr)
-      : machine_(machine), held_(held), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t), q_(from.q),
-        zero_(VectorXd::Zero(n_)), G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
+      : machine_(machine), balance_(machine, from, held), n_(machine.size()), q_(from.q),
+        lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine))
   {
-    local_.resize(machine);
-    machine.gather(t_, q_, zero_, zero_, local_);
-    machine.start(local_);
-    acts_ = acting_measures(machine, local_.u, held ? Acting::structure : Acting::everything);
-    if (held)
-      load_ = machine.excitation().constant();
-    else
-      machine.excitation().at(t_, load_);
-    for (int i = machine.n_frame(); held && i < n_; ++i)
-      if (held->q_given[i])
-        given_.push_back(i);
-    n_g_    = held ? int(given_.size() + held->measures.size()) : 0;
-    lambda_ = VectorXd::Zero(n_c_ + n_g_);
   }
 
-  const VectorXd &q() const { return q_; }
-  VectorXd        multipliers() const { return lambda_.head(n_c_); }
+  const VectorXd           &q() const { return q_; }
+  VectorXd                  multipliers() const { return lambda_.head(balance_.n_joints()); }
+  std::vector<std::string> &notes() { return notes_; }
 
   void solve()
   {
     const VectorXd begin = q_;
-    guess_multipliers(1.);
-    if (newton(1.))
+    const bool     found = newton_in_parts(begin);
+    if (balance_.holds() && found)
       return;
-    for (int parts = 4; parts <= most_parts; parts *= 4)
+    const Growth growth = found ? growing() : Growth();
+    if (found && growth.rate == 0.)
+      return;
+    if (found && largest(q_ - begin) <= stays)
     {
-      q_ = begin;
-      guess_multipliers(1. / parts);
-      bool found = true;
-      for (int k = 1; found && k <= parts; ++k)
-        found = newton(double(k) / parts);
-      if (found)
-        return;
+      notes_.push_back("the machine starts in an unstable equilibrium: the motion of " + leader(growth.motion) +
+                       " grows by " + rate_text(growth.rate) + "; disturb it if it is to fall, or hold it");
+      return;
     }
-    std::ostringstream message;
-    message << "no static equilibrium was found near the position of the start, even with the loads put on in "
-            << most_parts << " parts; give a better position, or start with rule = \"given\"";
-    throw std::invalid_argument(message.str());
+    const VectorXd unstable = q_;
+    if (balance_.holds() || !relax(begin))
+      no_equilibrium(found);
+    else if (found && largest(q_ - unstable) > stays)
+      notes_.push_back("the equilibrium next to the position of the start is unstable, the motion of " +
+                       leader(growth.motion) + " grows there by " + rate_text(growth.rate) +
+                       ": the machine starts from the stable one that it falls to");
   }
 
   /// K v - A^T lambda' = 0,  A v = -dg/dt  with A = G W^T.
@@ -76,87 +90,68 @@ public:
   {
     MatrixXd saddle;
     VectorXd residual;
-    evaluate(1., saddle, residual);
-    VectorXd rate(n_c_), bias(n_c_), right = VectorXd::Zero(n_ + n_c_);
-    machine_.constraint_rates(local_, rate, bias);
-    right.tail(n_c_) = -rate;
-    return solution(saddle, right).head(n_);
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const int n_c = balance_.n_joints();
+    VectorXd  rate(n_c), bias(n_c), right = VectorXd::Zero(n_ + n_c);
+    machine_.constraint_rates(balance_.local(), rate, bias);
+    right.tail(n_c)  = -rate;
+    const VectorXd x = solution(saddle, right);
+    if (!x.allFinite())
+      no_equilibrium(true);
+    return x.head(n_);
   }
 
 private:
-  /// The multipliers that come nearest to equilibrium where the machine stands: without them nothing holds a load on a
-  /// rope, whose stiffness is its tension.
-  void guess_multipliers(double share)
+  static std::string rate_text(double rate)
   {
-    MatrixXd saddle;
-    VectorXd residual;
-    lambda_.setZero();
-    evaluate(share, saddle, residual);
-    if (lambda_.size() > 0)
-      lambda_ = saddle.topRightCorner(n_, lambda_.size()).colPivHouseholderQr().solve(-residual.head(n_));
+    std::ostringstream text;
+    text << std::setprecision(3) << "exp(" << rate << " t/s)";
+    return text.str();
   }
 
-  void evaluate(double share, MatrixXd &saddle, VectorXd &residual)
+  /// Name of the coordinate with most of the motion.
+  std::string leader(const VectorXd &motion) const
   {
-    const auto &W = machine_.directions();
-    machine_.gather(t_, q_, zero_, zero_, local_);
-    local_.lambda = lambda_.head(n_c_);
-    VectorXd g(n_c_);
-    machine_.constraints(local_, g, G_);
-    MatrixXd dp = MatrixXd::Zero(W.cols(), W.cols()), geometric;
-    machine_.local_tangent(local_, 1., 0., 0., local_.p, dp);
-    for (const HeldMeasure &held : machine_.held())
-    {
-      local_.p[held.measure] = 0.;
-      dp.row(held.measure).setZero();
-    }
-    local_.p = acts_.cwiseProduct(local_.p);
-    dp       = acts_.asDiagonal() * dp;
-    G_.set_forces(local_.lambda, local_.p);
-    machine_.geometric(local_, geometric);
-    const int n_l = n_c_ + n_g_;
-    MatrixXd  A(n_l, n_);
-    VectorXd  open(n_l);
-    A.topRows(n_c_) = joint_jacobian(machine_, G_);
-    open.head(n_c_) = g;
-    if (held_)
-      hold(A, open);
-    saddle.setZero(n_ + n_l, n_ + n_l);
-    saddle.topLeftCorner(n_, n_)     = C_ + W * (acts_.asDiagonal() * geometric - dp) * W.transpose();
-    saddle.topRightCorner(n_, n_l)   = -A.transpose();
-    saddle.bottomLeftCorner(n_l, n_) = A;
-    residual.resize(n_ + n_l);
-    residual.head(n_)  = C_ * q_ - share * load_ - W * local_.p - A.bottomRows(n_g_).transpose() * lambda_.tail(n_g_);
-    residual.tail(n_l) = open;
-    for (const int i : machine_.virtual_coordinates()) // states of laws keep the value they start with
-    {
-      saddle.row(i).setZero();
-      saddle(i, i) = 1.;
-      residual[i]  = 0.;
-    }
+    Eigen::Index most = 0;
+    motion.head(n_).cwiseAbs().maxCoeff(&most);
+    return machine_.coordinate_name(int(most));
   }
 
-  /// Rows of what is held, behind those of the joints.
-  void hold(MatrixXd &A, VectorXd &open)
+  [[noreturn]] void no_equilibrium(bool unstable) const
   {
-    for (const auto &[row, shift] : held_->shifts)
-      open[row] -= shift;
-    int row = n_c_;
-    for (const int i : given_)
+    std::ostringstream message;
+    if (!loose_.empty())
+      message << "there is no static equilibrium: the motion of " << loose_
+              << " has neither stiffness nor weight that holds it here; hold it, start from another position, or with "
+                 "rule = \"given\"";
+    else
+      message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the position of the start, "
+              << (balance_.holds() ? "even with the loads put on in " + std::to_string(most_parts) + " parts"
+                                   : std::string("nor does the machine settle in one when it is let go from there"))
+              << "; give a better position, or start with rule = \"given\"";
+    throw std::invalid_argument(message.str());
+  }
+
+  bool newton_in_parts(const VectorXd &begin)
+  {
+    lambda_ = balance_.multipliers(q_, 1.);
+    if (newton(1.))
+      return true;
+    for (int parts = 4; parts <= most_parts; parts *= 4)
     {
-      A.row(row)  = VectorXd::Unit(n_, i).transpose();
-      open[row++] = q_[i] - held_->state.q[i];
+      q_         = begin;
+      lambda_    = balance_.multipliers(q_, 1. / parts);
+      bool found = true;
+      for (int k = 1; found && k <= parts; ++k)
+        found = newton(double(k) / parts);
+      if (found)
+        return true;
     }
-    VectorXd gradient;
-    for (const auto &[name, value] : held_->measures)
-    {
-      open[row]    = machine_.measure(name).evaluate(q_, zero_, &gradient).s - value;
-      A.row(row++) = gradient.transpose();
-    }
+    return false;
   }
 
   /// Scaled to rows and columns of equal size: stiffnesses beside cosines.
-  VectorXd solution(const MatrixXd &saddle, const VectorXd &right) const
+  VectorXd scale_of(const MatrixXd &saddle) const
   {
     const int size = int(saddle.rows());
     VectorXd  scale(size);
@@ -167,6 +162,13 @@ private:
       const double row = saddle.row(i).head(n_).cwiseProduct(scale.head(n_).transpose()).cwiseAbs().maxCoeff();
       scale[i]         = row > 0. ? 1. / row : 1.;
     }
+    return scale;
+  }
+
+  /// A motion without stiffness along which no force acts stays where it is; with one the solution is nan, and named.
+  VectorXd solution(const MatrixXd &saddle, const VectorXd &right)
+  {
+    const VectorXd             scale  = scale_of(saddle);
     const MatrixXd             scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
     const VectorXd             forces = scale.asDiagonal() * right;
     Eigen::FullPivLU<MatrixXd> lu;
@@ -174,32 +176,18 @@ private:
     lu.compute(scaled);
     if (lu.isInvertible())
       return scale.asDiagonal() * lu.solve(forces);
-    VectorXd motion = scale.asDiagonal() * lu.kernel().col(0);
-    if (held_)
+    const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
+    if ((scaled * x - forces).norm() <= balanced * forces.norm())
+      return scale.asDiagonal() * x;
+    if (balance_.holds())
     {
-      const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
-      if ((scaled * x - forces).norm() <= balanced * forces.norm())
-        return scale.asDiagonal() * x;
-      // Open play gives no stiffness: closed elements show the way through it.
-      const MatrixXd way = scale.asDiagonal() * with_closed_chains(saddle) * scale.asDiagonal();
+      const MatrixXd way = scale.asDiagonal() * balance_.with_closed_chains(q_, saddle) * scale.asDiagonal();
       lu.compute(way);
       if (lu.isInvertible())
         return scale.asDiagonal() * lu.solve(forces);
-      motion = scaled * x - forces; // of the free motions the one along which a force acts
     }
-    int worst = 0;
-    motion.head(n_).cwiseAbs().maxCoeff(&worst);
-    throw std::invalid_argument("there is no static equilibrium: the motion of " + machine_.coordinate_name(worst) +
-                                " has neither stiffness nor weight that holds it here; hold it, start from another "
-                                "position, or with rule = \"given\"");
-  }
-
-  MatrixXd with_closed_chains(MatrixXd saddle) const
-  {
-    MatrixXd stiffness, damping;
-    engaged_matrices(machine_, q_, {}, stiffness, damping);
-    saddle.topLeftCorner(n_, n_) = C_ + stiffness;
-    return saddle;
+    loose_ = leader(scaled * x - forces); // of the free motions the one along which a force acts
+    return VectorXd::Constant(saddle.rows(), std::numeric_limits<double>::quiet_NaN());
   }
 
   bool newton(double share)
@@ -209,11 +197,11 @@ private:
     double   before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < most_iterations; ++k)
     {
-      evaluate(share, saddle, residual);
+      balance_.evaluate(q_, lambda_, share, saddle, residual);
       const VectorXd delta = solution(saddle, -residual);
       if (!delta.allFinite())
         return false;
-      const double size = delta.head(n_).cwiseAbs().maxCoeff(), scale = std::max(q_.cwiseAbs().maxCoeff(), 1e-6);
+      const double size = largest(delta.head(n_)), scale = std::max(largest(q_), 1e-6);
       // A long way is gone in parts: another equilibrium lies behind the next turn.
       const double part = size > 0.5 ? 0.5 / size : 1.;
       q_ += part * delta.head(n_);
@@ -225,16 +213,143 @@ private:
     return false;
   }
 
-  Machine           &machine_;
-  const KnownStart  *held_;
-  int                n_, n_c_, n_g_ = 0; ///< coordinates; equations of joints, and of what is held
-  std::vector<int>   given_;             ///< held coordinates
-  double             t_;
-  VectorXd           q_, lambda_, zero_;
-  ConstraintJacobian G_;
-  MatrixXd           C_;
-  VectorXd           load_, acts_;
-  LocalState         local_;
+  /// The fastest motion that leaves where the machine stands.
+  Growth growing()
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd K = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
+    const MatrixXd Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    Growth         growth;
+    if (Z.cols() == 0)
+      return growth;
+    try
+    {
+      const DenseModes modes = dense_modes(Z.transpose() * K * Z, Z.transpose() * M_ * Z);
+      Eigen::Index     fastest;
+      if (modes.growth.size() == 0)
+        return growth;
+      growth.rate   = modes.growth.maxCoeff(&fastest);
+      growth.motion = Z * modes.V.col(fastest);
+    }
+    catch (const std::invalid_argument &)
+    {
+      // neither mass nor stiffness: such a motion has no growth
+    }
+    return growth;
+  }
+
+  /**
+   * Lets the machine go from a position and takes its velocity away after every step: implicit Euler with steps that
+   * grow,  M (q_k+1 - q_k)/h^2 + r(q_k+1, lambda) = 0,  each of which lowers the energy, docs/theory/start.md (12).
+   */
+  bool relax(const VectorXd &begin)
+  {
+    q_            = begin;
+    lambda_       = balance_.multipliers(q_, 1.);
+    double h      = first_step;
+    int    pushes = 0;
+    loose_.clear();
+    std::string moves;
+    MatrixXd    saddle;
+    VectorXd    residual;
+    for (int k = 0; k < most_steps && h > shortest_step; ++k)
+    {
+      const VectorXd before = q_, forces = lambda_;
+      balance_.evaluate(q_, lambda_, 1., saddle, residual);
+      const VectorXd unbalanced = -residual.head(n_);
+      const int      iterations = implicit_step(before, h);
+      const VectorXd way        = q_ - before;
+      const double   part       = way_share(way, before - begin);
+      const bool     rests      = largest(way) <= settled * std::max(largest(q_), 1e-3);
+      if (iterations > most_of_step || part > 1. || (!rests && way.dot(unbalanced) < 0.))
+      {
+        q_      = before;
+        lambda_ = forces;
+        h *= iterations <= most_of_step && part > 1. ? std::max(0.25, 0.8 / std::sqrt(part)) : 0.25;
+        continue;
+      }
+      moves = leader(way);
+      if (h >= settled_at && rests)
+      {
+        if (!finish())
+          return false;
+        const Growth growth = growing();
+        if (growth.rate == 0. || ++pushes > most_pushes)
+          return growth.rate == 0.;
+        q_ += push / largest(growth.motion) * growth.motion;
+        h = first_step;
+      }
+      h = std::min(longest_step, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
+    }
+    if (h > shortest_step)
+      loose_ = moves; // still on its way
+    return false;
+  }
+
+  /// Largest share of what each coordinate may move in a step.
+  double way_share(const VectorXd &way, const VectorXd &so_far) const
+  {
+    if (!way.allFinite())
+      return std::numeric_limits<double>::infinity();
+    VectorXd most = VectorXd::Constant(n_, way_of_step);
+    for (const Body &body : machine_.bodies())
+    {
+      const int lengths = body.kind == BodyKind::rotor    ? 0
+                          : body.kind == BodyKind::slider ? 1
+                          : body.kind == BodyKind::planar ? 2
+                                                          : 3;
+      for (int i = body.coordinate; i < body.coordinate + lengths; ++i)
+        most[i] = std::max(most[i], growing_way * std::abs(so_far[i]));
+    }
+    return way.cwiseAbs().cwiseQuotient(most).maxCoeff();
+  }
+
+  /// @return iterations, most_of_step + 1 if there were not enough
+  int implicit_step(const VectorXd &before, double h)
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    for (int k = 1; k <= most_of_step; ++k)
+    {
+      balance_.evaluate(q_, lambda_, 1., saddle, residual);
+      saddle.topLeftCorner(n_, n_) += M_ / (h * h);
+      residual.head(n_) += M_ * (q_ - before) / (h * h);
+      const VectorXd scale  = scale_of(saddle);
+      const MatrixXd scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
+      const VectorXd delta = scale.asDiagonal() * scaled.partialPivLu().solve(VectorXd(scale.asDiagonal() * -residual));
+      if (!delta.allFinite())
+        break;
+      q_ += delta.head(n_);
+      lambda_ += delta.tail(lambda_.size());
+      if (largest(delta.head(n_)) <= 1e-10 * std::max(largest(q_), 1e-3))
+        return k;
+    }
+    return most_of_step + 1;
+  }
+
+  /// Newton's method where the relaxation has come to rest.
+  bool finish()
+  {
+    const VectorXd q = q_, lambda = lambda_;
+    if (newton(1.) && largest(q_ - q) <= 1e-3 * std::max(largest(q), 1e-3))
+      return true;
+    q_      = q;
+    lambda_ = lambda;
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    return residual.head(n_).lpNorm<1>() <= balanced * balance_.forces();
+  }
+
+  Machine                 &machine_;
+  StaticBalance            balance_;
+  int                      n_;
+  VectorXd                 q_, lambda_;
+  MatrixXd                 M_;
+  std::string              loose_; ///< coordinate along which an unbalanced force finds no stiffness
+  std::vector<std::string> notes_;
 };
 
 } // namespace
@@ -249,6 +364,7 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
   InitialState state = assembled;
   state.q            = equilibrium.q();
   state.v            = drift == Drift::quasistatic ? equilibrium.drift() : Eigen::VectorXd::Zero(machine.size()).eval();
+  state.notes        = equilibrium.notes();
   return state;
 }
 

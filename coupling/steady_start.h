@@ -14,6 +14,8 @@ struct InitialState
   double          t = 0.;
   Eigen::VectorXd q, v;            // [n]
   bool            settled = false; ///< in equilibrium: contacts are closed by the forces they carry
+
+  std::vector<std::string> notes{}; ///< what a user should know of how it was found
 };
 
 /// What is known of a steady motion: `angles` [rad] and `speeds` [rad/s] of rotors; the balance of `driver` is not

@@ -2,8 +2,10 @@
 #include "apps/commands/modes_along.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
+#include "apps/output/number_text.h"
 #include "apps/output/result_folder.h"
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 
@@ -19,12 +21,30 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
   std::cout << kind << "\n  mode   frequency [Hz]   damping ratio   effective mass x / y / z [kg]\n";
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
-    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << modes[j].frequency_hz
-              << std::setprecision(4) << std::setw(16) << modes[j].damping_ratio << "   ";
-    for (const double mass : modes[j].effective_mass)
+    const coupling::Mode &mode = modes[j];
+    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << mode.frequency_hz
+              << std::setprecision(4) << std::setw(16)
+              << (std::isnan(mode.damping_ratio) ? "-" : short_text(mode.damping_ratio)) << "   ";
+    for (const double mass : mode.effective_mass)
       std::cout << std::setw(11) << mass;
+    if (mode.growth > 0.)
+      std::cout << "   unstable: grows with " << short_text(mode.growth, 3) << " 1/s, e-fold in "
+                << short_text(1. / mode.growth, 3) << " s";
     std::cout << '\n';
   }
+}
+
+void print_poles(const std::vector<coupling::Pole> &poles)
+{
+  if (poles.empty())
+    return;
+  std::cout << "with drives and controllers, at the speeds of the start\n"
+               "  damped frequency [Hz]   damping ratio       real part [1/s]   moves most\n";
+  for (const coupling::Pole &pole : poles)
+    std::cout << std::setw(23) << (pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "-") << std::setw(16)
+              << (pole.vibrates() ? short_text(pole.damping_ratio()) : "-") << std::setw(22)
+              << short_text(pole.s.real(), 6) << "   " << pole.moves << (pole.s.real() > 0. ? "   unstable" : "")
+              << '\n';
 }
 } // namespace
 
@@ -60,6 +80,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
 
   print_modes("frame as supported, interface free", result.frame_modes);
   print_modes("coupled machine", result.coupled_modes);
+  print_poles(result.poles);
   if (result.along)
     print_along(*result.along);
   for (const std::string &warning : result.warnings)

@@ -155,11 +155,15 @@ void print_along(const AlongResult &along)
     const LineExtremes own = line_extremes(along.modes, i);
     std::cout << "  " << std::setw(4) << i + 1;
     if (along.modes.free[i])
-      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i] << '\n';
+      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i];
     else
       std::cout << std::setw(15) << short_text(own.min, 6) << std::setw(15) << position_text(coordinate, own.x_min)
                 << std::setw(15) << short_text(own.max, 6) << std::setw(15) << position_text(coordinate, own.x_max)
-                << "   " << along.modes.moves_most[i] << '\n';
+                << "   " << along.modes.moves_most[i];
+    if (own.growth > 0.)
+      std::cout << "   unstable: grows with up to " << short_text(own.growth, 3) << " 1/s at "
+                << position_text(coordinate, own.x_growth);
+    std::cout << '\n';
   }
   for (const coupling::OrderMeeting &meeting : along.meetings)
     std::cout << "  order " << meeting.order << " is near line " << meeting.line + 1 << " at "

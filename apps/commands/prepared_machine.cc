@@ -1,5 +1,6 @@
 #include "apps/commands/prepared_machine.h"
 
+#include "apps/scene/carried_bodies.h"
 #include "apps/version.h"
 #include "coupling/content_key.h"
 #include "coupling/frame_service_loader.h"
@@ -140,6 +141,32 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   return facts;
 }
 
+namespace
+{
+
+/// The machine with its drives at the speeds of its start.
+void add_poles(const Scene &scene, coupling::Machine &machine, const Eigen::VectorXd &q,
+               const coupling::Linearisation &how, Result &result)
+{
+  Eigen::VectorXd speeds = Eigen::VectorXd::Zero(machine.size());
+  std::string     unknown;
+  try
+  {
+    speeds = initial_state(scene, machine).v;
+  }
+  catch (const std::exception &error)
+  {
+    unknown = error.what();
+  }
+  result.poles = coupling::operating_poles(machine, q, speeds, scene.run.options.begin, how);
+  if (!result.poles.empty() && !unknown.empty())
+    result.warnings.push_back("drives are linearised at rest, for the start has no speeds: " + unknown);
+  if (result.poles.size() > std::size_t(scene.modes.number))
+    result.poles.resize(scene.modes.number);
+}
+
+} // namespace
+
 Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
                     coupling::GeometricStiffness geometric)
 {
@@ -151,13 +178,16 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.command     = command;
   result.model       = model_facts(prepared);
   result.frame_modes = coupling::frame_modes(small, scene.modes.number);
-  result.coupled_modes =
-      coupling::linearised_modes(small, modes_configuration(scene, small),
-                                 coupling::Linearisation{scene.modes.open, geometric}, scene.modes.number);
+  const coupling::Linearisation how{scene.modes.open, geometric};
+  const Eigen::VectorXd         q = modes_configuration(scene, small);
+  result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
-  result.scenery  = scenery_of(small);
+  for (const std::string &warning : carried_warnings(scene, small))
+    result.warnings.push_back(warning);
+  add_poles(scene, small, q, how, result);
+  result.scenery = scenery_of(small);
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
     {

@@ -55,9 +55,10 @@ void print_answer(const coupling::RunResult &run)
   std::cout << run.method << ": " << run.events.size() << " events, " << run.work.steps << " steps, "
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
             << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";
-  const auto &[input, stored, dissipated, residual] = run.energy;
-  if (input != 0. || stored != 0. || dissipated != 0.) // else the balance was not kept
-    std::cout << "energy residual " << residual << " J of " << input << " J supplied\n";
+  const coupling::EnergySummary &energy = run.energy;
+  if (energy.exchanged > 0. || energy.residual > 0.) // else the balance was not kept
+    std::cout << "energy residual " << energy.residual << " J of " << energy.exchanged << " J exchanged, "
+              << energy.input << " J supplied\n";
 }
 } // namespace
 

@@ -148,7 +148,10 @@ std::string extremes_table(const AlongResult &along)
       html += number_cell(own.min, 6) + cell(at_text(along.modes, own.x_min), "n") + number_cell(own.max, 6) +
               cell(at_text(along.modes, own.x_max), "n") + number_cell(own.least_damping, 3) +
               number_cell(own.largest_damping, 3);
-    html += number_cell(own.least_assurance, 3) + cell(escape_xml(along.modes.moves_most[i])) + "</tr>\n";
+    const std::string grows = own.growth > 0. ? "; unstable at " + at_text(along.modes, own.x_growth) +
+                                                    ", grows by exp(" + short_text(own.growth, 3) + " t/s)"
+                                              : "";
+    html += number_cell(own.least_assurance, 3) + cell(escape_xml(along.modes.moves_most[i]) + grows) + "</tr>\n";
   }
   return html + "</table></div>\n";
 }
@@ -249,6 +252,11 @@ LineExtremes line_extremes(const ModesAlong &along, std::size_t line)
       own.max   = mode.frequency_hz;
       own.x_max = at.x;
     }
+    if (mode.growth > own.growth)
+    {
+      own.growth   = mode.growth;
+      own.x_growth = at.x;
+    }
     const double damping = std::abs(mode.damping_ratio) < no_damping ? 0. : mode.damping_ratio;
     own.least_damping    = std::fmin(own.least_damping, damping); // nan gives way
     own.largest_damping  = std::fmax(own.largest_damping, damping);
@@ -318,7 +326,7 @@ std::string along_section(const Result &result, Report &report)
 std::string modes_along_csv(const AlongResult &along)
 {
   std::string csv = along.modes.coordinate.name + " [" + along.modes.coordinate.unit +
-                    "],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration\n";
+                    "],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration,growth [1/s]\n";
   for (const ModesAt &at : along.modes.positions)
     for (std::size_t i = 0; i < at.modes.size(); ++i)
     {
@@ -327,7 +335,9 @@ std::string modes_along_csv(const AlongResult &along)
       for (const double value : {at.modes[i].frequency_hz, at.modes[i].damped_frequency_hz, at.modes[i].damping_ratio,
                                  i < at.assurance.size() ? at.assurance[i] : std::nan("")})
         append_exact(csv += ',', value);
-      csv += at.configuration == coupling::Configuration::equilibrium ? ",equilibrium\n" : ",undeformed\n";
+      csv += at.configuration == coupling::Configuration::equilibrium ? ",equilibrium," : ",undeformed,";
+      append_exact(csv, at.modes[i].growth);
+      csv += '\n';
     }
   return csv;
 }

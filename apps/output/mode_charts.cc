@@ -16,7 +16,8 @@ constexpr std::size_t most_bars = 10;
 
 std::string heading(std::size_t j, const coupling::Mode &mode)
 {
-  return "Mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz";
+  return "Mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz" +
+         (mode.growth > 0. ? ", grows by exp(" + short_text(mode.growth, 3) + " t/s)" : "");
 }
 
 std::string damping_text(const coupling::Mode &mode)

@@ -143,14 +143,13 @@ std::string events_section(const Result &result)
 /// What the residual of the balance says, and what it does not.
 std::string energy_statement(const coupling::EnergySummary &energy, bool has_frame)
 {
-  const bool   supplied = energy.input > 0.;
-  const double scale    = supplied ? energy.input : std::max(std::abs(energy.stored), std::abs(energy.dissipated));
   return "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than "
          "<strong>" +
          short_text(energy.residual, 3) + " J</strong>" +
-         (scale > 0. ? ", <strong>" + short_text(100. * energy.residual / scale, 2) + " %</strong> of " +
-                           (supplied ? "the energy supplied" : "the energy exchanged")
-                     : "") +
+         (energy.exchanged > 0.
+              ? ", <strong>" + short_text(100. * energy.residual / energy.exchanged, 2) + " %</strong> of the " +
+                    short_text(energy.exchanged, 3) + " J that the motion exchanges"
+              : "") +
          ".</p><p>This residual measures the error of the integration in time alone." +
          (has_frame ? " The errors of mesh and reduction do not show in it." : "") + "</p>\n";
 }
@@ -166,6 +165,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   facts.quantity("input by drives", energy.input, "J");
   facts.quantity("stored since the start", energy.stored, "J");
   facts.quantity("dissipated, work of tools included", energy.dissipated, "J");
+  facts.quantity("exchanged by the motion", energy.exchanged, "J");
   facts.quantity("largest residual", energy.residual, "J");
   std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
   for (const SignalChart &chart : charts)
@@ -176,19 +176,37 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
 
 std::string mode_table(const std::vector<coupling::Mode> &modes)
 {
-  std::string html =
-      "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
-      "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th><th class=\"n\">effective mass x "
-      "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
+  const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
+  std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
+                        "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th>" +
+                     std::string(growing ? "<th class=\"n\">grows by</th>" : "") +
+                     "<th class=\"n\">effective mass x "
+                     "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
   int number = 0;
   for (const coupling::Mode &mode : modes)
   {
     html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6) +
             number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
+    if (growing)
+      html += cell(mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–", "n");
     for (const double mass : mode.effective_mass)
       html += number_cell(mass);
     html += "</tr>\n";
   }
+  return html + "</table></div>\n";
+}
+
+std::string pole_table(const std::vector<coupling::Pole> &poles)
+{
+  std::string html =
+      "<h3>With drives and controllers, at the speeds of the start</h3><div class=\"wide\"><table><tr><th "
+      "class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th><th class=\"n\">goes by</th><th>moves "
+      "most</th></tr>\n";
+  for (const coupling::Pole &pole : poles)
+    html += "<tr>" + cell(pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "–", "n") +
+            cell(pole.vibrates() ? short_text(pole.damping_ratio()) : "–", "n") +
+            cell("exp(" + short_text(pole.s.real()) + " t/s)", pole.s.real() > 0. ? "n peak" : "n") +
+            cell(escape_xml(pole.moves)) + "</tr>\n";
   return html + "</table></div>\n";
 }
 
@@ -208,6 +226,8 @@ std::string modes_section(const Result &result, Report &report)
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes) +
             pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+  if (!result.poles.empty())
+    html += pole_table(result.poles);
   if (!result.frame_modes.empty())
     html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes) +
             pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());

@@ -55,6 +55,7 @@ struct Result
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
+  std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people

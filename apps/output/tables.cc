@@ -122,7 +122,24 @@ void write_energy(JsonWriter &json, const coupling::EnergySummary &energy)
   json.number("stored", energy.stored);
   json.number("dissipated", energy.dissipated);
   json.number("residual", energy.residual);
+  json.number("exchanged", energy.exchanged);
   json.end_object();
+}
+
+void write_poles(JsonWriter &json, const std::vector<coupling::Pole> &poles)
+{
+  json.begin_array("operating_poles");
+  for (const coupling::Pole &pole : poles)
+  {
+    json.begin_object();
+    json.number("real", pole.s.real());
+    json.number("imaginary", pole.s.imag());
+    json.number("frequency_hz", pole.frequency_hz());
+    json.number("damping_ratio", pole.damping_ratio());
+    json.text("moves_most", pole.moves);
+    json.end_object();
+  }
+  json.end_array();
 }
 
 void write_along(JsonWriter &json, const AlongResult &along)
@@ -174,7 +191,9 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
     for (const double x : {mode.frequency_hz, mode.damped_frequency_hz, mode.damping_ratio, mode.effective_mass[0],
                            mode.effective_mass[1], mode.effective_mass[2]})
       append_exact(csv += ',', x);
-    csv += std::string(",") + kind + '\n';
+    csv += std::string(",") + kind + ',';
+    append_exact(csv, mode.growth);
+    csv += '\n';
   }
 }
 
@@ -217,6 +236,7 @@ std::string summary_json(const Result &result)
   json.end_array();
   write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
+  write_poles(json, result.poles);
   if (result.along)
     write_along(json, *result.along);
   write_signals(json, run.signals);
@@ -261,7 +281,7 @@ std::string history_csv(const coupling::RunResult &run)
 std::string modes_csv(const Result &result)
 {
   std::string csv = "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
-                    "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind\n";
+                    "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s]\n";
   append_modes(csv, result.frame_modes, "frame");
   append_modes(csv, result.coupled_modes, "coupled");
   return csv;

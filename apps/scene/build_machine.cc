@@ -2,6 +2,7 @@
 
 #include "apps/scene/build_joints.h"
 #include "apps/scene/build_measures.h"
+#include "apps/scene/carried_bodies.h"
 #include "coupling/dense_frame.h"
 
 namespace gestell::apps
@@ -27,6 +28,7 @@ auto placed(const std::string &place, Make make)
 
 void add_body(coupling::Machine &machine, const BodyRequest &body)
 {
+  check_carrier(machine, body);
   switch (body.kind)
   {
   case coupling::BodyKind::rotor:

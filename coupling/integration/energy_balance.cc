@@ -54,6 +54,7 @@ double EnergyBalance::stored(const Instant &instant)
   double energy = kinetic_.sum();
   system_.stiffness_times(instant.q, product_);
   energy += 0.5 * work_with_product(instant.q);
+  forces_ = product_.lpNorm<1>() + load_.lpNorm<1>() + instant.local.p.lpNorm<1>();
   if (system_.excitation().is_constant())
     energy -= load_.dot(instant.q);
   return energy + system_.local_stored_energy(instant.local);
@@ -109,7 +110,7 @@ EnergyState EnergyBalance::state(const Instant &instant)
   const double change      = stored(instant) - stored_begin_;
   const auto   exchange    = (kinetic_ - kinetic_begin_).array();
   return {work.input, change, work.damping - work.elements - in_elements,
-          std::max(exchange.max(0.).sum(), -exchange.min(0.).sum())};
+          std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()), forces_};
 }
 
 } // namespace gestell::coupling

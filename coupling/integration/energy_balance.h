@@ -13,6 +13,7 @@ struct EnergyState
   /// Kinetic energy that some coordinates gained or others lost, whichever is more: a free top turns over what it
   /// keeps.
   double kinetic = 0.;
+  double forces  = 0.; ///< sum of the magnitudes of loads, of C q and of the elements' forces: what rounding works with
   double residual() const { return input - stored - dissipated; }
 };
 
@@ -65,7 +66,7 @@ private:
   Power                    first_, last_;      // at both ends of the last step
   Power                    work_begin_, work_; // integrals, likewise
   double                   t_begin_ = 0., t_ = 0.;
-  double                   stored_begin_ = 0., elements_begin_ = 0.;
+  double                   stored_begin_ = 0., elements_begin_ = 0., forces_ = 0.;
   Eigen::VectorXd          kinetic_, kinetic_begin_; // of every coordinate, at the instant of the last call of stored()
 };
 

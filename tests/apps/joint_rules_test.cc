@@ -2,6 +2,8 @@
 
 #include "scene_motion.h"
 
+#include "apps/scene/carried_bodies.h"
+
 #include <gtest/gtest.h>
 
 namespace gestell::tests
@@ -244,6 +246,44 @@ v = { wheel = ")" +
   EXPECT_NE(fast.back().find("10 %"), std::string::npos) << fast.back();
   for (const std::string &warning : warnings("5 rad/s"))
     EXPECT_EQ(warning.find("tilts"), std::string::npos) << warning;
+}
+
+// A carrier that turns by any angle would carry a place beside its axis round, and turn the axis of a guide.
+TEST(JointRules, WhatACarrierWouldCarryRoundIsRefused)
+{
+  const std::string arm   = "[body.arm]\ntype = \"planar\"\nnormal = [0, 1, 0]\nmass = 1\ninertia = 1\n"
+                            "position = [\"0.5 m\", 0, 0]\n";
+  const auto        rotor = [&](const std::string &axis, const std::string &position)
+  {
+    return complaint(arm + "[body.s]\ntype = \"rotor\"\naxis = " + axis +
+                     "\non = \"arm\"\ninertia = 1\nmass = 3\nposition = " + position + "\n");
+  };
+  EXPECT_NE(rotor("[0, 1, 0]", "[1, 0, 0]").find("\"arm\" turns by any angle"), std::string::npos);
+  EXPECT_NE(rotor("[0, 1, 0]", "[1, 0, 0]").find("revolute joint"), std::string::npos);
+  EXPECT_NE(rotor("[1, 0, 0]", "[0.5, 0, 0]").find("its axis would not follow"), std::string::npos);
+  EXPECT_EQ(rotor("[0, 1, 0]", "[0.5, 0.2, 0]"), ""); // along its axis
+  EXPECT_EQ(rotor("[0, 1, 0]", "[0, 0, 0]"), "");     // not given: on the carrier
+  const std::string slider = arm + "[body.s]\ntype = \"slider\"\nmass = 3\nguide = \"arm\"\n";
+  EXPECT_NE(complaint(slider + "axis = [1, 0, 0]\n").find("prismatic joint"), std::string::npos);
+  EXPECT_EQ(complaint(slider + "axis = [0, 1, 0]\n"), "");
+}
+
+TEST(JointRules, AMassFarFromItsInterfaceIsWarnedOf)
+{
+  const auto warnings = [](const std::string &rows, const std::string &position)
+  {
+    const test::SceneFolder folder;
+    const apps::Scene       scene = apps::read_scene(folder.write(
+              "scene.toml", "[frame]\nmass = [[10]]\nstiffness = [[1000]]\n[frame.interface.a]\nrows = { " + rows +
+                                " = 1 }\nposition = [0, 0, 0]\n[body.r]\ntype = \"slider\"\naxis = [1, 0, 0]\n"
+                                      "guide = \"frame.a\"\nmass = 90\nposition = " +
+                                position + "\n"));
+    return apps::carried_warnings(scene, apps::build_machine(scene));
+  };
+  ASSERT_EQ(warnings("ry", "[1, 0, 0]").size(), 1u);
+  EXPECT_NE(warnings("ry", "[1, 0, 0]")[0].find("1 m beside"), std::string::npos) << warnings("ry", "[1, 0, 0]")[0];
+  EXPECT_TRUE(warnings("uz", "[1, 0, 0]").empty()); // the interface does not turn
+  EXPECT_TRUE(warnings("ry", "[0, 1, 0]").empty()); // beside it along the axis it turns about
 }
 
 } // namespace

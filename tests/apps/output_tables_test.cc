@@ -131,7 +131,7 @@ TEST(Tables, ModesOfFrameAndMachineAreNumberedSeparately)
   const auto lines                      = lines_of(modes_csv(result));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0], "mode,frequency [Hz],damped frequency [Hz],damping ratio,effective mass x [kg],effective mass y "
-                      "[kg],effective mass z [kg],kind");
+                      "[kg],effective mass z [kg],kind,growth [1/s]");
   EXPECT_EQ(lines[2].substr(0, 5), "2,85,");
   EXPECT_EQ(lines[3].substr(0, 19), "1,11.58486756566711");
   EXPECT_NE(lines[3].find(",nan,100,0,0.6666666666666666,coupled"), std::string::npos);

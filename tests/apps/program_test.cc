@@ -48,7 +48,7 @@ TEST(Program, ModesAlongACoordinateLeaveTablesAndCharts)
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   const std::string table = read(folder.results() / "modes_along.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
-            "crank.angle [rad],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration");
+            "crank.angle [rad],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration,growth [1/s]");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 5 * 5);
   EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"along\">"), std::string::npos);
   EXPECT_NE(read(folder.results() / "summary.json").find("\"order_meetings\""), std::string::npos);

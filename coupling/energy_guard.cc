@@ -1,0 +1,67 @@
+#include "coupling/energy_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double little = 0.01, nowhere = 0.5; ///< shares of E: an error to speak of; energy that came from nowhere
+constexpr double all      = 1.5; ///< more than the motion has can only be lost where it never was; E is known to a half
+constexpr double of_begin = 1e-6; ///< what iterations leave of the energy at the start
+} // namespace
+
+void EnergyGuard::step(const EnergyState &state, double size)
+{
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  ++steps_;
+  through_ += std::abs(state.input - input_) + std::abs(state.dissipated - dissipated_);
+  input_      = state.input;
+  dissipated_ = state.dissipated;
+  largest_    = std::max({largest_, state.kinetic, std::abs(state.stored)});
+  rounding_   = std::max(rounding_, epsilon * state.forces * std::max(size, 1.));
+  loss_       = std::max(loss_, state.residual());
+  gain_       = std::max(gain_, -state.residual());
+}
+
+double EnergyGuard::exchanged() const
+{
+  return std::max(largest_, through_);
+}
+
+double EnergyGuard::residual() const
+{
+  return std::max(gain_, loss_);
+}
+
+EnergyGuard::Verdict EnergyGuard::verdict() const
+{
+  const double E = exchanged(), negligible = std::max(double(steps_) * rounding_, of_begin * std::abs(at_begin_));
+  if (residual() <= std::max(little * E, negligible))
+    return Verdict::closed;
+  return gain_ > std::max(nowhere * E, negligible) || loss_ > std::max(all * E, negligible) ? Verdict::no_motion
+                                                                                            : Verdict::open;
+}
+
+std::string EnergyGuard::words() const
+{
+  const Verdict verdict = this->verdict();
+  if (verdict == Verdict::closed)
+    return "";
+  std::ostringstream text;
+  text << std::setprecision(2) << "the energy balance is open by " << residual() << " J, ";
+  if (exchanged() > 0.)
+    text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J that the motion exchanges, ";
+  text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ");
+  text << (verdict == Verdict::open ? "the step is too large for this motion"
+                                    : "this is no motion of the machine; take a smaller step or a method with a "
+                                      "tolerance");
+  return text.str();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,112 @@
+#include "coupling/static_balance.h"
+
+#include "coupling/dense_matrices.h"
+
+#include <Eigen/QR>
+
+namespace gestell::coupling
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held)
+    : machine_(machine), held_(held), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t),
+      zero_(VectorXd::Zero(n_)), G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
+{
+  local_.resize(machine);
+  machine.gather(t_, from.q, zero_, zero_, local_);
+  machine.start(local_);
+  acts_ = acting_measures(machine, local_.u, held ? Acting::structure : Acting::everything);
+  if (held)
+    load_ = machine.excitation().constant();
+  else
+    machine.excitation().at(t_, load_);
+  for (int i = machine.n_frame(); held && i < n_; ++i)
+    if (held->q_given[i])
+      given_.push_back(i);
+  n_g_ = held ? int(given_.size() + held->measures.size()) : 0;
+}
+
+VectorXd StaticBalance::multipliers(const VectorXd &q, double share)
+{
+  const VectorXd none = VectorXd::Zero(n_rows());
+  if (none.size() == 0)
+    return none;
+  MatrixXd saddle;
+  VectorXd residual;
+  evaluate(q, none, share, saddle, residual);
+  return saddle.topRightCorner(n_, n_rows()).colPivHouseholderQr().solve(-residual.head(n_));
+}
+
+void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double share, MatrixXd &saddle,
+                             VectorXd &residual)
+{
+  const auto &W = machine_.directions();
+  machine_.gather(t_, q, zero_, zero_, local_);
+  local_.lambda = lambda.head(n_c_);
+  VectorXd g(n_c_);
+  machine_.constraints(local_, g, G_);
+  MatrixXd dp = MatrixXd::Zero(W.cols(), W.cols()), geometric;
+  machine_.local_tangent(local_, 1., 0., 0., local_.p, dp);
+  for (const HeldMeasure &sticking : machine_.held())
+  {
+    local_.p[sticking.measure] = 0.;
+    dp.row(sticking.measure).setZero();
+  }
+  local_.p = acts_.cwiseProduct(local_.p);
+  dp       = acts_.asDiagonal() * dp;
+  G_.set_forces(local_.lambda, local_.p);
+  machine_.geometric(local_, geometric);
+  const int n_l = n_rows();
+  MatrixXd  A(n_l, n_);
+  VectorXd  open(n_l);
+  A.topRows(n_c_) = joint_jacobian(machine_, G_);
+  open.head(n_c_) = g;
+  if (held_)
+    hold(q, A, open);
+  saddle.setZero(n_ + n_l, n_ + n_l);
+  saddle.topLeftCorner(n_, n_)     = C_ + W * (acts_.asDiagonal() * geometric - dp) * W.transpose();
+  saddle.topRightCorner(n_, n_l)   = -A.transpose();
+  saddle.bottomLeftCorner(n_l, n_) = A;
+  const VectorXd elastic           = C_ * q;
+  residual.resize(n_ + n_l);
+  residual.head(n_)  = elastic - share * load_ - W * local_.p - A.bottomRows(n_g_).transpose() * lambda.tail(n_g_);
+  residual.tail(n_l) = open;
+  forces_            = elastic.lpNorm<1>() + load_.lpNorm<1>() + (W.cwiseAbs() * local_.p.cwiseAbs()).sum();
+  for (const int i : machine_.virtual_coordinates()) // states of laws keep the value they start with
+  {
+    saddle.row(i).setZero();
+    saddle(i, i) = 1.;
+    residual[i]  = 0.;
+  }
+}
+
+/// Rows of what is held, behind those of the joints.
+void StaticBalance::hold(const VectorXd &q, MatrixXd &A, VectorXd &open)
+{
+  for (const auto &[row, shift] : held_->shifts)
+    open[row] -= shift;
+  int row = n_c_;
+  for (const int i : given_)
+  {
+    A.row(row)  = VectorXd::Unit(n_, i).transpose();
+    open[row++] = q[i] - held_->state.q[i];
+  }
+  VectorXd gradient;
+  for (const auto &[name, value] : held_->measures)
+  {
+    open[row]    = machine_.measure(name).evaluate(q, zero_, &gradient).s - value;
+    A.row(row++) = gradient.transpose();
+  }
+}
+
+MatrixXd StaticBalance::with_closed_chains(const VectorXd &q, MatrixXd saddle) const
+{
+  MatrixXd stiffness, damping;
+  engaged_matrices(machine_, q, {}, stiffness, damping);
+  saddle.topLeftCorner(n_, n_) = C_ + stiffness;
+  return saddle;
+}
+
+} // namespace gestell::coupling

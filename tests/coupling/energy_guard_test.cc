@@ -1,0 +1,128 @@
+// What the residual of the energy balance is measured against, and what it says of a run.
+
+#include "coupling/energy_guard.h"
+#include "coupling/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Verdict = EnergyGuard::Verdict;
+
+constexpr double two_pi = 6.283185307179586;
+
+/// A slider of 1 kg and 1 Hz, that starts with 1 m/s: 0.5 J.
+RunResult oscillation(double step, double end)
+{
+  Machine   machine;
+  const int x = machine.add_slider("m", {1., 0., 0.}, 1., "ground");
+  machine.add_linear("spring", {{x, 1.}}, two_pi * two_pi, 0., 0., 0., "N");
+  machine.finish();
+  RunOptions run;
+  run.method.step = step;
+  run.end         = end;
+  return simulate(machine, {0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)}, run, {});
+}
+
+/// Share of the energy that numerical damping takes, docs/theory/integration.md (11): ratio (omega h)^4/4 per step.
+double lost_share(double step, double end)
+{
+  return 1. - std::exp(-2. * std::pow(two_pi * step, 4) / 4. * end / step);
+}
+
+TEST(EnergyGuard, AnOscillatorThatKeepsItsEnergyIsNoOpenBalance)
+{
+  const RunResult result = oscillation(1. / 200, 10.);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  EXPECT_NEAR(result.energy.exchanged, 0.5, 1e-3);
+  EXPECT_NEAR(result.energy.residual, 0.5 * lost_share(1. / 200, 10.), 0.03 * result.energy.residual); // h^2 terms
+}
+
+TEST(EnergyGuard, NumericalDampingIsAWarningWithItsShare)
+{
+  for (const double end : {10., 300.}) // 6 % of the energy is lost, then nearly all
+  {
+    const RunResult result = oscillation(1. / 50, end);
+    const double    share  = lost_share(1. / 50, end);
+    EXPECT_EQ(result.failure, "");
+    EXPECT_NEAR(result.energy.residual / result.energy.exchanged, share, 0.05 * share) << end;
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("which the method lost: the step is too large"), std::string::npos)
+        << result.warnings[0];
+    EXPECT_NE(result.warnings[0].find("% of the 0.5 J that the motion exchanges"), std::string::npos)
+        << result.warnings[0];
+  }
+}
+
+TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
+{
+  Machine machine;
+  machine.set_gravity({0., 0., -9.81});
+  const int z = machine.add_slider("m", {0., 0., 1.}, 3., "ground");
+  machine.add_linear("spring", {{z, 1.}}, 700., 0., 0., 0., "N");
+  machine.finish();
+  RunOptions run;
+  run.method.step     = 1e-3;
+  run.end             = 5.;
+  const double    sag = -3. * 9.81 / 700.; // rounded: not quite at rest
+  const RunResult result =
+      simulate(machine, {0., Eigen::VectorXd::Constant(1, sag), Eigen::VectorXd::Zero(1)}, run, {});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+}
+
+TEST(EnergyGuard, EnergyFromNowhereIsNoMotion)
+{
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 200; ++k) // doubles every ten steps, and nothing drives
+  {
+    state.stored = state.kinetic = std::pow(2., 0.1 * k);
+    guard.step(state, 1.);
+  }
+  EXPECT_EQ(guard.verdict(), Verdict::no_motion);
+  EXPECT_NE(guard.words().find("came from nowhere: this is no motion"), std::string::npos) << guard.words();
+}
+
+TEST(EnergyGuard, WorkThatGoesThroughIsTheMeasureOfADrivenMachine)
+{
+  // 1 J in and out in each of 1000 steps, of which 2 mJ go astray: 0.2 % of the work, but twice the energy it holds.
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 1000; ++k)
+  {
+    state.input += 1.;
+    state.dissipated += 0.998;
+    guard.step(state, 1.);
+  }
+  EXPECT_NEAR(guard.residual(), 2., 1e-9);
+  EXPECT_NEAR(guard.exchanged(), 1998., 1e-9);
+  EXPECT_EQ(guard.verdict(), Verdict::closed);
+  EXPECT_EQ(guard.words(), "");
+}
+
+TEST(EnergyGuard, RoundingOfManyStepsIsNoError)
+{
+  EnergyGuard guard;
+  EnergyState state;
+  state.forces = 1e6; // at 10 m: 2e-9 J a step
+  for (int k = 0; k < 1000; ++k)
+  {
+    state.stored = -1e-9 * k;
+    guard.step(state, 10.);
+  }
+  EXPECT_EQ(guard.verdict(), Verdict::closed);
+  state.stored = -1e-2;
+  guard.step(state, 10.);
+  EXPECT_EQ(guard.verdict(), Verdict::open); // it is lost, not more than there was
+}
+
+} // namespace
+} // namespace gestell::tests
