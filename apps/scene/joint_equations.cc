@@ -296,6 +296,13 @@ void JointEquations::gear(double factor)
   list.push_back(equation);
 }
 
+void JointEquations::turn_with_first()
+{
+  for (IdealJoint::Equation &equation : list)
+    if (equation.measure.form == Form::along && equation.measure.carrier == Carrier::space)
+      equation.measure.carrier = Carrier::first;
+}
+
 void JointEquations::leave_out_idle(Pair &pair)
 {
   const int         n_1 = pair.first.n_measures(), n = int(pair.measures.size());
