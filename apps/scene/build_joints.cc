@@ -175,10 +175,13 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   Pair felt = pair;
   equations.leave_out_idle(felt);
   if (joint.compliance)
+  {
+    equations.join_translations(felt);
     machine.attach(
         joint.name,
         std::make_shared<CompliantJoint>(felt.first, felt.second, yielding(*joint.compliance, equations.list)),
         felt.measures);
+  }
   else
     machine.attach(joint.name, std::make_shared<IdealJoint>(felt.first, felt.second, equations.list, joint.law),
                    felt.measures);

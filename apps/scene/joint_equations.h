@@ -70,6 +70,10 @@ public:
   /// mechanism: the fewer there are, the cheaper is a step.
   void leave_out_idle(Pair &pair);
 
+  /// Where both bodies move along the same direction, their difference does for the two: a pin between planar bodies
+  /// has four measures, not six.
+  void join_translations(Pair &pair);
+
 private:
   using Carrier = mechanism::RelativeMeasure::Carrier;
 

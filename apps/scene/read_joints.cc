@@ -80,9 +80,7 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
   }
   PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
   if (type == "angle")
-    for (const char *key : {"at_from", "at_to"})
-      if (table.has(key))
-        throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
+    refuse_turning_point(table, names, from, to);
   if (from.marker == to.marker)
     throw table.error("to", "lies on '" + to.marker + "' like `from`; what is measured would never change");
   measure.unit   = type == "inclination" || type == "angle" ? "rad" : "m";

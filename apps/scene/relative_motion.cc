@@ -1,5 +1,7 @@
 #include "apps/scene/relative_motion.h"
 
+#include "apps/scene/read_scalars.h"
+
 #include <cmath>
 
 namespace gestell::apps
@@ -31,22 +33,6 @@ RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, co
   along.a      = direction;
   along.unit   = "m";
   return {{}, false, "", std::make_shared<MeasureRequest>(along)};
-}
-
-/// A torque on what has no rotation would be lost.
-void refuse_turning_point(const SceneTable &table, const Names &names, const PlaceRequest &from, const PlaceRequest &to)
-{
-  for (const auto &[key, place] : {std::pair{"from", &from}, std::pair{"to", &to}})
-  {
-    const BodyRequest *body = names.find_body(place->marker);
-    if (body && body->kind == coupling::BodyKind::point)
-      throw table.error(key, "'" + place->marker +
-                                 "' is a point, which has no rotation to act on; make it a body of "
-                                 "type \"planar\" or \"rigid\", or give 'direction'");
-  }
-  for (const char *key : {"at_from", "at_to"})
-    if (table.has(key))
-      throw table.error(key, "is of no meaning with 'about': an angle is that of the whole body; leave it out");
 }
 
 } // namespace

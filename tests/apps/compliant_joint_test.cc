@@ -158,6 +158,21 @@ TEST(CompliantJoint, ALinkageTendsToThatOfIdealJoints)
   expect_closed_balance(hard, 1e-4);
 }
 
+// Bodies that move along the same directions give one difference: a pin between planar bodies has 4 measures, one on
+// the ground its body's 3.
+TEST(CompliantJoint, APinOfPlanarBodiesHasFourMeasures)
+{
+  const apps::Scene scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/double_four_bar.toml",
+                                             compliant("1 kN/mm", "2 kN s/m"));
+  const coupling::Machine machine = apps::build_machine(scene);
+  for (const auto &[joint, n] : {std::pair{"B", 4}, {"B again", 4}, {"B0", 3}})
+    for (const coupling::ElementPlacement &element : machine.elements())
+      if (element.name == joint)
+      {
+        EXPECT_EQ(element.element->n_measures(), n) << joint;
+      }
+}
+
 /// Four rigid bodies in a closed loop of pins with parallel axes, from the crank angle phi.
 std::string loop(const std::string &joint, const std::string &start)
 {

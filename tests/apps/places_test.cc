@@ -257,9 +257,11 @@ TEST(Places, WhatCannotActIsRefused)
       plate + point +
           "[element.e]\ntype = \"friction\"\nfrom = \"plate\"\nto = \"bob\"\nabout = [0, 1, 0]\nforce = 1\n",
       "element.e.to: 'bob' is a point");
+  expect_complaint(plate + point + "[measure.m]\ntype = \"angle\"\nfrom = \"plate\"\nto = \"bob\"\nabout = [0, 1, 0]\n",
+                   "measure.m.to: 'bob' is a point");
   const auto load = [](const std::string &keys) { return plate + "[element.e]\n" + keys; };
   expect_complaint(load("type = \"force\"\nfrom = \"plate\"\nat_from = [0, 0, 0]\nabout = [0, 1, 0]\nconstant = 1\n"),
-                   "at_from: is of no meaning with 'about'");
+                   "at_from: is of no meaning");
   expect_complaint(load("type = \"force\"\nfrom = \"tip\"\nconstant = 1\n"), "give 'direction'");
   expect_complaint(load("type = \"force\"\nfrom = \"top\"\ndirection = [0, 0, 1]\nconstant = 1\n"),
                    "there is no body 'top'");
