@@ -2,6 +2,8 @@
 
 #include "coupling/dense_matrices.h"
 #include "coupling/joint_rank.h"
+#include "mechanism/joints/compliant_joint.h"
+#include "mechanism/joints/orthonormal_directors.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -38,13 +40,33 @@ std::vector<Demand> demands_of(const std::vector<std::pair<std::string, double>>
   return demands;
 }
 
+/// A compliant joint and where its measures begin.
+struct Yielding
+{
+  const mechanism::CompliantJoint *joint;
+  int                              first_measure;
+};
+
+std::vector<Yielding> compliant_joints(const Machine &machine)
+{
+  std::vector<Yielding> found;
+  int                   first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    if (const auto *joint = dynamic_cast<const mechanism::CompliantJoint *>(placement.element.get()))
+      found.push_back({joint, first});
+    first += placement.element->n_measures();
+  }
+  return found;
+}
+
 class Assembly
 {
 public:
   Assembly(Machine &machine, const KnownStart &known)
       : machine_(machine), known_(known), measures_(demands_of(known.measures, {})),
         rates_(demands_of(known.rates, known.spins)), state_(known.state), G_(machine.constraint_blocks()),
-        n_c_(G_.n_rows())
+        n_c_(G_.n_rows()), yielding_(compliant_joints(machine))
   {
     local_.resize(machine);
     g_.setZero(n_c_);
@@ -56,21 +78,36 @@ public:
 
   InitialState assembled()
   {
-    close();
+    with_yielding([this] { return close(); });
     refuse_dependent();
-    turn();
+    with_yielding([this] { return turn(); });
     return state_;
   }
 
 private:
-  /// Rows: joints, then measures; columns: free coordinates, scaled to equal mass.
+  /// Takes compliant joints for ideal ones, or if that leads to no end lets them open.
+  template <class Closing>
+  void with_yielding(const Closing &closing)
+  {
+    const InitialState before = state_;
+    if (!yielding_.empty() && closing())
+      return;
+    yielding_.clear();
+    state_ = before;
+    closing();
+  }
+
+  /// Rows: joints, then measures, then compliant joints; columns: free coordinates, scaled to equal mass.
   void evaluate(const std::vector<Demand> &demands, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates)
   {
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
     machine_.constraints(local_, g_, G_);
     for (const auto &[row, shift] : known_.shifts)
       g_[row] -= shift;
-    residual.resize(n_c_ + Eigen::Index(demands.size()));
+    Eigen::Index n_yielding = 0;
+    for (const Yielding &own : yielding_)
+      n_yielding += own.joint->n_equations();
+    residual.resize(n_c_ + Eigen::Index(demands.size()) + n_yielding);
     rows.resize(residual.size(), machine_.size());
     if (rates)
     {
@@ -95,6 +132,22 @@ private:
       residual[n_c_ + Eigen::Index(i)] = value - demand.value;
       rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
     }
+    add_yielding(n_c_ + Eigen::Index(demands.size()), residual, rows, rates);
+  }
+
+  void add_yielding(Eigen::Index row, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates) const
+  {
+    double gradient[mechanism::PlacedMeasure::max_measures];
+    for (const Yielding &own : yielding_)
+      for (int i = 0; i < own.joint->n_equations(); ++i, ++row)
+      {
+        const auto opening =
+            own.joint->opening(i, local_.u.data() + own.first_measure, local_.v.data() + own.first_measure, gradient);
+        residual[row] = rates ? opening.rate : opening.s;
+        const int  k  = own.joint->n_measures();
+        const auto W  = machine_.directions().middleCols(own.first_measure, k);
+        rows.row(row) = (W * Eigen::Map<const Eigen::VectorXd>(gradient, k)).transpose();
+      }
   }
 
   /// e . omega = 1/2 sum d_i' . (e x d_i)
@@ -155,7 +208,8 @@ private:
     return delta;
   }
 
-  void close()
+  /// Returns whether compliant joints are closed too.
+  bool close()
   {
     Eigen::VectorXd residual, next;
     Eigen::MatrixXd rows;
@@ -182,7 +236,7 @@ private:
         break;
     }
     evaluate(measures_, residual, rows, false);
-    refuse_open(residual, measures_, "m or rad", "positions");
+    return is_closed(residual, measures_, "m or rad", "positions");
   }
 
   /// Equations that follow from others leave multipliers undetermined, and so does a position without hold.
@@ -193,11 +247,12 @@ private:
     Eigen::VectorXd residual;
     Eigen::MatrixXd rows;
     evaluate({}, residual, rows, false);
+    rows.conservativeResize(n_c_, Eigen::NoChange);
     if (const JointRank rank(machine_, rows); !rank.full())
       throw std::invalid_argument(rank.dependence());
   }
 
-  void turn()
+  bool turn()
   {
     Eigen::VectorXd residual;
     Eigen::MatrixXd rows;
@@ -209,18 +264,21 @@ private:
         state_.v += change(residual, rows, known_.v_given);
     }
     evaluate(rates_, residual, rows, true);
-    refuse_open(residual, rates_, "m/s or rad/s", "velocities");
+    return is_closed(residual, rates_, "m/s or rad/s", "velocities");
   }
 
-  void refuse_open(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
-                   const std::string &what) const
+  /// false: compliant joints have to open.  @throws std::invalid_argument if without them others stay open
+  bool is_closed(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
+                 const std::string &what) const
   {
     if (residual.size() == 0)
-      return;
+      return true;
     int          worst = 0;
     const double open  = residual.cwiseAbs().maxCoeff(&worst);
     if (open <= closed * std::max(1., what == "velocities" ? state_.v.cwiseAbs().maxCoeff() : 1.))
-      return;
+      return true;
+    if (!yielding_.empty())
+      return false;
     std::ostringstream message;
     message << "the mechanism cannot be assembled: with the given " << what << " "
             << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst) : demands[worst - n_c_].name)
@@ -229,14 +287,15 @@ private:
     throw std::invalid_argument(message.str());
   }
 
-  Machine            &machine_;
-  const KnownStart   &known_;
-  std::vector<Demand> measures_, rates_;
-  InitialState        state_;
-  LocalState          local_;
-  ConstraintJacobian  G_;
-  Eigen::VectorXd     g_, rate_, bias_;
-  int                 n_c_;
+  Machine              &machine_;
+  const KnownStart     &known_;
+  std::vector<Demand>   measures_, rates_;
+  InitialState          state_;
+  LocalState            local_;
+  ConstraintJacobian    G_;
+  Eigen::VectorXd       g_, rate_, bias_;
+  int                   n_c_;
+  std::vector<Yielding> yielding_; ///< compliant joints that are to close
 };
 
 } // namespace
@@ -244,6 +303,11 @@ private:
 InitialState assemble(Machine &machine, const KnownStart &known)
 {
   return Assembly(machine, known).assembled();
+}
+
+bool has_joints(const Machine &machine)
+{
+  return machine.n_constraints() > 0 || !compliant_joints(machine).empty();
 }
 
 } // namespace gestell::coupling

@@ -30,11 +30,15 @@ struct KnownStart
 /**
  * Closes the joints of a machine and gives measures their values, g(t, q) = 0 and s(q) = s_0, by moving coordinates of
  * bodies that are not given as little as possible, measured by their masses; then the velocities likewise,
- * G q' + rate = 0.  Coordinates of the frame stay as they are.
+ * G q' + rate = 0.  Coordinates of the frame stay as they are.  Compliant joints are closed likewise, unless the given
+ * values leave them no way to: then they stay open and act with their force.
  *
  * @throws std::invalid_argument if it cannot be done: the joint that stays open most, and by how much; or if equations
  * of joints depend on each other there: the one that does
  */
 InitialState assemble(Machine &machine, const KnownStart &known);
+
+/// Whether there are joints to close, ideal or compliant ones.
+bool has_joints(const Machine &machine);
 
 } // namespace gestell::coupling

@@ -170,6 +170,8 @@ public:
   PlacedPoint place(const std::string &marker, const Vector3 &at) const;
   Vector3     position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
   void        add_measure(NamedMeasure measure);
+  /// Signals of a point: "tip.x" where it is, "tip.ux" its displacement, "tip.vx" its velocity, along x, y and z.
+  void add_place(const std::string &name, const PlacedPoint &place);
   /// @throws std::invalid_argument for an unknown signal or element, or an order that the element does not know
   void add_switch(const Switch &request);
   /// How a body is drawn.

@@ -259,6 +259,18 @@ void Machine::add_measure(NamedMeasure measure)
   parts_->measures.push_back(std::move(measure));
 }
 
+void Machine::add_place(const std::string &name, const PlacedPoint &place)
+{
+  const auto &start = place.placement.point();
+  parts_->places.push_back({name, int(parts_->measures.size()), {start[0], start[1], start[2]}});
+  for (int d = 0; d < 3; ++d)
+  {
+    mechanism::PlacedMeasure along{mechanism::Placement(), place.placement, {}};
+    along.measure.a = mechanism::Vector3d::Unit(d);
+    add_measure({name + "." + "xyz"[d], "m", along, place.measures});
+  }
+}
+
 mechanism::RelativeMeasure::Value NamedMeasure::evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                                          Eigen::VectorXd *on_q) const
 {

@@ -83,6 +83,14 @@ struct Machine::Parts
     ActiveGuard   guard;
   };
 
+  /// A point whose motion signals tell: its measures along x, y, z are three of `measures`.
+  struct NamedPlace
+  {
+    std::string name;
+    int         first_measure;
+    Vector3     start; ///< [m] at zero displacement
+  };
+
   // building
   std::unique_ptr<ReducedFrame>       reduced;
   std::unique_ptr<fem::FrameMatrices> full;
@@ -97,6 +105,7 @@ struct Machine::Parts
   std::vector<LinearElement>          linear;
   std::vector<ElementPlacement>       elements;
   std::vector<NamedMeasure>           measures;
+  std::vector<NamedPlace>             places;
   std::vector<Switch>                 switch_requests;
   std::vector<std::string>            coordinate_names; ///< of the bodies and lags
   std::vector<int>                    lag_coordinates;

@@ -107,18 +107,35 @@ std::map<std::string, Signal> Machine::Parts::signals() const
       signals[load.name + ".torque"] = force;
   }
 
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    for (const int rate : {0, 1})
+  const auto add_measure = [&](int i, int rate, const std::string &path, double offset)
+  {
+    Signal signal;
+    signal.name     = path;
+    signal.unit     = measures[i].unit + (rate ? "/s" : "");
+    signal.measure  = i;
+    signal.quantity = rate;
+    signal.offset   = offset;
+    for (const Measure &u : measures[i].measures) // so that whoever reads the signal provides their motion
+      for (const auto &[coordinate, weight] : u)
+        signal.on_q.emplace_back(coordinate, 0.);
+    signals[path] = signal;
+  };
+  std::vector<char> of_place(measures.size(), 0);
+  for (const NamedPlace &place : places)
+    for (int d = 0; d < 3; ++d)
     {
-      Signal signal;
-      signal.name     = measures[i].name + (rate ? ".rate" : ".value");
-      signal.unit     = measures[i].unit + (rate ? "/s" : "");
-      signal.measure  = static_cast<int>(i);
-      signal.quantity = rate;
-      for (const Measure &u : measures[i].measures) // so that whoever reads the signal provides their motion
-        for (const auto &[coordinate, weight] : u)
-          signal.on_q.emplace_back(coordinate, 0.);
-      signals[signal.name] = signal;
+      const std::string axis(1, "xyz"[d]);
+      const int         i = place.first_measure + d;
+      of_place[i]         = 1;
+      add_measure(i, 0, place.name + "." + axis, 0.);
+      add_measure(i, 0, place.name + ".u" + axis, -place.start[d]);
+      add_measure(i, 1, place.name + ".v" + axis, 0.);
+    }
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    if (!of_place[i])
+    {
+      add_measure(int(i), 0, measures[i].name + ".value", 0.);
+      add_measure(int(i), 1, measures[i].name + ".rate", 0.);
     }
 
   for (std::size_t e = 0; e < elements.size(); ++e)

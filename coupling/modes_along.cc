@@ -1,5 +1,6 @@
 #include "coupling/modes_along.h"
 
+#include "coupling/assembly.h"
 #include "coupling/closed_chains.h"
 #include "coupling/static_equilibrium.h"
 
@@ -94,7 +95,7 @@ private:
     next.modes.x             = x;
     next.modes.configuration = Configuration::undeformed;
     next.state               = assembled(x, from);
-    if (machine_.n_constraints() == 0)
+    if (!has_joints(machine_))
       turn_along(x - from.modes.x, next.state);
     if (!slides_) // sliders close the chains: one that is held cannot
       close_chains(machine_, next.state.q);

@@ -1,5 +1,6 @@
 #include "coupling/steady_start.h"
 
+#include "coupling/assembly.h"
 #include "coupling/closed_chains.h"
 #include "coupling/dense_matrices.h"
 
@@ -189,8 +190,9 @@ private:
 
 InitialState steady_start(Machine &machine, const SteadyStart &start)
 {
-  if (machine.n_constraints() > 0)
-    throw std::invalid_argument("a steady start does not close ideal joints; use rule = \"given\" or \"static\"");
+  if (has_joints(machine))
+    throw std::invalid_argument(
+        "a steady start does not close ideal joints or compliant ones; use rule = \"given\" or \"static\"");
   const Kinematics kinematics = kinematics_of(machine, start);
   InitialState     state      = kinematics.state;
   Equilibrium      equilibrium(machine, kinematics);

@@ -3,6 +3,7 @@
 #include "apps/scene/build_measures.h"
 #include "apps/scene/joint_equations.h"
 #include "apps/scene/quantity.h"
+#include "mechanism/joints/compliant_joint.h"
 #include "mechanism/joints/joint_friction.h"
 #include "mechanism/transmitted_element.h"
 
@@ -11,6 +12,7 @@ namespace gestell::apps
 namespace
 {
 
+using mechanism::CompliantJoint;
 using mechanism::IdealJoint;
 using mechanism::RelativeMeasure;
 
@@ -52,6 +54,42 @@ void add_joint_friction(coupling::Machine &machine, const JointRequest &joint, c
       throw std::invalid_argument("has friction, but neither body is planar or a rotor, whose axis a pin turns about");
     attach_friction<1>(machine, pair, *joint.friction, equations, {rotation_about(pair, vector(body->axis), 1.)});
   }
+}
+
+/// The equations of a joint, each with what keeps it closed.
+std::vector<CompliantJoint::Equation> yielding(const ComplianceRequest                 &compliance,
+                                               const std::vector<IdealJoint::Equation> &equations)
+{
+  std::vector<CompliantJoint::Equation> all;
+  bool                                  turns = false;
+  for (const IdealJoint::Equation &demand : equations)
+  {
+    CompliantJoint::Equation equation{demand, 0., 0.};
+    if (demand.unit == "N")
+      for (int d = 0; d < 3; ++d)
+      {
+        const double share = demand.measure.a[d] * demand.measure.a[d];
+        if (compliance.directed && share > 1e-12 && share < 1. - 1e-12)
+          throw std::invalid_argument("three values of 'stiffness' or 'damping' are those along global axes, but the "
+                                      "joint's own directions lie between them; give one value for all directions");
+        equation.stiffness += share * compliance.stiffness[d];
+        equation.damping += share * compliance.damping[d];
+      }
+    else
+    {
+      turns = true;
+      if (!compliance.rotational_stiffness)
+        throw std::invalid_argument("holds a rotation (" + demand.name +
+                                    ") too: it needs 'rotational_stiffness' beside 'stiffness'");
+      equation.stiffness = *compliance.rotational_stiffness;
+      equation.damping   = compliance.rotational_damping.value_or(0.);
+    }
+    all.push_back(equation);
+  }
+  if (!turns && (compliance.rotational_stiffness || compliance.rotational_damping))
+    throw std::invalid_argument("holds no rotation of these bodies; leave out 'rotational_stiffness' and "
+                                "'rotational_damping'");
+  return all;
 }
 
 /// What a joint looks like: a bar, a pin; of others only the points where they hold.
@@ -132,10 +170,21 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   }
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
+  if (joint.compliance && joint.compliance->directed)
+    equations.turn_with_first();
   Pair felt = pair;
   equations.leave_out_idle(felt);
-  machine.attach(joint.name, std::make_shared<IdealJoint>(felt.first, felt.second, equations.list, joint.law),
-                 felt.measures);
+  if (joint.compliance)
+  {
+    equations.join_translations(felt);
+    machine.attach(
+        joint.name,
+        std::make_shared<CompliantJoint>(felt.first, felt.second, yielding(*joint.compliance, equations.list)),
+        felt.measures);
+  }
+  else
+    machine.attach(joint.name, std::make_shared<IdealJoint>(felt.first, felt.second, equations.list, joint.law),
+                   felt.measures);
   if (joint.friction)
     add_joint_friction(machine, joint, pair, equations.list);
   draw_joint(machine, joint, pair);

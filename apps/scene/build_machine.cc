@@ -71,6 +71,9 @@ void fill(coupling::Machine &machine, const Scene &scene)
              machine.add_load(load.name, measure_of(load.u, machine), load.constant, load.oscillations,
                               load.force_unit);
            });
+  for (const auto &point : scene.places)
+    if (point.point.marker != "ground")
+      placed(point.place, [&] { machine.add_place(point.name, apps::placed(machine, point.point)); });
   add_measures(machine, scene);
   for (const auto &joint : scene.joints)
     placed(joint.place, [&] { add_joint(machine, joint); });
@@ -78,7 +81,7 @@ void fill(coupling::Machine &machine, const Scene &scene)
     placed(place(element.name),
            [&]
            {
-             if (!element.on.empty())
+             if (!element.on.empty() || element.own)
              {
                attach_on_measure(machine, element);
                return;

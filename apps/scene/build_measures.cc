@@ -1,5 +1,6 @@
 #include "apps/scene/build_measures.h"
 
+#include "mechanism/elements/follower_load.h"
 #include "mechanism/joints/measure_joint.h"
 #include "mechanism/transmitted_element.h"
 
@@ -71,6 +72,14 @@ Built<CombinedMeasure> build(coupling::Machine &machine, const MeasureRequest &r
   return {CombinedMeasure(terms, x, request.function), measures};
 }
 
+/// What the measure is in the position described.
+double described_value(const CombinedMeasure &measure)
+{
+  const double zero[CombinedMeasure::max_measures] = {};
+  double       gradient[CombinedMeasure::max_measures];
+  return measure.evaluate(zero, zero, gradient).s;
+}
+
 } // namespace
 
 coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine)
@@ -119,15 +128,12 @@ void add_measures(coupling::Machine &machine, const Scene &scene)
 
 void add_measure_joint(coupling::Machine &machine, const JointRequest &joint)
 {
-  const bool   turns                               = joint.measure.unit == "rad";
-  const auto   built                               = build(machine, joint.measure);
-  const double zero[CombinedMeasure::max_measures] = {};
-  double       gradient[CombinedMeasure::max_measures];
-  const double described = built.measure.evaluate(zero, zero, gradient).s;
+  const bool turns = joint.measure.unit == "rad";
+  const auto built = build(machine, joint.measure);
   machine.attach(
       joint.name,
       std::make_shared<mechanism::MeasureJoint>(
-          mechanism::MeasureJoint::Parameters{built.measure, joint.value.value_or(described),
+          mechanism::MeasureJoint::Parameters{built.measure, joint.value.value_or(described_value(built.measure)),
                                               turns ? "torque" : "force", turns ? "N m" : "N", joint.reaction_unit},
           joint.law),
       built.measures);
@@ -135,12 +141,30 @@ void add_measure_joint(coupling::Machine &machine, const JointRequest &joint)
 
 void attach_on_measure(coupling::Machine &machine, const ElementRequest &element)
 {
-  const coupling::NamedMeasure &measure  = machine.measure(element.on);
-  auto                          measures = measure.measures;
-  for (const LagRequest &lag : element.lags)
-    measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
-  machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure.measure, element.element),
-                 measures);
+  const auto attach = [&](const CombinedMeasure &measure, std::vector<coupling::Measure> measures, double rest)
+  {
+    for (const LagRequest &lag : element.lags)
+      measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
+    machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure, element.element, rest),
+                   measures);
+  };
+  if (element.follows)
+  {
+    const auto point = placed(machine, element.own->second);
+    machine.attach(element.name,
+                   std::make_shared<mechanism::FollowerLoad>(point.placement, vector(element.own->a), element.element),
+                   point.measures);
+    machine.draw_point(element.own->second.marker, point_of(machine, element.own->second));
+    return;
+  }
+  if (element.own)
+  {
+    const auto built = build(machine, *element.own);
+    attach(built.measure, built.measures, described_value(built.measure));
+    return;
+  }
+  const coupling::NamedMeasure &measure = machine.measure(element.on);
+  attach(measure.measure, measure.measures, 0.);
   const PlacedMeasure *plain = measure.measure.plain();
   if (!plain || plain->measure.form != mechanism::RelativeMeasure::Form::distance)
     return;

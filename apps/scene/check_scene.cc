@@ -1,4 +1,5 @@
 #include "apps/scene/build_machine.h"
+#include "coupling/assembly.h"
 #include "coupling/reduced_frame_file.h"
 
 #include <utility>
@@ -67,7 +68,7 @@ void check_scene(const Scene &scene)
 {
   auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
-  if (machine.n_constraints() == 0 || scene.start.rule == StartRule::given) // a static start needs the frame itself
+  if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
     modes_configuration(scene, machine);
   if (scene.start.rule == StartRule::given)
     initial_state(scene, machine);

@@ -296,6 +296,13 @@ void JointEquations::gear(double factor)
   list.push_back(equation);
 }
 
+void JointEquations::turn_with_first()
+{
+  for (IdealJoint::Equation &equation : list)
+    if (equation.measure.form == Form::along && equation.measure.carrier == Carrier::space)
+      equation.measure.carrier = Carrier::first;
+}
+
 void JointEquations::leave_out_idle(Pair &pair)
 {
   const int         n_1 = pair.first.n_measures(), n = int(pair.measures.size());
@@ -324,6 +331,32 @@ void JointEquations::leave_out_idle(Pair &pair)
     for (IdealJoint::Equation &equation : list)
       if (!equation.measure.ratios.empty())
         equation.measure.ratios.erase(equation.measure.ratios.begin() + i);
+  }
+}
+
+void JointEquations::join_translations(Pair &pair)
+{
+  using coupling::operator-;
+  const auto      moves_along = [](const Placement &placement, int i, const Vector3d &t)
+  { return placement.is_linear(i) && placement.rotation(i).isZero(0.) && placement.translation(i) == t; };
+  for (int i = pair.first.n_measures() - 1; i >= 0; --i)
+  {
+    const Vector3d t = pair.first.translation(i);
+    if (!moves_along(pair.first, i, t))
+      continue;
+    const int n_1 = pair.first.n_measures();
+    for (int j = 0; j < pair.second.n_measures(); ++j)
+    {
+      if (!moves_along(pair.second, j, t))
+        continue;
+      pair.measures[n_1 + j] = pair.measures[n_1 + j] - pair.measures[i];
+      pair.measures.erase(pair.measures.begin() + i);
+      pair.first = pair.first.without(i);
+      for (IdealJoint::Equation &equation : list) // of rotations, to which a translation adds nothing
+        if (!equation.measure.ratios.empty())
+          equation.measure.ratios.erase(equation.measure.ratios.begin() + i);
+      break;
+    }
   }
 }
 

@@ -63,9 +63,16 @@ public:
   /// The coordinate of body 2 is `factor` times that of body 1: angle of a rotor, displacement of a slider ...
   void gear(double factor);
 
+  /// Directions fixed in space turn with the first body instead.
+  void turn_with_first();
+
   /// Leaves out the measures that none of the equations feels in any position, such as those across the plane of a
   /// mechanism: the fewer there are, the cheaper is a step.
   void leave_out_idle(Pair &pair);
+
+  /// Where both bodies move along the same direction, their difference does for the two: a pin between planar bodies
+  /// has four measures, not six.
+  void join_translations(Pair &pair);
 
 private:
   using Carrier = mechanism::RelativeMeasure::Carrier;

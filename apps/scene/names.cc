@@ -44,6 +44,9 @@ std::string Names::marker(const SceneTable &table, const std::string &key) const
     valid.push_back("frame." + interface);
   if (std::find(valid.begin(), valid.end(), name) != valid.end() || (any_interface_ && name.rfind("frame.", 0) == 0))
     return name;
+  if (const auto point = places_.find(name); point != places_.end())
+    throw table.error(key, "'" + name + "' is a place, but this acts on a whole body; name '" + point->second.marker +
+                               "', on which it lies");
   const bool of_frame = name.rfind("frame.", 0) == 0;
   throw table.error(key, of_frame ? "the frame has no interface '" + name.substr(6) + "'" +
                                         (interfaces_.empty()

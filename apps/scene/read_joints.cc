@@ -1,5 +1,6 @@
 #include "apps/scene/read_joints.h"
 
+#include "apps/scene/read_compliance.h"
 #include "apps/scene/read_contact.h"
 #include "apps/scene/read_scalars.h"
 #include "apps/scene/relative_motion.h"
@@ -46,6 +47,22 @@ bool turns_freely(const Names &names, const std::string &marker)
   return body && body->kind == coupling::BodyKind::rigid;
 }
 
+/// What the direction of `along` turns with.
+mechanism::RelativeMeasure::Carrier read_carrier(const SceneTable &table, const Names &names,
+                                                 const MeasureRequest &along)
+{
+  using Carrier = mechanism::RelativeMeasure::Carrier;
+  if (!table.has("carried_by"))
+    return Carrier::space;
+  const std::string carrier = names.marker(table, "carried_by");
+  if (carrier == along.first.marker)
+    return Carrier::first;
+  if (carrier == along.second.marker)
+    return Carrier::second;
+  throw table.error("carried_by", "is '" + carrier + "', but the direction can turn with `from` or `to` only, '" +
+                                      along.second.marker + "' or '" + along.first.marker + "'");
+}
+
 MeasureRequest read_measure(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
@@ -63,9 +80,7 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
   }
   PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
   if (type == "angle")
-    for (const char *key : {"at_from", "at_to"})
-      if (table.has(key))
-        throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
+    refuse_turning_point(table, names, from, to);
   if (from.marker == to.marker)
     throw table.error("to", "lies on '" + to.marker + "' like `from`; what is measured would never change");
   measure.unit   = type == "inclination" || type == "angle" ? "rad" : "m";
@@ -78,6 +93,7 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
     measure.form = Form::along;
     measure.a    = table.direction("direction");
     std::swap(measure.first, measure.second);
+    measure.carrier = read_carrier(table, names, measure);
   }
   else if (type == "angle" && !turns_freely(names, from.marker) && !turns_freely(names, to.marker))
     measure.terms = {{1., difference(from.marker, to.marker, table.direction("about"), true), nullptr}};
@@ -316,6 +332,7 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
     if (known.name == type)
     {
       joint.type = JointType::measure;
+      read_compliance(table, joint.type); // refuses it
       known.read(table, names, joint);
       return joint;
     }
@@ -338,7 +355,8 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
   if (joint.type != JointType::distance && joint.to.at && !joint.from.at)
     joint.from.at = joint.to.at;
   read_axes(table, names, joint);
-  joint.friction = read_joint_friction(table, joint.type);
+  joint.compliance = read_compliance(table, joint.type);
+  joint.friction   = read_joint_friction(table, joint.type);
   if (joint.type == JointType::gear)
   {
     joint.ratio = table.number("ratio", kind::number);
@@ -364,7 +382,9 @@ void read_places(const SceneTable &scene, Names &names, Scene &result)
     check_thing_name(table);
     if (names.find_body(table.name()))
       throw table.error("a body has the name '" + table.name() + "' too; 'from' and 'to' could not tell them apart");
-    names.add_place(table.name(), {names.marker(table, "on"), table.vector("at", kind::length)});
+    const PlaceRequest point{names.marker(table, "on"), table.vector("at", kind::length)};
+    names.add_place(table.name(), point);
+    result.places.push_back({table.name(), point, table.place()});
   }
   for (const auto &table : scene.tables("measure"))
   {

@@ -225,6 +225,21 @@ static void refuse_wrapping(const SceneTable &table, const std::string &key, con
                           "`rise`");
 }
 
+void refuse_turning_point(const SceneTable &table, const Names &names, const PlaceRequest &from, const PlaceRequest &to)
+{
+  for (const auto &[key, place] : {std::pair{"from", &from}, std::pair{"to", &to}})
+  {
+    const BodyRequest *body = names.find_body(place->marker);
+    if (body && body->kind == coupling::BodyKind::point)
+      throw table.error(key, "'" + place->marker +
+                                 "' is a point, which has no rotation; make it a body of "
+                                 "type \"planar\" or \"rigid\", or take a displacement");
+  }
+  for (const char *key : {"at_from", "at_to"})
+    if (table.has(key))
+      throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
+}
+
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x)
 {
   x            = read_scalar(table, "from", names);

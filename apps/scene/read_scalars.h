@@ -26,6 +26,11 @@ struct ScalarRequest
  */
 ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const Names &names);
 
+/// Refuses an angle of a point, which has no rotation: a torque on it would be lost; and points of bodies, whose angle
+/// is that of the whole.
+void refuse_turning_point(const SceneTable &table, const Names &names, const PlaceRequest &from,
+                          const PlaceRequest &to);
+
 /// s = y - f(x) of the keys `from` (x), `to` (y), and `function` or `table`.
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x);
 

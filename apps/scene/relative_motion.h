@@ -17,13 +17,18 @@ struct RelativeMotion
   MotionMeasure u;
   bool          rotation = false; ///< u is an angle
   std::string   on;               ///< u is this measure of the scene instead
+  /// or this one without a name, of two places, counted from the position described
+  std::shared_ptr<const MeasureRequest> own{};
+  bool                                  follows = false; ///< the direction of `own` turns with its second place
 
+  bool        is_measure() const { return !on.empty() || own; }
   std::string force_unit() const { return rotation ? "N m" : "N"; }
 };
 
 /**
  * Reads `on`, a measure, or `from`, `to` and `direction` or `about`.  Without either the bodies tell: the axis of the
- * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.
+ * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.  `from` and `to` may be
+ * places, or points `at_from`, `at_to` of bodies: then u is the displacement of these points, however bodies turn.
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
 
@@ -41,9 +46,17 @@ auto checked(const SceneTable &table, Make make)
   }
 }
 
-/// Adds an element of one measure to the scene.
+/// As above; of a load, whose direction may turn with `from`: `carried_by`.
+RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
+
+/// The motion of a shaft: `on` is a rotor, a planar body, or a measure that is an angle.
+RelativeMotion read_shaft(const SceneTable &table, const Names &names);
+
+/// Adds an element of one measure to the scene, with the virtual coordinates that follow it.
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
-                    const RelativeMotion &motion);
+                    const RelativeMotion &motion, const std::vector<LagRequest> &lags = {});
+/// The same motion without a measure, where that is one along or about constant directions; else as it is.
+RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names);
 /// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion);
 /// Adds an element to the scene.

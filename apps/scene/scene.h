@@ -82,6 +82,14 @@ struct PlaceRequest
   std::optional<Vector3> at; ///< [m]; none: the body's own reference point
 };
 
+/// A point with a name, whose motion signals tell.
+struct NamedPlace
+{
+  std::string  name;
+  PlaceRequest point;
+  std::string  place; ///< in the scene file
+};
+
 /// weight * (motion of a marker along or about an axis).
 struct MotionTerm
 {
@@ -138,6 +146,15 @@ struct JointFrictionRequest
   double                     radius = 0., length = 0.; ///< [m] of a pin, of a guide that takes torques
 };
 
+/// Of a joint that yields.
+struct ComplianceRequest
+{
+  Vector3               stiffness{}, damping{}; ///< [N/m], [N s/m] along the global axes as described
+  bool                  directed = false;       ///< the three differ and turn with the first body
+  std::optional<double> rotational_stiffness;   ///< [N m/rad]; demanded if the joint holds rotations
+  std::optional<double> rotational_damping;     ///< [N m s/rad]
+};
+
 struct JointRequest
 {
   std::string                                 name;
@@ -152,6 +169,7 @@ struct JointRequest
   std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
   std::string                                 reaction_unit; ///< of what acts on the argument of its function
   std::optional<JointFrictionRequest>         friction;      ///< of `revolute`, `prismatic`, `in-plane`
+  std::optional<ComplianceRequest>            compliance;    ///< of those without `measure`, `distance`, `gear`
   std::string                                 place;
 };
 
@@ -204,6 +222,9 @@ struct ElementRequest
   std::string                              on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
   std::vector<LagRequest>                  lags;   ///< the element's last measures
   std::optional<PairRequest>               pair{}; ///< the element is a law of these measures
+  /// A measure without a name that the element acts on, counted from the position described.
+  std::shared_ptr<const MeasureRequest> own{};
+  bool follows = false; ///< of `own`: the element is a load on its second place along a direction that turns with it
 };
 
 struct PointMassRequest
@@ -269,6 +290,7 @@ struct Scene
   std::vector<LinearRequest>         linear;
   std::vector<LoadRequest>           loads;
   std::vector<ElementRequest>        elements;
+  std::vector<NamedPlace>            places;
   std::vector<MeasureRequest>        measures;
   std::vector<JointRequest>          joints;
   std::vector<SwitchRequest>         switches;

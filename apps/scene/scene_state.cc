@@ -157,11 +157,11 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
 {
   // With joints a position has to be closed: that of the start, or the one nearest to it with the given values.
-  if (machine.n_constraints() > 0 && scene.modes.at.empty())
+  if (coupling::has_joints(machine) && scene.modes.at.empty())
     return initial_state(scene, machine).q;
   const bool measured =
       std::any_of(scene.modes.at.begin(), scene.modes.at.end(), [](const NamedValue &value) { return value.measure; });
-  if (machine.n_constraints() > 0 || measured)
+  if (coupling::has_joints(machine) || measured)
   {
     coupling::KnownStart known = known_start(scene, machine, scene.modes.at, {});
     known.state.q              = initial_state(scene, machine).q;

@@ -177,9 +177,9 @@ TEST(SceneReference, ItsExamplesOfElementsAreRead)
   const auto        begin = document.find("```toml\n", document.find("### Examples")) + 8;
   ASSERT_GT(begin, 8u);
   std::string scene = document.substr(begin, document.find("```", begin) - begin);
-  for (const std::string body : {"crank", "flywheel"})
+  for (const std::string body : {"crank", "flywheel", "rod", "lance"})
     scene += "[body." + body + "]\ntype = \"rotor\"\naxis = [0, 1, 0]\ninertia = 3\n";
-  for (const std::string body : {"load", "spindle", "slide", "piston"})
+  for (const std::string body : {"load", "spindle", "slide", "piston", "bead"})
     scene += "[body." + body + "]\ntype = \"slider\"\naxis = [0, 0, 1]\nmass = 3\n";
   EXPECT_EQ(complaint(scene + R"([frame]
 mass      = [[1, 0], [0, 1]]

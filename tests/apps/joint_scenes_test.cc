@@ -106,4 +106,22 @@ TEST(CrankPress, RamFollowsTheCrankAndTheStoredEnergyIsThatOfTheSliderCrank)
   EXPECT_LT(run.result.energy.residual, 1e-3 * run.result.energy.dissipated);
 }
 
+// Held at rest by a spring, the pins on the ground carry the weights: their tilting moments and the lever of the force
+// at B0 balance those of the bars about the x axis.  How they share them only stiffnesses tell.
+TEST(OffsetFourBar, PinsOnTheGroundCarryTheTiltingMomentOfTheWeights)
+{
+  const SceneRun run(
+      "offset_four_bar.toml",
+      {"run.end=\"1 ms\"", "start.rule=\"static\"",
+       "element.drive={type=\"spring-damper\", on=\"turn\", stiffness=\"1e6 N m/rad\"}",
+       "output={signals={ A=\"A0.mx\", B=\"B0.mx\", F_A=\"A0.fz\", F_B=\"B0.fz\", mz=\"A0.mz\", y=\"tip.uy\" }}"});
+  const double g = 9.81, y = 0.04, weight = (3. + 6. + 4.) * g;
+  EXPECT_NEAR(run.signal("F_A").final + run.signal("F_B").final, weight, 1e-6); // 2e8 N/m times the rounding of places
+  EXPECT_GT(std::abs(run.signal("A").final), 0.1);
+  // Bars tilt by 1e-4: what that changes of levers and axes.
+  EXPECT_NEAR(run.signal("A").final + run.signal("B").final + 2. * y * run.signal("F_B").final,
+              g * (6. * y + 4. * 2. * y), 1e-3);
+  EXPECT_LT(std::abs(run.signal("y").final), 1e-4);
+}
+
 } // namespace gestell::tests

@@ -40,14 +40,12 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
     if (table.has(key))
       throw table.error(key, "is no key of a contact: the point of `from` is `at`, a point of the plane `through`");
   const PlaceRequest point = names.place(table, "from");
-  PlaceRequest       plane{names.marker(table, "to", "ground"), {}};
+  PlaceRequest       plane = names.place(table, "to", "through", "ground");
   check_two_bodies(table, point, plane);
   const Vector3 normal = table.direction("normal");
-  if (table.has("through"))
-    plane.at = table.vector("through", kind::length);
-  else if (point.at)
+  if (!plane.at)
     plane.at = point.at;
-  else
+  if (!plane.at)
     throw table.error("needs 'through', a point of the plane in the position the scene describes");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
   contact.normal.stops = Clearance::Stops::below;

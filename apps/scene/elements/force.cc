@@ -1,3 +1,5 @@
+#include "mechanism/elements/harmonic_force.h"
+
 #include "apps/scene/relative_motion.h"
 
 #include <cmath>
@@ -9,10 +11,9 @@ namespace gestell::apps
 /// it.
 void read_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto  motion = read_relative_motion(table, names);
+  const auto  motion = constant_motion(read_load_motion(table, names), names);
   const Kind &kind   = motion.rotation ? kind::torque : kind::force;
   LoadRequest load;
-  refuse_measure(table, motion);
   load.name       = table.name();
   load.u          = motion.u;
   load.force_unit = motion.force_unit();
@@ -22,7 +23,15 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
                                  part.number("amplitude", kind), part.number("phase", kind::angle, 0.)});
   if (!table.has("constant") && !table.has("harmonics"))
     throw table.error("needs 'constant' or 'harmonics'; with neither it would do nothing");
-  scene.loads.push_back(load);
+  if (!motion.is_measure())
+  {
+    scene.loads.push_back(load);
+    return;
+  }
+  mechanism::HarmonicForce::Parameters force{load.constant, {}, motion.rotation};
+  for (const coupling::Oscillation &part : load.oscillations)
+    force.oscillations.push_back({part.omega, part.amplitude, part.phase});
+  add_element_on(scene, table, std::make_shared<mechanism::HarmonicForce>(force), motion);
 }
 
 } // namespace gestell::apps

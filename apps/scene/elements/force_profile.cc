@@ -9,7 +9,7 @@ namespace gestell::apps
 /// +F acts on `from` along the direction, on `to` against it.
 void read_force_profile(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto   motion = read_relative_motion(table, names);
+  const auto   motion = read_load_motion(table, names);
   const Kind  &kind   = motion.rotation ? kind::torque : kind::force;
   const double from   = table.number("initial", kind, 0.);
   if (!table.has("profile"))

@@ -56,7 +56,7 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 /// Truly sticks.  Its two forces are given, or follow from a normal force by their coefficients.
 void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
+  const auto motion = constant_motion(read_relative_motion(table, names), names);
   refuse_measure(table, motion); // it holds its measure where it sticks
   const bool coefficients = table.has("normal_force") || table.has("static") || table.has("kinetic");
   if (coefficients == (table.has("static_force") || table.has("kinetic_force")))
@@ -89,7 +89,7 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
 /// Dry friction that is engaged over time, against the ground or another body.
 void read_brake(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
+  const auto motion = constant_motion(read_relative_motion(table, names), names);
   refuse_measure(table, motion);
   CoulombFriction::Parameters brake;
   brake.kinetic_force = table.not_negative("capacity", force_kind(motion));

@@ -46,12 +46,8 @@ void read_hydraulic_cylinder(const SceneTable &table, const Names &names, Scene 
   else
     cylinder.course = read_profile(table, "flow", level_profile(flow, flow.example), table.number("initial", flow, 0.));
   const std::string name = table.name();
-  // On a measure of the scene, or on a motion along a constant direction.
-  scene.elements.push_back({name,
-                            checked(table, [&] { return std::make_shared<HydraulicCylinder>(cylinder); }),
-                            motion.on.empty() ? std::vector<MotionMeasure>{motion.u} : std::vector<MotionMeasure>{},
-                            motion.on,
-                            {{name + ".fed_a", HydraulicCylinder::lag}, {name + ".fed_b", HydraulicCylinder::lag}}});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<HydraulicCylinder>(cylinder); }), motion,
+                 {{name + ".fed_a", HydraulicCylinder::lag}, {name + ".fed_b", HydraulicCylinder::lag}});
 }
 
 } // namespace gestell::apps

@@ -8,9 +8,8 @@ namespace gestell::apps
 /// Measures: displacement or angle of `from` against `to`; the force of the bristles, a lag.
 void read_lugre_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = read_relative_motion(table, names);
-  const bool turns  = motion.rotation;
-  refuse_measure(table, motion); // it has a state besides
+  const auto  motion    = constant_motion(read_relative_motion(table, names), names);
+  const bool  turns     = motion.rotation;
   const Kind &force     = turns ? kind::torque : kind::force;
   const Kind &stiffness = turns ? kind::torsional_stiffness : kind::stiffness;
   const Kind &damping   = turns ? kind::torsional_damping : kind::damping;
@@ -25,8 +24,8 @@ void read_lugre_friction(const SceneTable &table, const Names &names, Scene &sce
   friction.viscous           = table.not_negative("viscous", damping, 0.);
   if (friction.static_force > friction.kinetic_force && !table.has("stribeck_speed"))
     throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
-  add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::LuGreFriction>(friction); }),
-              {motion.u}, {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::LuGreFriction>(friction); }),
+                 motion, {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
 }
 
 } // namespace gestell::apps

@@ -6,12 +6,12 @@
 namespace gestell::apps
 {
 
-/// Measures: angle of the rotor about its own axis; the integral, a lag.
+/// Measures: angle of the shaft; the integral, a lag.
 void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
 {
   const Kind gain{"gain over a speed", "40 N m s/rad", {2, 1, -1}},
       gain_of_angle{"gain over an angle", "300 N m/rad", {2, 1, -2}};
-  const auto                       &rotor = names.body(table, "on", coupling::BodyKind::rotor);
+  const auto                        shaft = read_shaft(table, names);
   mechanism::SpeedDrive::Parameters drive;
   drive.proportional_gain = table.positive("proportional_gain", gain);
   drive.integral_gain     = table.not_negative("integral_gain", gain_of_angle, drive.integral_gain);
@@ -19,8 +19,7 @@ void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
   const double from       = table.number("initial_speed", kind::angular_speed, 0.);
   drive.speed             = read_profile(table, "speed", speed_profile(), from);
   const auto element      = checked(table, [&] { return std::make_shared<mechanism::SpeedDrive>(drive); });
-  add_element(scene, table, element, {{{rotor.name, true, rotor.axis, 1.}}},
-              {{table.name() + ".integral", element->lag()}});
+  add_element_on(scene, table, element, shaft, {{table.name() + ".integral", element->lag()}});
 }
 
 } // namespace gestell::apps

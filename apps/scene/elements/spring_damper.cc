@@ -18,7 +18,7 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
   // A value may be varied down to zero; what is not given at all was forgotten.
   if (!table.has("stiffness") && !table.has("damping") && !table.has("preload"))
     throw table.error("needs 'stiffness', 'damping' or 'preload'; with none of them it would do nothing");
-  if (motion.on.empty())
+  if (!motion.is_measure())
     scene.linear.push_back({table.name(), motion.u, stiffness, damping, preload, rest, motion.force_unit()});
   else
     add_element_on(scene, table,

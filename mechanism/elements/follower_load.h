@@ -1,0 +1,62 @@
+#pragma once
+
+#include "mechanism/force_element.h"
+#include "mechanism/placement.h"
+
+#include <memory>
+
+namespace gestell::mechanism
+{
+
+/**
+ * An external load P(t) at a point x of a body along a direction e that turns with it, such as a thrust:
+ *
+ *     p = P e . dx/du,     power P e . x'.
+ *
+ * P is that of a law of one measure, which sees the speed e . x' as its rate; history and events are the law's.  Such a
+ * load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step.
+ *
+ * Source: docs/theory/joints.md (5a).
+ */
+class FollowerLoad : public ForceElement
+{
+public:
+  /// @param e  unit vector, as described
+  /// @throws std::invalid_argument if the law has not one measure, or the point does not move
+  FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceElement> law);
+
+  int  n_measures() const override { return point_.n_measures(); }
+  int  n_history() const override { return law_->n_history(); }
+  void start(const LocalMotion &motion, double *history) const override;
+  void force(const LocalMotion &motion, const double *history, double *p) const override;
+  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
+               double *dp) const override;
+  Work work() const override { return law_->work(); }
+
+  std::vector<Guard> guards(const double *history) const override { return law_->guards(history); }
+  int                n_guards(const double *history) const override { return law_->n_guards(history); }
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+
+  std::vector<Quantity> quantities() const override { return law_->quantities(); }
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+private:
+  struct Seen
+  {
+    double s = 0., rate = 0., acceleration = 0.;
+    double G[Placement::max_measures];
+
+    LocalMotion motion(const LocalMotion &of) const
+    {
+      return {of.t, &s, &rate, &acceleration, nullptr, of.by_history, nullptr};
+    }
+  };
+  Seen see(const LocalMotion &motion) const;
+
+  Placement                           point_;
+  Vector3d                            e_;
+  std::shared_ptr<const ForceElement> law_;
+};
+
+} // namespace gestell::mechanism

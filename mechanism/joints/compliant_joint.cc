@@ -1,0 +1,152 @@
+#include "mechanism/joints/compliant_joint.h"
+
+#include "mechanism/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gestell::mechanism
+{
+
+namespace
+{
+constexpr double at_rest[PlacedMeasure::max_measures] = {};
+}
+
+CompliantJoint::CompliantJoint(const Placement &first, const Placement &second, std::vector<Equation> equations)
+    : first_(first), second_(second), equations_(std::move(equations))
+{
+  require(!equations_.empty() && n_equations() <= max_equations, "compliant joint", "number of equations",
+          n_equations(), "1 to " + std::to_string(max_equations));
+  for (const Equation &equation : equations_)
+  {
+    const std::string place = "compliant joint " + equation.demand.name;
+    require(!equation.demand.driven, place, "number of motion laws", 1., "none: only an ideal joint follows one");
+    require(equation.stiffness >= 0., place, "stiffness", equation.stiffness, "zero or positive");
+    require(equation.damping >= 0., place, "damping", equation.damping, "zero or positive");
+  }
+}
+
+void CompliantJoint::see(const double *u, const double *v, Seen &seen) const
+{
+  Placement::MovedVector x_1, x_2;
+  const int              k_1 = first_.n_measures(), k = n_measures();
+  first_.position(u, v, x_1);
+  second_.position(u + k_1, v + k_1, x_2);
+  for (int i = 0; i < n_equations(); ++i)
+  {
+    const Equation &equation = equations_[i];
+    const auto value = equation.demand.measure.evaluate(first_, second_, x_1, x_2, u, v, seen.G + Eigen::Index(i) * k);
+    seen.s[i]        = value.s - equation.demand.offset;
+    seen.lambda[i]   = -equation.stiffness * seen.s[i] - equation.damping * value.rate;
+  }
+}
+
+void CompliantJoint::spread(const Seen &seen, double *p) const
+{
+  const int k = n_measures();
+  std::fill_n(p, k, 0.);
+  for (int i = 0; i < n_equations(); ++i)
+    for (int j = 0; j < k; ++j)
+      p[j] += seen.G[j + k * i] * seen.lambda[i];
+}
+
+void CompliantJoint::add_up(const Seen &seen, double w_k, double w_d, double *matrix) const
+{
+  const int k = n_measures();
+  std::fill_n(matrix, k * k, 0.);
+  for (int i = 0; i < n_equations(); ++i)
+  {
+    const double *G = seen.G + Eigen::Index(i) * k, c = w_k * equations_[i].stiffness + w_d * equations_[i].damping;
+    for (int b = 0; b < k; ++b)
+      if (const double column = c * G[b]; column != 0.) // most directions move few of the measures
+        for (int a = 0; a < k; ++a)
+          matrix[a + k * b] += G[a] * column;
+  }
+}
+
+void CompliantJoint::force(const LocalMotion &motion, const double *, double *p) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  spread(seen, p);
+}
+
+void CompliantJoint::tangent(const LocalMotion &motion, const double *, const TangentWeights &w, double *p,
+                             double *dp) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  spread(seen, p);
+  add_up(seen, -w.u, -w.v, dp);
+}
+
+void CompliantJoint::derivatives(const LocalMotion &motion, const double *, double *p, double *dp_du,
+                                 double *dp_dv) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  spread(seen, p);
+  add_up(seen, -1., 0., dp_du);
+  add_up(seen, 0., -1., dp_dv);
+}
+
+void CompliantJoint::engaged(const double *u, double *K, double *D) const
+{
+  Seen seen;
+  see(u, at_rest, seen);
+  add_up(seen, 1., 0., K);
+  add_up(seen, 0., 1., D);
+}
+
+void CompliantJoint::geometric(const LocalMotion &motion, const double *, double *K) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  std::fill(K, K + n_measures() * n_measures(), 0.);
+  for (int i = 0; i < n_equations(); ++i)
+    PlacedMeasure{first_, second_, equations_[i].demand.measure}.add_curvature(motion.u, -seen.lambda[i], K);
+}
+
+double CompliantJoint::stored_energy(const LocalMotion &motion, const double *) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  double energy = 0.;
+  for (int i = 0; i < n_equations(); ++i)
+    energy += 0.5 * equations_[i].stiffness * seen.s[i] * seen.s[i];
+  return energy;
+}
+
+std::vector<Quantity> CompliantJoint::quantities() const
+{
+  std::vector<Quantity> quantities;
+  for (const Equation &equation : equations_)
+    quantities.push_back({equation.demand.name, equation.demand.unit});
+  quantities.push_back({"resultant", "N"});
+  return quantities;
+}
+
+double CompliantJoint::quantity(int i, const LocalMotion &motion, const double *) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  if (i < n_equations())
+    return seen.lambda[i];
+  double sum = 0.;
+  for (int j = 0; j < n_equations(); ++j)
+    if (equations_[j].demand.unit == "N")
+      sum += seen.lambda[j] * seen.lambda[j];
+  return std::sqrt(sum);
+}
+
+RelativeMeasure::Value CompliantJoint::opening(int i, const double *u, const double *v, double *gradient) const
+{
+  const IdealJoint::Equation &demand = equations_[i].demand;
+  auto                        value  = PlacedMeasure{first_, second_, demand.measure}.evaluate(u, v, gradient);
+  value.s -= demand.offset;
+  return value;
+}
+
+} // namespace gestell::mechanism

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "mechanism/force_element.h"
+#include "mechanism/joints/ideal_joint.h"
+#include "mechanism/relative_measure.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/**
+ * A joint that yields: where an ideal joint between the same two places demands s(u) = s_0, it acts with
+ *
+ *     p = sum_i G_i^T lambda_i,     lambda_i = -k_i (s_i - s_0i) - d_i s_i',     G_i = ds_i/du
+ *
+ * of all its relative measures s_i.  lambda_i has the meaning of an ideal joint's multiplier, the force [N] (torque
+ * [N m]) that drives s_i up, and tends to it as k grows.  1/2 k s^2 is stored, d s'^2 dissipated.
+ *
+ * The tangent holds G, as that of a TransmittedElement does; geometric() is the rest of it.
+ *
+ * Source: docs/theory/joints.md (11).
+ */
+class CompliantJoint : public ForceElement
+{
+public:
+  /// What an ideal joint would demand of a measure, and what keeps it there.
+  struct Equation
+  {
+    IdealJoint::Equation demand;
+    double               stiffness = 0.; ///< k [N/m, N m/rad], >= 0
+    double               damping   = 0.; ///< d [N s/m, N m s/rad], >= 0
+  };
+
+  static constexpr int max_equations = 6;
+
+  /// @throws std::invalid_argument without equations, for more than six, driven ones, negative stiffness or damping
+  CompliantJoint(const Placement &first, const Placement &second, std::vector<Equation> equations);
+
+  int  n_measures() const override { return first_.n_measures() + second_.n_measures(); }
+  void force(const LocalMotion &motion, const double *history, double *p) const override;
+  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
+               double *dp) const override;
+  void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
+                   double *dp_dv) const override;
+  void engaged(const double *u, double *K, double *D) const override;
+  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
+
+  double stored_energy(const LocalMotion &motion, const double *history) const override;
+
+  /// Signals as those of the ideal joint: every lambda by the name of its equation, then "resultant".
+  std::vector<Quantity> quantities() const override;
+  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+  int n_equations() const { return int(equations_.size()); }
+  /// How far measure i is from s_0 and its rate: what a start closes.  gradient [k]
+  RelativeMeasure::Value opening(int i, const double *u, const double *v, double *gradient) const;
+
+private:
+  /// lambda_i, G [k x n, column major] of all equations: the places are evaluated once.
+  struct Seen
+  {
+    double s[max_equations], lambda[max_equations];
+    double G[max_equations * PlacedMeasure::max_measures];
+  };
+  void see(const double *u, const double *v, Seen &seen) const;
+  /// p = G^T lambda
+  void spread(const Seen &seen, double *p) const;
+  /// matrix = sum_i c_i G_i^T G_i, c_i = w_k k_i + w_d d_i
+  void add_up(const Seen &seen, double w_k, double w_d, double *matrix) const;
+
+  Placement             first_, second_;
+  std::vector<Equation> equations_;
+};
+
+} // namespace gestell::mechanism
