@@ -169,6 +169,142 @@ TEST(StickingPin, APendulumComesToRestOffTheVerticalAndStays)
   expect_closed_balance(motion, 1e-4);
 }
 
+// --- several joints that hold one motion
+
+/// Two carriages of 3 kg and 2 kg on a level, a rod between them.
+std::string train(const std::string &rest)
+{
+  std::string scene = "gravity = [0, 0, -10]\n";
+  for (const std::string name : {"one", "two"})
+    scene += "[body." + name + "]\ntype = \"planar\"\nnormal = [0, 1, 0]\nmass = \"" +
+             (name == "one" ? "3 kg\"\nposition = [0, 0, 0]" : "2 kg\"\nposition = [1, 0, 0]") +
+             "\ninertia = \"0.02 kg m^2\"\n[joint.guide_" + name +
+             "]\ntype = \"prismatic\"\nfrom = \"ground\"\nto = \"" + name + "\"\nat = [" + (name == "one" ? "0" : "1") +
+             ", 0, 0]\naxis = [1, 0, 0]\nfriction = { law = \"dry\", coefficient = 0.2, static = 0.5 }\n";
+  return scene +
+         "[joint.rod]\ntype = \"distance\"\nfrom = \"one\"\nto = \"two\"\n[run]\nstep = \"1 ms\"\nend = \"1 s\"\n" +
+         "[output]\npicture_step = 0\nsignals = { x = \"two.ux\", v = \"two.vx\", F1 = \"guide_one.friction\", "
+         "F2 = \"guide_two.friction\" }\n" +
+         rest;
+}
+
+TEST(StickingJoints, ThatHoldOneMotionComeToRestTogether)
+{
+  const SceneRun motion = run(train("[start]\nv = { \"two.ux\" = 1 }\n"));
+  ASSERT_EQ(motion.result.failure, "");
+  ASSERT_EQ(motion.result.events.size(), 1u); // the first one holds both
+  EXPECT_NEAR(time_of(motion, "stick"), 1. / 2., 1e-9);
+  EXPECT_NEAR(motion.signal("x").final, 0.25, 1e-9);
+  EXPECT_LT(std::abs(motion.signal("v").final), 1e-14);
+  EXPECT_NEAR(motion.signal("F1").final + motion.signal("F2").final, 0., 1e-9); // nothing pulls
+  expect_closed_balance(motion, 1e-9);
+}
+
+// One after the other reaches its limit: 15 N of the first, then 6 N + 10 N with the first sliding.
+TEST(StickingJoints, ThatHoldOneMotionLetGoOneAfterTheOther)
+{
+  const SceneRun motion = run(train("[element.pull]\ntype = \"formula force\"\nfrom = \"two\"\ndirection = [1, 0, 0]\n"
+                                    "force = \"20 N/s*t\"\n"));
+  ASSERT_EQ(motion.result.failure, "");
+  ASSERT_EQ(motion.result.events.size(), 2u);
+  EXPECT_NEAR(time_of(motion, "slip_forward", 0), 15. / 20., 1e-9);
+  EXPECT_NEAR(time_of(motion, "slip_forward", 1), 16. / 20., 1e-9);
+  // 5 v = int 20 t - 10 from 0.8 s to 1 s
+  EXPECT_NEAR(motion.signal("v").final, (10. * (1. - 0.64) - 10. * 0.2) / 5., 1e-5);
+}
+
+// What a drive moves cannot stick: at its dead points it turns, and the friction with it.
+TEST(StickingJoints, ThatAreDrivenTurnAtTheirDeadPoints)
+{
+  std::string driven    = with(with(incline, "\"atan(0.4)\"", "0"), "[run]\n",
+                               "[joint.drive]\ntype = \"prescribed motion\"\non = \"carriage.ux\"\n"
+                                  "motion = { function = \"0.1 m*sin(10 rad/s*t)\" }\n[run]\n");
+  driven                = with(driven, "F = \"guide.friction\"", "P = \"drive.force\", F = \"guide.friction\"");
+  const SceneRun motion = run(driven, {"run.end=1 s"});
+  ASSERT_EQ(motion.result.failure, "");
+  EXPECT_EQ(count(motion, "stick"), 3);
+  for (int n = 0; n < 3; ++n)
+    EXPECT_NEAR(time_of(motion, "stick", n), (0.5 + n) * M_PI / 10., 1e-6);
+  EXPECT_NEAR(motion.signal("F").max, 9., 1e-9);
+  EXPECT_NEAR(motion.signal("F").min, -9., 1e-9);
+  EXPECT_NEAR(motion.signal("P").final, 9. * (std::cos(10.) > 0. ? 1. : -1.) - 3. * 10. * std::sin(10.), 1e-6);
+  EXPECT_NEAR(motion.result.energy.dissipated, 0.9 * (6. + std::abs(std::sin(10.))), 1e-3);
+}
+
+/// A slider-crank whose four joints all stick: left to itself, it comes to rest.
+TEST(StickingJoints, OfASliderCrankBringItToRest)
+{
+  const SceneRun motion = run(R"toml(
+gravity = [0, 0, -10]
+[body.crank]
+type = "planar"
+normal = [0, 1, 0]
+mass = "2 kg"
+inertia = "0.05 kg m^2"
+position = ["0.05 m", 0, 0]
+[body.rod]
+type = "planar"
+normal = [0, 1, 0]
+mass = "1 kg"
+inertia = "0.02 kg m^2"
+position = ["0.35 m", 0, 0]
+[body.ram]
+type = "planar"
+normal = [0, 1, 0]
+mass = "2 kg"
+inertia = "0.01 kg m^2"
+position = ["0.6 m", 0, 0]
+[joint.bearing]
+type = "revolute"
+from = "ground"
+to = "crank"
+at = [0, 0, 0]
+friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "20 mm" }
+[joint.pin]
+type = "revolute"
+from = "crank"
+to = "rod"
+at = ["0.1 m", 0, 0]
+friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "20 mm" }
+[joint.wrist]
+type = "revolute"
+from = "rod"
+to = "ram"
+at = ["0.6 m", 0, 0]
+friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "15 mm" }
+[joint.guide]
+type = "prismatic"
+from = "ground"
+to = "ram"
+at = ["0.6 m", 0, 0]
+axis = [1, 0, 0]
+friction = { law = "dry", coefficient = 0.1, static = 0.15 }
+[start]
+v = { "crank.angle" = 12 }
+[run]
+step = "0.5 ms"
+end = "7 s"
+[output]
+step = "10 ms"
+picture_step = 0
+signals = { angle = "crank.angle", w = "crank.speed", M = "bearing.friction", F = "guide.friction" }
+)toml");
+  ASSERT_EQ(motion.result.failure, "");
+  double last = 0.;
+  for (const auto &event : motion.result.events)
+    last = std::max(last, event.t);
+  EXPECT_LT(last, 6.5);
+  EXPECT_LT(motion.result.events.size(), 200u);
+  const double rest    = motion.signal("angle").final;
+  int          resting = 0;
+  for (std::size_t i = 0; i < motion.n_rows(); ++i)
+    if (motion.at(i, 0) > last)
+      resting += std::abs(motion.at(i, 1) - rest) < 1e-9 ? 1 : -1000;
+  EXPECT_GT(resting, 40);
+  EXPECT_GT(rest, 1.);
+  expect_closed_balance(motion, 1e-4);
+}
+
 // --- bristles
 
 /// Pulled on monotonically they give way by  x = -mu/sigma_0 ln(1 - F/(mu N)),  from  dF/dx = sigma_0 (N - F/mu).
