@@ -3,7 +3,6 @@
 #include "coupling/dense_matrices.h"
 #include "coupling/joint_rank.h"
 #include "mechanism/joints/compliant_joint.h"
-#include "mechanism/joints/orthonormal_directors.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>

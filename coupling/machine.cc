@@ -311,6 +311,14 @@ void Machine::start(const LocalState &state)
     part.element->start(part.motion(state, parts_->by_history), parts_->history_of(part));
   for (const auto &own : parts_->switches)
     parts_->history[own.history] = 0.;
+  for (auto &part : parts_->placed)
+    if (part.stop >= 0)
+    {
+      part.holds                     = false;
+      parts_->history[part.stop]     = 0.;
+      parts_->history[part.stop + 1] = -1.;
+    }
+  parts_->find_stopped(state);
   parts_->refresh_guards();
 }
 
@@ -349,6 +357,8 @@ void Machine::guard_values(const LocalState &state, Eigen::VectorXd &g) const
   int first = 0;
   for (const auto &part : parts_->placed)
   {
+    if (parts_->is_stopped(part))
+      continue;
     const double *history = parts_->history_of(part);
     const int     n       = part.element->n_guards(history);
     if (n > 0)
@@ -378,10 +388,13 @@ void Machine::transition(int i, const LocalState &state)
     const auto &target           = parts_->placed[own.target];
     parts_->history[own.history] = 1.;
     target.element->command(own.request.order, target.motion(state, parts_->by_history), parts_->history_of(target));
+    parts_->find_stopped(state);
     parts_->refresh_guards();
     return;
   }
   const auto &part = parts_->placed[active.element];
+  if (part.stop >= 0 && !part.holds)
+    parts_->history[part.stop + 1] = active.crossing == GuardCrossing::falling ? 1. : -1.;
   try
   {
     part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
@@ -392,6 +405,7 @@ void Machine::transition(int i, const LocalState &state)
     message << "at t = " << state.t << " s, \"" << parts_->elements[active.element].name << "\": " << beyond.what();
     throw ConvergenceFailure(message.str());
   }
+  parts_->find_stopped(state);
   parts_->refresh_guards();
 }
 

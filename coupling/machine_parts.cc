@@ -244,6 +244,11 @@ void Machine::Parts::place_elements(int n)
         columns.emplace_back(coordinate, n_measures + j, weight);
     n_measures += k;
     n_history += placement.element->n_history();
+    if (placement.joint >= 0 && k == 1 && placement.element->n_history() > 0)
+    {
+      placed.back().stop = n_history;
+      n_history += 2;
+    }
   }
   W.resize(n, n_measures);
   W.setFromTriplets(columns.begin(), columns.end());
@@ -257,9 +262,11 @@ void Machine::Parts::refresh_guards()
   for (std::size_t e = 0; e < placed.size(); ++e)
   {
     double rate     = 0.;
-    placed[e].holds = placed[e].element->holds(history_of(placed[e]), rate);
+    placed[e].holds = placed[e].element->holds(history_of(placed[e]), rate) && !is_stopped(placed[e]);
     if (placed[e].holds)
       held.push_back({placed[e].first_measure, rate});
+    if (is_stopped(placed[e]))
+      continue;
     const auto own = placed[e].element->guards(history_of(placed[e]));
     for (std::size_t i = 0; i < own.size(); ++i)
     {

@@ -35,6 +35,10 @@ struct Machine::Parts
     int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
     int                            first_multiplier = -1; ///< of a joint or its friction: the first one it sees
 
+    /// Of dry friction in a joint, in the history of the machine: 1 where others stop its motion; behind it the sign of
+    /// the sliding from which it came to stick.
+    int stop = -1;
+
     /// Its force is no law's value, but follows from the equations of the step.
     bool implied() const { return holds || first_constraint >= 0; }
     /// The quantity follows from multipliers, its own or (of friction in a joint) those of another.
@@ -146,18 +150,20 @@ struct Machine::Parts
   Vector3                position_of(const std::string &marker) const;
   bool                   moves_with_frame(const Marker &marker) const;
 
-  void                          finish();
-  void                          assemble_dense(int n);
-  void                          assemble_sparse(int n);
-  void                          assemble_mechanism(int n);
-  bool                          has_joints() const;
-  void                          place_elements(int n);
-  void                          refresh_guards();
-  void                          add_watches();
-  void                          place_switches();
-  double                        watched_value(const PlacedSwitch &s, const LocalState &state) const;
-  std::string                   coordinate_name(int i) const;
-  double                        output_offset(std::size_t i) const;
+  void        finish();
+  void        assemble_dense(int n);
+  void        assemble_sparse(int n);
+  void        assemble_mechanism(int n);
+  bool        has_joints() const;
+  void        place_elements(int n);
+  void        refresh_guards();
+  void        find_stopped(const LocalState &state);
+  bool        is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
+  void        add_watches();
+  void        place_switches();
+  double      watched_value(const PlacedSwitch &s, const LocalState &state) const;
+  std::string coordinate_name(int i) const;
+  double      output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
   Signal                        signal(const std::string &name, const std::string &path) const;
 

@@ -116,7 +116,11 @@ bool Machine::wants_multipliers() const
 {
   const auto watches_joint = [&](const Parts::PlacedSwitch &own)
   { return own.signal.element >= 0 && parts_->placed[own.watched].tells_multipliers(own.signal.quantity); };
-  return parts_->reads_joints || std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
+  // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
+  const auto sticks_in_joint = [](const Parts::PlacedElement &part)
+  { return part.holds && part.first_multiplier >= 0; };
+  return parts_->reads_joints || std::any_of(parts_->placed.begin(), parts_->placed.end(), sticks_in_joint) ||
+         std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
 }
 
 void Machine::will_read(const std::vector<Signal> &signals)

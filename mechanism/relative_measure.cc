@@ -113,6 +113,22 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
                 2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
                 2. * (x * x_rate + y * y_rate) / r2 * rate};
   }
+  case Form::spin:
+  {
+    Value sum{0., 0., 0.};
+    for (int i = 0; i < 3; ++i)
+      for (const bool of_second : {false, true})
+      {
+        MovedVector e;
+        (of_second ? second : first).direction(Vector3d::Unit(i), of_second ? u + k_1 : u, of_second ? v + k_1 : v, e);
+        const Vector3d w = (of_second ? 0.5 : -0.5) * a.cross(e.value);
+        add_turn(w, e, of_second ? of_2 : of_1);
+        sum.rate += w.dot(e.rate);
+        sum.bias += w.dot(e.bias);
+      }
+    return sum;
+  }
+  case Form::mesh:
   case Form::ratio:
     break;
   }
@@ -123,7 +139,37 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
     s += ratios[i] * u[i];
     rate += v ? ratios[i] * v[i] : 0.;
   }
-  return {s, rate, 0.};
+  if (form == Form::ratio)
+    return {s, rate, 0.};
+  Vector3d    of_d;
+  const Value centres = mesh(d, d_rate, d_bias, s / reach, of_d);
+  add_difference(of_d, x_1, x_2, of_1, of_2);
+  return {s + centres.s, rate + centres.rate, centres.bias};
+}
+
+/// Wheels that mesh have turned with the line of centres, but for a small rest: of all psi + 2 pi n the nearest counts.
+RelativeMeasure::Value RelativeMeasure::mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias,
+                                             double turned, Vector3d &of_d) const
+{
+  const double x = a.dot(d), y = b.dot(d), r2 = x * x + y * y, r = std::sqrt(r2);
+  of_d.setZero();
+  if (!(r2 > 0.))
+    return {0., 0., 0.};
+  const double   psi    = std::atan2(y, x);
+  const Vector3d across = (x * b - y * a) / r2, radial = (x * a + y * b) / r;
+  const double   psi_rate = across.dot(d_rate), r_rate = radial.dot(d_rate);
+  of_d = -reach * across;
+  Value        sum{-reach * (psi + 2. * M_PI * std::round((turned - psi) / (2. * M_PI))), -reach * psi_rate,
+            -reach * (across.dot(d_bias) - 2. * psi_rate * r_rate / r)};
+  const double c = std::abs(reach);
+  if (flank == 0. || r <= c) // no common tangent of the base circles: none of its force is radial
+    return sum;
+  const double cosine = c / r, sine = std::sqrt((1. - cosine) * (1. + cosine)), push = flank * sine / c;
+  of_d += push * radial;
+  sum.s += flank * (sine / cosine - std::acos(cosine) - std::tan(pressure_angle) + pressure_angle);
+  sum.rate += push * r_rate;
+  sum.bias += push * (radial.dot(d_bias) + r * psi_rate * psi_rate) + flank * cosine / (r2 * sine) * r_rate * r_rate;
+  return sum;
 }
 
 PlacedMeasure PlacedMeasure::linear()

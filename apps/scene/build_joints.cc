@@ -1,10 +1,10 @@
 #include "apps/scene/build_joints.h"
 
+#include "apps/scene/build_joint_friction.h"
 #include "apps/scene/build_measures.h"
 #include "apps/scene/joint_equations.h"
 #include "apps/scene/quantity.h"
 #include "mechanism/joints/compliant_joint.h"
-#include "mechanism/joints/joint_friction.h"
 #include "mechanism/transmitted_element.h"
 
 namespace gestell::apps
@@ -15,46 +15,6 @@ namespace
 using mechanism::CompliantJoint;
 using mechanism::IdealJoint;
 using mechanism::RelativeMeasure;
-
-/// Friction against the motions that a joint leaves free; it sees the multipliers of its equations.
-template <int k>
-void attach_friction(coupling::Machine &machine, const Pair &pair, const JointFrictionRequest &request,
-                     const std::vector<IdealJoint::Equation> &equations, std::vector<RelativeMeasure> measures)
-{
-  typename mechanism::JointFriction<k>::Parameters friction{request.law, request.radius, 0, 0, request.length};
-  for (const IdealJoint::Equation &equation : equations)
-    ++(equation.unit == "N" ? friction.n_forces : friction.n_torques);
-  machine.attach_friction(
-      std::make_shared<mechanism::TransmittedElement>(pair.first, pair.second, std::move(measures),
-                                                      std::make_shared<mechanism::JointFriction<k>>(friction)),
-      pair.measures);
-}
-
-void add_joint_friction(coupling::Machine &machine, const JointRequest &joint, const Pair &pair,
-                        const std::vector<IdealJoint::Equation> &equations)
-{
-  const auto axis = vector(joint.axis);
-  if (joint.type == JointType::prismatic)
-    attach_friction<1>(machine, pair, *joint.friction, equations, {seen_from_first(axis)});
-  else if (joint.type == JointType::in_plane)
-  {
-    const auto [e_1, e_2] = coupling::plane_across(joint.axis);
-    attach_friction<2>(machine, pair, *joint.friction, equations,
-                       {seen_from_first(vector(e_1)), seen_from_first(vector(e_2))});
-  }
-  else if (pair.in_space())
-    attach_friction<1>(machine, pair, *joint.friction, equations, {angle_about(axis)});
-  else
-  {
-    const coupling::Body *body = pair.planar();
-    for (const coupling::Body *other : {pair.on_first, pair.on_second})
-      if (!body && other && other->kind == coupling::BodyKind::rotor)
-        body = other;
-    if (!body)
-      throw std::invalid_argument("has friction, but neither body is planar or a rotor, whose axis a pin turns about");
-    attach_friction<1>(machine, pair, *joint.friction, equations, {rotation_about(pair, vector(body->axis), 1.)});
-  }
-}
 
 /// The equations of a joint, each with what keeps it closed.
 std::vector<CompliantJoint::Equation> yielding(const ComplianceRequest                 &compliance,

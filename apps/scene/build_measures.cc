@@ -20,6 +20,35 @@ struct Built
   std::vector<coupling::Measure> measures;
 };
 
+/// Of wheels at their places as described: the radii follow from the distance of the centres.
+mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::Placement &first,
+                                   const mechanism::Placement &second)
+{
+  using mechanism::Vector3d;
+  const Vector3d axis    = vector(request.axis);
+  Vector3d       centres = second.point() - first.point();
+  centres -= axis.dot(centres) * axis;
+  const double distance = centres.norm();
+  if (!(distance > 1e-9 * (first.point().norm() + second.point().norm())))
+    throw std::invalid_argument("the two wheels have one axis, so that no teeth are in mesh; a joint of type \"gear\" "
+                                "with a carrier couples them");
+  const double               angle = std::abs(request.pressure_angle), to = distance / std::abs(1. - request.ratio);
+  mechanism::RelativeMeasure mesh;
+  mesh.form           = mechanism::RelativeMeasure::Form::mesh;
+  mesh.a              = centres / distance;
+  mesh.b              = axis.cross(mesh.a);
+  mesh.pressure_angle = angle;
+  mesh.reach          = to * (1. - request.ratio) * std::cos(angle);
+  // Teeth push: apart the wheels, or the wheel out of its ring.
+  const bool apart = (request.ratio < 0.) == (request.pressure_angle > 0.);
+  mesh.flank       = angle > 0. ? (apart ? 1. : -1.) * std::abs(mesh.reach) : 0.;
+  for (int i = 0; i < first.n_measures(); ++i)
+    mesh.ratios.push_back(-request.ratio * to * std::cos(angle) * first.rotation(i).dot(axis));
+  for (int i = 0; i < second.n_measures(); ++i)
+    mesh.ratios.push_back(to * std::cos(angle) * second.rotation(i).dot(axis));
+  return mesh;
+}
+
 Built<PlacedMeasure> build_placed(coupling::Machine &machine, const MeasureRequest &request)
 {
   const auto                 first = placed(machine, request.first), second = placed(machine, request.second);
@@ -28,7 +57,9 @@ Built<PlacedMeasure> build_placed(coupling::Machine &machine, const MeasureReque
   measure.a       = vector(request.a);
   measure.b       = vector(request.b);
   measure.carrier = request.carrier;
-  auto measures   = first.measures;
+  if (request.mesh)
+    measure = mesh_of(*request.mesh, first.placement, second.placement);
+  auto measures = first.measures;
   measures.insert(measures.end(), second.measures.begin(), second.measures.end());
   draw_places(machine, request.first, request.second);
   return {{first.placement, second.placement, measure}, measures};

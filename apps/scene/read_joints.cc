@@ -1,7 +1,7 @@
 #include "apps/scene/read_joints.h"
 
 #include "apps/scene/read_compliance.h"
-#include "apps/scene/read_contact.h"
+#include "apps/scene/read_joint_friction.h"
 #include "apps/scene/read_scalars.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
@@ -63,17 +63,59 @@ mechanism::RelativeMeasure::Carrier read_carrier(const SceneTable &table, const 
                                       along.second.marker + "' or '" + along.first.marker + "'");
 }
 
+/// Joints that count turns: a body that turns freely in space has no angle without end.
+void refuse_in_space(const SceneTable &table, const std::string &key, const std::string &marker, const Names &names)
+{
+  if (turns_freely(names, marker))
+    throw table.error(key, "'" + marker +
+                               "' is a rigid body, whose turns are not counted; put a rotor between, which a "
+                               "joint of type \"rigid\" holds to it");
+}
+
+/// The teeth of two wheels: the way along their line of action.
+MeasureRequest read_mesh(const SceneTable &table, const Names &names)
+{
+  MeasureRequest measure;
+  measure.form   = Form::mesh;
+  measure.unit   = "m";
+  measure.first  = names.place(table, "from", "at_from");
+  measure.second = names.place(table, "to", "at_to");
+  check_two_places(table, measure.first, measure.second);
+  MeshRequest mesh;
+  mesh.axis = table.direction("axis");
+  for (const bool first : {true, false})
+  {
+    const std::string  key    = first ? "from" : "to";
+    const std::string &marker = first ? measure.first.marker : measure.second.marker;
+    refuse_in_space(table, key, marker, names);
+    const BodyRequest *body = names.find_body(marker);
+    if (body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar) &&
+        std::abs(std::abs(dot(body->axis, mesh.axis)) - 1.) > 1e-9)
+      throw table.error("axis", "is not that of '" + marker + "'; wheels with teeth in mesh turn about parallel axes");
+  }
+  mesh.ratio = table.number("ratio", kind::number);
+  if (mesh.ratio == 0. || mesh.ratio == 1.)
+    throw table.error("ratio", "must be neither 0 nor 1: negative of two outer wheels, positive with a ring");
+  mesh.pressure_angle = table.number("pressure_angle", kind::angle, 0.);
+  if (!(std::abs(mesh.pressure_angle) < 0.25 * M_PI))
+    throw table.error("pressure_angle", "must lie between -45 and 45 degrees");
+  measure.mesh = mesh;
+  return measure;
+}
+
 MeasureRequest read_measure(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
   measure.name  = table.name();
   measure.place = table.place();
   const std::string type =
-      table.choice("type", {"distance", "along", "inclination", "angle", "position function", "sum"}, "");
-  if (type == "position function" || type == "sum")
+      table.choice("type", {"distance", "along", "inclination", "angle", "position function", "sum", "gear mesh"}, "");
+  if (type == "position function" || type == "sum" || type == "gear mesh")
   {
     ScalarRequest x;
-    measure       = type == "sum" ? read_sum(table, names) : read_position_function(table, names, x);
+    measure       = type == "sum"         ? read_sum(table, names)
+                    : type == "gear mesh" ? read_mesh(table, names)
+                                          : read_position_function(table, names, x);
     measure.name  = table.name();
     measure.place = table.place();
     return measure;
@@ -189,15 +231,6 @@ void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
 }
 
-/// Joints that count turns: a body that turns freely in space has no angle without end.
-void refuse_in_space(const SceneTable &table, const std::string &key, const std::string &marker, const Names &names)
-{
-  if (turns_freely(names, marker))
-    throw table.error(key, "'" + marker +
-                               "' is a rigid body, whose turns are not counted; put a rotor between, which a "
-                               "joint of type \"rigid\" holds to it");
-}
-
 void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   joint.from = names.place(table, "from", "at_from");
@@ -253,6 +286,11 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
     join_path_and_angle(joint, joint.to, joint.from, direction, Carrier::first, radius, angle);
 }
 
+void read_gear_mesh(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  joint.measure = read_mesh(table, names);
+}
+
 void read_prescribed(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   const auto on       = read_scalar(table, "on", names);
@@ -290,29 +328,9 @@ struct MeasureJointName
   const char        *name;
   MeasureJointReader read;
 };
-constexpr MeasureJointName measure_joints[] = {{"position function", read_cam},
-                                               {"screw", read_screw},
-                                               {"rolling", read_rolling},
-                                               {"rack", read_rolling},
-                                               {"prescribed motion", read_prescribed}};
-
-/// Of the joints that slide along a surface.
-std::optional<JointFrictionRequest> read_joint_friction(const SceneTable &table, JointType type)
-{
-  if (!table.has("friction"))
-    return std::nullopt;
-  if (type != JointType::revolute && type != JointType::prismatic && type != JointType::in_plane)
-    throw table.error("friction", "is for joints of type \"revolute\", \"prismatic\" and \"in-plane\"; at others put "
-                                  "an element of type \"friction\" beside the joint");
-  JointFrictionRequest friction{read_sliding_friction(table)};
-  if (type == JointType::revolute && !table.is_table("friction"))
-    throw table.error("friction", "needs the radius of the pin; write { coefficient = 0.1, radius = \"20 mm\" }");
-  if (type == JointType::revolute)
-    friction.radius = table.table("friction").positive("radius", kind::length);
-  if (type == JointType::prismatic && table.is_table("friction"))
-    friction.length = table.table("friction").positive("length", kind::length, 0.);
-  return friction;
-}
+constexpr MeasureJointName measure_joints[] = {{"position function", read_cam}, {"screw", read_screw},
+                                               {"rolling", read_rolling},       {"rack", read_rolling},
+                                               {"gear mesh", read_gear_mesh},   {"prescribed motion", read_prescribed}};
 
 JointRequest read_joint(const SceneTable &table, const Names &names)
 {

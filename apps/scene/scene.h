@@ -8,7 +8,6 @@
 #include "fem/frame_specification.h"
 #include "fem/part.h"
 #include "mechanism/joints/motion_law.h"
-#include "mechanism/sliding_friction.h"
 
 #include <map>
 #include <memory>
@@ -110,6 +109,14 @@ struct TermRequest
   std::shared_ptr<const MeasureRequest> placed; ///< without terms of its own; null: `motion`
 };
 
+/// Two wheels about parallel axes, whose teeth mesh.
+struct MeshRequest
+{
+  Vector3 axis{};              ///< of both, unit vector
+  double  ratio          = 0.; ///< turns of the second per turn of the first, against the line of centres
+  double  pressure_angle = 0.; ///< [rad], negative: the other flank carries
+};
+
 /// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene.md, measures.
 struct MeasureRequest
 {
@@ -124,6 +131,8 @@ struct MeasureRequest
   std::vector<TermRequest>                           terms; ///< with any, the sum of them counts, not the two places
   std::shared_ptr<const mechanism::PositionFunction> function;
   TermRequest                                        argument; ///< of the function
+
+  std::optional<MeshRequest> mesh; ///< of `form` mesh
 };
 
 enum class JointType
@@ -140,11 +149,7 @@ enum class JointType
   measure      ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
 };
 
-struct JointFrictionRequest
-{
-  mechanism::SlidingFriction law;
-  double                     radius = 0., length = 0.; ///< [m] of a pin, of a guide that takes torques
-};
+struct JointFrictionRequest; // apps/scene/joint_friction_request.h
 
 /// Of a joint that yields.
 struct ComplianceRequest
@@ -168,7 +173,7 @@ struct JointRequest
   MeasureRequest                              measure;       ///< of `measure`
   std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
   std::string                                 reaction_unit; ///< of what acts on the argument of its function
-  std::optional<JointFrictionRequest>         friction;      ///< of `revolute`, `prismatic`, `in-plane`
+  std::shared_ptr<const JointFrictionRequest> friction;      ///< or null; of joints that slide
   std::optional<ComplianceRequest>            compliance;    ///< of those without `measure`, `distance`, `gear`
   std::string                                 place;
 };

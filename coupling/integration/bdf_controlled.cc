@@ -17,6 +17,7 @@ constexpr int    most_rungs_below = 60;
 constexpr int    first_rung       = 5;    ///< tried at the begin of a run
 constexpr double newton_part      = 1e-2; ///< of the tolerance
 constexpr double finest_newton    = 1e-12;
+constexpr double joint_rounding   = 8.; ///< times that of one number: several terms, enlarged by levers
 template <typename Value>
 void require(bool valid, const char *option, Value value, const char *needed)
 {
@@ -27,7 +28,7 @@ void require(bool valid, const char *option, Value value, const char *needed)
   throw std::invalid_argument(message.str());
 }
 
-BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem &system,
+BdfControlled::Options checked(BdfControlled::Options           o, const SecondOrderSystem &,
                                const std::vector<SpectrumLine> &spectrum)
 {
   require(o.tolerance >= 1e-13 && o.tolerance <= 0.1, "tolerance", o.tolerance, "between 1e-13 and 0.1");
@@ -35,8 +36,6 @@ BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem
   require(o.min_order >= 0 && o.min_order <= o.max_order, "min_order", o.min_order, "1 to max_order, or 0");
   if (o.min_order == 0)
     o.min_order = std::min(2, o.max_order);
-  require(system.n_constraints() == 0, "the number of constraints", system.n_constraints(),
-          "zero: ideal joints are not integrated here; use compliant joints");
   if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))
     o.largest_step = 1. / omega;
   require(o.largest_step > 0. && std::isfinite(o.largest_step), "largest_step [s]", o.largest_step, "positive");
@@ -44,6 +43,7 @@ BdfControlled::Options checked(BdfControlled::Options o, const SecondOrderSystem
     o.smallest_step = std::ldexp(o.largest_step, -rungs_below);
   require(o.smallest_step <= o.largest_step && o.smallest_step >= std::ldexp(o.largest_step, -most_rungs_below),
           "smallest_step [s]", o.smallest_step, "between 2^-60 and 1 of the largest one");
+  o.newton.joints    = JointSolver::condensed; // its S is looked at
   o.newton.tolerance = std::max(newton_part * o.tolerance, finest_newton);
   if (o.fixed_order)
     o.min_order = o.max_order;
@@ -60,15 +60,16 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
                              const std::vector<SpectrumLine> &spectrum)
     : system_(system), options_(checked(options, system, spectrum)), scale_(system, spectrum, options_.tolerance),
       limit_(spectrum, system.size() - scale_.massless(), options_.largest_step), implicit_(system, options_.newton),
-      virtual_rates_(system), n_(system.size()), n_u_(system.directions().cols())
+      virtual_rates_(system), n_(system.size()), n_u_(system.directions().cols()), n_c_(system.n_constraints())
 {
-  const Eigen::Index size = 2 * n_ + 4 * n_u_;
+  const Eigen::Index size = 2 * n_ + 4 * n_u_ + n_c_;
   differences_.resize(size);
   for (Eigen::VectorXd *x : {&z_begin_, &z_cut_, &z_, &predicted_, &difference_, &history_, &chain_[0], &chain_[1],
                              &middle_[0], &middle_[1], &middle_[2], &end_[0], &end_[1], &end_[2]})
     x->setZero(size);
-  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v})
+  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &no_v_})
     x->setZero(n_);
+  no_rate_.setZero(n_u_);
   dp_du_.setZero(n_u_, n_u_);
   pivots_.setZero(n_u_, n_u_);
   dp_dv_.setZero(n_u_, n_u_);
@@ -90,11 +91,12 @@ ErrorScale::Motion BdfControlled::motion(const Eigen::VectorXd &z) const
 
 void BdfControlled::point(const Eigen::VectorXd &z, double t, LocalState &state) const
 {
-  state.t = t;
-  state.u = z.segment(2 * n_, n_u_);
-  state.v = z.segment(2 * n_ + n_u_, n_u_);
-  state.a = z.segment(2 * n_ + 2 * n_u_, n_u_);
-  state.p = z.segment(2 * n_ + 3 * n_u_, n_u_);
+  state.t      = t;
+  state.u      = z.segment(2 * n_, n_u_);
+  state.v      = z.segment(2 * n_ + n_u_, n_u_);
+  state.a      = z.segment(2 * n_ + 2 * n_u_, n_u_);
+  state.p      = z.segment(2 * n_ + 3 * n_u_, n_u_);
+  state.lambda = z.tail(n_c_);
 }
 
 void BdfControlled::present(const Eigen::VectorXd &z, double t)
@@ -156,35 +158,76 @@ void BdfControlled::restart()
   t_begin_ = t_end_ = local_.t;
   system_.local_force(local_, local_.p);
   ++work_.evaluations;
-  if (!system_.held().empty())
-    forces_of_held(z_);
+  if (is_implied() && has_consistent())
+    close_joints();
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
-  z_.tail(n_u_)                   = local_.p;
-  now_known_                      = false;
+  keep_forces(z_);
+  now_known_ = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 
-/// What holds a measure at an instant is no law's value, but follows from the equation of motion.  Where M is singular,
-/// the first step finds it.
-void BdfControlled::forces_of_held(const Eigen::VectorXd &z)
+bool BdfControlled::is_implied() const
+{
+  return n_c_ > 0 || !system_.held().empty();
+}
+
+/// Where M is singular there is no acceleration, and the first step finds the forces.
+bool BdfControlled::has_consistent()
 {
   if (!consistent_ && !massless_)
     try
     {
-      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF with controlled step");
+      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF with controlled step", options_.newton.joints);
     }
     catch (const std::invalid_argument &)
     {
       massless_ = true;
     }
-  if (!consistent_)
+  return consistent_ != nullptr;
+}
+
+/// What holds a measure or closes a joint at an instant is no law's value, but follows from the equation of motion.
+void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
+{
+  if (!has_consistent())
     return;
+  present(z, t);
   h_q_ = z.head(n_);
   h_v_ = z.segment(n_, n_);
   consistent_->solve(h_q_, h_v_, product_, local_, work_);
+  keep_forces(z);
+}
+
+/// u'', p, lambda of the present instant.
+void BdfControlled::keep_forces(Eigen::VectorXd &z) const
+{
+  z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;
+  z.segment(2 * n_ + 3 * n_u_, n_u_) = local_.p;
+  z.tail(n_c_)                       = local_.lambda;
+}
+
+/// z_ and the present instant onto g = 0, g' = 0, with the forces that belong to them.
+void BdfControlled::close_joints()
+{
+  h_q_ = z_.head(n_);
+  h_v_ = z_.segment(n_, n_);
+  consistent_->project(h_q_, h_v_, local_);
+  z_.head(n_)                     = h_q_;
+  z_.segment(n_, n_)              = h_v_;
+  z_.segment(2 * n_, n_u_)        = local_.u;
+  z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
+  consistent_->solve(h_q_, h_v_, product_, local_, work_);
+}
+
+/// In the measure of ErrorScale.
+double BdfControlled::error_of(const Eigen::Ref<const Eigen::VectorXd> &z) const
+{
+  if (n_c_ > 0)
+    return scale_.error({z.head(n_), no_v_, z.segment(2 * n_, n_u_), no_rate_});
+  return scale_.error({z.head(n_), z.segment(n_, n_), z.segment(2 * n_, n_u_), z.segment(2 * n_ + n_u_, n_u_)});
 }
 
 /// z at t from  h_b z' = z - history  for z = q, q'; local_.u, local_.p are the prediction.
@@ -204,13 +247,16 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   const StepForm                 form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   const ImplicitStep::Condensed &condensed = implicit_.condensed(form, work_);
   implicit_.solve(condensed, f_, base_, x_, local_, work_);
-  moved_                             = condensed.S.diagonal().cwiseProduct(local_.p);
-  z.head(n_)                         = h_q_ + x_;
-  z.segment(n_, n_)                  = h_v_ + inverse * x_;
-  z.segment(2 * n_, n_u_)            = local_.u;
-  z.segment(2 * n_ + n_u_, n_u_)     = local_.v;
-  z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;
-  z.segment(2 * n_ + 3 * n_u_, n_u_) = local_.p;
+  moved_ = condensed.S.diagonal().cwiseProduct(local_.p);
+  // Joints are closed up to rounding of the places they join.
+  for (const ConstraintBlock &block : system_.constraint_blocks())
+    for (int k = block.first_measure; k < block.first_measure + block.n_measures; ++k)
+      moved_[k] = std::max(std::abs(moved_[k]), joint_rounding * block.size);
+  z.head(n_)                     = h_q_ + x_;
+  z.segment(n_, n_)              = h_v_ + inverse * x_;
+  z.segment(2 * n_, n_u_)        = local_.u;
+  z.segment(2 * n_ + n_u_, n_u_) = local_.v;
+  keep_forces(z);
 }
 
 void BdfControlled::interpolate_part(double t, Eigen::Index value, Eigen::Index slope, Eigen::VectorXd &x,
@@ -257,6 +303,7 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   const int    degree = started_ ? 2 : order_ + 1;
   differences_.at(s, degree, 2 * n_ + 2 * n_u_, state.a);
   differences_.at(s, degree, 2 * n_ + 3 * n_u_, state.p);
+  differences_.at(s, degree, 2 * n_ + 4 * n_u_, state.lambda);
 }
 
 void BdfControlled::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
@@ -288,15 +335,13 @@ void BdfControlled::cut(double t)
   {
     interpolate(t, base_);
     interpolate_part(t, 0, n_, x_, product_);
-    z_cut_ << x_, product_, base_.u, base_.v, base_.a, base_.p;
+    z_cut_ << x_, product_, base_.u, base_.v, base_.a, base_.p, base_.lambda;
   }
   cut_ = true;
   present(z_cut_, t);
-  if (!system_.held().empty() && t > t_begin_)
-  {
-    forces_of_held(z_cut_); // as they will be at the restart, so that what breaks away does not stick again at once
-    z_cut_.tail(2 * n_u_) << local_.a, local_.p;
-  }
+  if (is_implied() &&
+      t > t_begin_) // as they will be at the restart, so that what breaks away does not stick again at once
+    find_implied(z_cut_, t);
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   stiffness_ = dp_du_.diagonal();

@@ -44,6 +44,10 @@ namespace gestell::coupling
  *
  * Newton's tolerance is 1e-2 of the error tolerance, and not below 1e-12.
  *
+ * Ideal joints enter as g = 0 at the new point (index 3), condensed to the measures.  A change of step leaves
+ * velocities in the directions that joints hold with errors of one order less, and multipliers of two: the local error
+ * is that of positions alone then, and multipliers that somebody looks at come from g'' = 0.
+ *
  * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
  * of a start; the polynomial of degree k + 1 from order 3 on.
  */
@@ -98,7 +102,12 @@ private:
   void               point(const Eigen::VectorXd &z, double t, LocalState &state) const;
   void               present(const Eigen::VectorXd &z, double t);
   void               load(double t);
-  void               forces_of_held(const Eigen::VectorXd &z);
+  bool               is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
+  bool               has_consistent();
+  void               find_implied(Eigen::VectorXd &z, double t);
+  void               keep_forces(Eigen::VectorXd &z) const;
+  void               close_joints();
+  double             error_of(const Eigen::Ref<const Eigen::VectorXd> &z) const;
   void               implicit_step(double t, double h_beta, const Eigen::VectorXd &history, Eigen::VectorXd &z);
   bool               is_sound(double h_beta);
   void               multistep();
@@ -127,7 +136,7 @@ private:
   std::unique_ptr<ConsistentStart> consistent_;       ///< once a measure is held
   bool                             massless_ = false; ///< M is singular: no consistent start
   IntegrationWork                  work_;
-  Eigen::Index                     n_, n_u_; ///< z = (q, q', u, u', u'', p) [2 n + 4 n_u]
+  Eigen::Index                     n_, n_u_, n_c_; ///< z = (q, q', u, u', u'', p, lambda) [2 n + 4 n_u + n_c]
   BackwardDifferences              differences_;
   int                              order_ = 1, rung_ = 0;
   int                              wanted_order_ = 1, wanted_rung_ = 0; ///< from the next step on
@@ -150,6 +159,7 @@ private:
   mutable bool                     now_known_  = false;
   bool                             load_known_ = false;
   Eigen::VectorXd                  f_t_, f_, h_q_, h_v_, x_, product_;
+  Eigen::VectorXd                  no_v_, no_rate_; ///< zeros, for errors of positions alone [n], [n_u]
 };
 
 } // namespace gestell::coupling

@@ -58,8 +58,9 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
   Trial        trial;
   const double t = anchor_ + static_cast<double>(steps_ + 1) * h;
   differences_.predict(order_, predicted_, history_);
-  local_.u = predicted_.segment(2 * n_, n_u_);
-  local_.p = predicted_.segment(2 * n_ + 3 * n_u_, n_u_);
+  local_.u      = predicted_.segment(2 * n_, n_u_);
+  local_.p      = predicted_.segment(2 * n_ + 3 * n_u_, n_u_);
+  local_.lambda = predicted_.tail(n_c_);
   try
   {
     implicit_step(t, h / bdf_gamma(order_), history_, z_);
@@ -74,7 +75,7 @@ BdfControlled::Trial BdfControlled::try_multistep(double h)
   difference_  = z_ - predicted_;
   trial.solved = true;
   trial.h_beta = h / bdf_gamma(order_);
-  trial.error  = scale_.error(motion(difference_)) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
+  trial.error  = error_of(difference_) / (bdf_gamma(order_) * (order_ + 1) * options_.tolerance);
   return trial;
 }
 
@@ -105,6 +106,11 @@ void BdfControlled::multistep()
     change(wanted_rung_, wanted_order_);
   }
   scale_.accept();
+  if (n_c_ > 0 && system_.wants_multipliers())
+  {
+    find_implied(z_, t_end_);
+    difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
+  }
   differences_.push(order_, difference_);
   ++since_change_;
   barred_  = std::max(0, barred_ - 1);
@@ -137,9 +143,7 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
 /// Of the last step, had it been of this order.
 double BdfControlled::error_of_order(int order) const
 {
-  const auto e = differences_[order + 1];
-  return scale_.error({e.head(n_), e.segment(n_, n_), e.segment(2 * n_, n_u_), e.segment(2 * n_ + n_u_, n_u_)}) /
-         (bdf_gamma(order) * (order + 1) * options_.tolerance);
+  return error_of(differences_[order + 1]) / (bdf_gamma(order) * (order + 1) * options_.tolerance);
 }
 
 /// By how many rungs a step of this order may grow, for an error that lets hope for `gain`; -1: it may not be used at
@@ -274,7 +278,7 @@ BdfControlled::Trial BdfControlled::try_start(double h)
     return trial;
   trial.solved = true;
   trial.h_beta = length; // of the first chain
-  trial.error  = scale_.error(motion(difference_)) / options_.tolerance;
+  trial.error  = error_of(difference_) / options_.tolerance;
   return trial;
 }
 
@@ -333,9 +337,14 @@ void BdfControlled::start()
   scale_.accept();
   z_ = end_[2];
   improve_middle();
+  if (n_c_ > 0)
+  {
+    find_implied(middle_[2], t_end_ + step_of(rung_));
+    find_implied(z_, t_end_ + 2. * step_of(rung_));
+  }
   // u'' and p at the begin may be those of another branch: they continue what follows.
-  chain_[0]                = z_begin_;
-  chain_[0].tail(2 * n_u_) = 2. * middle_[2].tail(2 * n_u_) - z_.tail(2 * n_u_);
+  chain_[0]                       = z_begin_;
+  chain_[0].tail(2 * n_u_ + n_c_) = 2. * middle_[2].tail(2 * n_u_ + n_c_) - z_.tail(2 * n_u_ + n_c_);
   differences_.start(chain_[0], middle_[2], z_);
   anchor_       = t_end_;
   steps_        = 2;

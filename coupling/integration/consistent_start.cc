@@ -145,13 +145,16 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
 {
   if (G_.n_rows() == 0)
     return;
+  double rounding = std::numeric_limits<double>::infinity(); // of the numbers whose difference g is
+  for (const ConstraintBlock &block : G_.blocks())
+    rounding = std::min(rounding, std::numeric_limits<double>::epsilon() * block.size);
   double open = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration)
   {
     system_.constraints(local, g_, G_);
     const double before = open;
     open                = g_.cwiseAbs().maxCoeff();
-    if (open == 0. || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
+    if (open <= rounding || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
       break;
     if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)
       fail_open(system_, g_, local.t);

@@ -17,6 +17,8 @@ CoulombFriction::CoulombFriction(const Parameters &parameters)
   require(std::isfinite(parameters.belt_speed), name, "belt_speed [m/s]", parameters.belt_speed, "finite");
   require(std::isfinite(parameters.viscous) && parameters.viscous >= 0., name, "viscous [N s/m]", parameters.viscous,
           "zero or positive");
+  if (parameters.load)
+    parameters.load->check(name);
   for (const double level : parameters.engagement.levels())
     require(level >= 0. && level <= 1., name, "engagement", level, "between 0 and 1");
 }
@@ -86,9 +88,10 @@ void CoulombFriction::guard_values(const LocalMotion &motion, const double *hist
     return;
   }
   assert(motion.p != nullptr);
-  const double capacity = parameters_.engagement.value(piece, motion.t) * parameters_.static_force;
-  g[0]                  = capacity + motion.p[0];
-  g[1]                  = capacity - motion.p[0];
+  const double capacity =
+      parameters_.engagement.value(piece, motion.t) * normal_force(motion.lambda) * parameters_.static_force;
+  g[0] = capacity + motion.p[0];
+  g[1] = capacity - motion.p[0];
 }
 
 void CoulombFriction::transition(int i, const LocalMotion &motion, double *history) const

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/joints/joint_load.h"
 #include "mechanism/profile.h"
 #include "mechanism/stribeck.h"
+
+#include <optional>
 
 namespace gestell::mechanism
 {
@@ -25,6 +28,9 @@ namespace gestell::mechanism
  * past zero from its start and lets go at the same instant.  So a slide turns back by two events, stick and slip.  A
  * motion that starts with u' = v_b starts sticking.
  *
+ * In an ideal joint R and R0 are told per unit of its normal force N, which multiplies them like e does: limit and
+ * friction follow the multipliers.
+ *
  * The element needs an integrator that locates events.  force() of a motion by itself (by_history = false) has the sign
  * of u' - v_b, zero at u' = v_b; by history it is zero in stick, where holds() says that it is not asked.
  *
@@ -46,6 +52,8 @@ public:
     double  stribeck_exponent = 1.; ///< 1 or 2
     double  viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
     Profile engagement        = 1.; ///< e, 0 to 1
+
+    std::optional<JointLoad> load = std::nullopt; ///< of a joint: R and R0 are per unit of its N [1 or m]
   };
 
   explicit CoulombFriction(const Parameters &parameters);
@@ -58,8 +66,8 @@ public:
     p[0]                = -parameters_.viscous * v;
     if (branch == stick || branch == released)
       return;
-    const double sign = branch, e = engagement(m.t, m.by_history, history);
-    p[0] -= sign * e * sliding_.force(Number(sign * v));
+    const double sign = branch, N = engagement(m.t, m.by_history, history) * normal_force(m.lambda);
+    p[0] -= sign * N * sliding_.force(Number(sign * v));
   }
 
   void engaged(const double *u, double *K, double *D) const override; ///< d
@@ -99,6 +107,10 @@ private:
   {
     const Profile &e = parameters_.engagement;
     return e.value(by_history ? piece_of(history) : e.piece_at(t), t);
+  }
+  double normal_force(const double *lambda) const
+  {
+    return parameters_.load ? parameters_.load->normal_force(lambda) : 1.;
   }
   int n_own_guards(const double *history) const; ///< all but that of the engagement
 

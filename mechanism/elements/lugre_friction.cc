@@ -10,6 +10,8 @@ LuGreFriction::LuGreFriction(const Parameters &parameters)
   const std::string name = "lugre friction";
   const auto       &d    = parameters_;
   sliding_.check(name);
+  if (d.load)
+    d.load->check(name);
   require(d.kinetic_force > 0., name, "kinetic_force [N]", d.kinetic_force, "positive");
   require(std::isfinite(d.bristle_stiffness) && d.bristle_stiffness > 0., name, "bristle_stiffness [N/m]",
           d.bristle_stiffness, "positive");
@@ -22,6 +24,8 @@ void LuGreFriction::stiffest(const double *, double *K, double *D) const
 {
   std::fill_n(K, 4, 0.);
   std::fill_n(D, 4, 0.);
+  if (parameters_.load)
+    return;
   K[0] = parameters_.bristle_stiffness;
   D[0] = parameters_.bristle_damping + parameters_.viscous;
 }
@@ -33,7 +37,7 @@ void LuGreFriction::start(const LocalMotion &motion, double *history) const
 
 double LuGreFriction::stored_energy(const LocalMotion &motion, const double *) const
 {
-  return 0.5 * motion.u[1] * motion.u[1] / parameters_.bristle_stiffness;
+  return parameters_.load ? 0. : 0.5 * motion.u[1] * motion.u[1] / parameters_.bristle_stiffness;
 }
 
 std::vector<Guard> LuGreFriction::guards(const double *history) const

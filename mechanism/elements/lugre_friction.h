@@ -1,6 +1,9 @@
 #pragma once
 
+#include "mechanism/joints/joint_load.h"
 #include "mechanism/stribeck.h"
+
+#include <optional>
 
 namespace gestell::mechanism
 {
@@ -19,6 +22,9 @@ namespace gestell::mechanism
  * a small motion sees the spring sigma_0 and the damper sigma_1 + d.  Stored is F^2/(2 sigma_0).  Where v changes its
  * sign |v| has a kink: event "reversal".
  *
+ * In an ideal joint all forces are told per unit of its normal force N, which multiplies p_u; z does not know it.  What
+ * the bristles store then is not told apart from what is dissipated.
+ *
  * Source: C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
  */
 class LuGreFriction : public DifferentiableElement<LuGreFriction, 2>
@@ -33,6 +39,8 @@ public:
     double bristle_stiffness = 0.; ///< sigma_0 [N/m or N m/rad], > 0
     double bristle_damping   = 0.; ///< sigma_1 [N s/m or N m s/rad], >= 0
     double viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
+
+    std::optional<JointLoad> load = std::nullopt; ///< of a joint: forces are per unit of its N
   };
 
   explicit LuGreFriction(const Parameters &parameters);
@@ -46,11 +54,12 @@ public:
     const Number v        = m.v[0];
     const Number speed    = backward ? Number(-v) : v;
     const Number z_rate   = v - speed * m.u[1] / sliding_.force(speed);
-    p[0]                  = -m.u[1] - parameters_.bristle_damping * z_rate - parameters_.viscous * v;
+    const double N        = parameters_.load ? parameters_.load->normal_force(m.lambda) : 1.;
+    p[0]                  = -N * (m.u[1] + parameters_.bristle_damping * z_rate + parameters_.viscous * v);
     p[1]                  = m.u[1] + lag() * parameters_.bristle_stiffness * z_rate;
   }
 
-  /// sigma_0, sigma_1 + d: to a small motion the joint is a spring.
+  /// sigma_0, sigma_1 + d: to a small motion the joint is a spring.  Zero where N is unknown.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: the sign of v.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/joints/joint_load.h"
 #include "mechanism/sliding_friction.h"
 
+#include <array>
 #include <cmath>
 
 namespace gestell::mechanism
@@ -11,15 +13,15 @@ namespace gestell::mechanism
 /**
  * Friction in an ideal joint, by the forces that close it.
  *
- * Measures: the k motions s that the joint leaves free, displacements [m], or an angle [rad] that slides at the radius
- * r (r = 1 for displacements).  Of its multipliers the first n_F are forces, the next n_M torques, and
+ * Measures: the k motions s that the joint leaves free, displacements [m], or angles [rad] that slide at the radius
+ * r_i (r_i = 1 for displacements), and
  *
- *     p = -r mu(|v|) N tanh(|v|/v0) v/|v|,   v = r s',   N = max(|lambda_F|, 2 |lambda_M|/L).
+ *     p_i = -r_i mu(|v|) N tanh(|v|/v0) v_i/|v|,   v_i = r_i s_i',   N of JointLoad.
  *
- * Torques count where a guide of length L takes them by two opposite forces at its ends: |F/2 + M/L| + |F/2 - M/L| is
- * that maximum.  The law sees multipliers in LocalMotion; its tangent holds them.
+ * Of a ball the three are rates of rotation alone (RelativeMeasure, spin).  The law sees multipliers in LocalMotion;
+ * its tangent holds them.
  *
- * Source: docs/theory/contact.md (4).
+ * Source: docs/theory/contact.md (4), (4a).
  */
 template <int k>
 class JointFriction : public DifferentiableElement<JointFriction<k>, k>
@@ -27,10 +29,9 @@ class JointFriction : public DifferentiableElement<JointFriction<k>, k>
 public:
   struct Parameters
   {
-    SlidingFriction friction;
-    double          radius   = 0.;               ///< r [m] of the surface that slides; 0: s are displacements, r = 1
-    int             n_forces = 0, n_torques = 0; ///< n_F, n_M
-    double          length = 0.;                 ///< L [m], >= 0; 0: torques make no friction
+    SlidingFriction       friction;
+    std::array<double, k> radii{}; ///< r_i [m] of the surface that slides; 0: s_i is a displacement, r_i = 1
+    JointLoad             load;
   };
 
   explicit JointFriction(const Parameters &parameters);
@@ -38,22 +39,21 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *, Number *p) const
   {
-    const double r = lever(), N = normal_force(m.lambda);
-    Number       v2(0.);
+    Number v2(0.);
     for (int i = 0; i < k; ++i)
-      v2 = v2 + (r * r) * m.v[i] * m.v[i];
-    const Number factor = (r * r * N) * parameters_.friction.factor(v2);
+      v2 = v2 + (lever(i) * lever(i)) * m.v[i] * m.v[i];
+    const Number factor = parameters_.load.normal_force(m.lambda) * parameters_.friction.factor(v2);
     for (int i = 0; i < k; ++i)
-      p[i] = -factor * m.v[i];
+      p[i] = -(lever(i) * lever(i)) * factor * m.v[i];
   }
 
+  /// "friction", of one motion with its sign; a torque where all turn, else the force on the surface.
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  double lever() const { return parameters_.radius > 0. ? parameters_.radius : 1.; }
-  /// N; 0 where multipliers are unknown.
-  double normal_force(const double *lambda) const;
+  double lever(int i) const { return parameters_.radii[i] > 0. ? parameters_.radii[i] : 1.; }
+  bool   turns() const;
 
   Parameters parameters_;
 };

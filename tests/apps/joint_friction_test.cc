@@ -229,6 +229,66 @@ TEST(PinFriction, OfABodyInSpaceIsThatOfOneInAPlane)
   EXPECT_GT(in_plane.signal("M").max, 0.05);
 }
 
+// --- joints of more than one motion
+
+const std::string ball = R"toml(
+gravity = [0, 0, -10]
+[body.top]
+type = "rigid"
+mass = "3 kg"
+inertia = [0.04, 0.04, 0.04]
+position = [0, 0, 0]
+[joint.socket]
+type = "spherical"
+from = "ground"
+to = "top"
+at = [0, 0, 0]
+friction = { coefficient = 0.2, radius = "10 mm" }
+[start]
+v = { "top.wx" = 4, "top.wy" = 8, "top.wz" = -8 }
+[run]
+step = "0.5 ms"
+end = "1 s"
+[output]
+picture_step = 0
+signals = { wx = "top.wx", wy = "top.wy", wz = "top.wz", M = "socket.friction", v = "socket.sliding_speed" }
+)toml";
+
+// A sphere in its socket: the torque r mu N opposes the spin, whatever its direction.
+TEST(BallFriction, BrakesTheSpinAboutAnyAxis)
+{
+  const SceneRun motion = run(ball);
+  ASSERT_EQ(motion.result.failure, "");
+  const double M = 0.01 * 0.2 * 30., w = 12. - M / 0.04;
+  // Directors turn 0.005 rad per step: their error of second order over 10 rad of the way.
+  EXPECT_NEAR(motion.signal("wx").final, w / 3., 1e-3);
+  EXPECT_NEAR(motion.signal("wy").final, 2. * w / 3., 1e-3);
+  EXPECT_NEAR(motion.signal("wz").final, -2. * w / 3., 1e-3);
+  EXPECT_NEAR(motion.signal("M").final, M, 1e-6);
+  EXPECT_NEAR(motion.signal("v").final, 0.01 * w, 1e-5);
+  expect_closed_balance(motion, 1e-3);
+  const SceneRun fine = run(ball, {"run.step=0.25 ms"});
+  const auto     off  = [&](const SceneRun &run) { return std::abs(run.signal("v").final - 0.01 * w); };
+  EXPECT_LT(off(fine), off(motion) / 3.);
+}
+
+// m r^2 = J: sliding along and around is braked alike, at the angle at which it began.
+TEST(PinFriction, OfACylindricalJointActsAgainstTheSlidingOfItsSurface)
+{
+  std::string pin =
+      with(with(with(ball, "\"spherical\"", "\"cylindrical\""), "radius = \"10 mm\"", "radius = \"0.1 m\""),
+           "at = [0, 0, 0]\n", "at = [0, 0, 0]\naxis = [1, 0, 0]\n");
+  pin = with(with(pin, "[0.04, 0.04, 0.04]", "[0.03, 0.04, 0.04]"), "\"top.wx\" = 4, \"top.wy\" = 8, \"top.wz\" = -8",
+             "\"top.ux\" = 0.9, \"top.wx\" = 12");
+  pin = with(pin, "M = \"socket.friction\"", "ux = \"top.vx\", M = \"socket.friction\"");
+  const SceneRun motion = run(pin, {"run.end=0.5 s"});
+  ASSERT_EQ(motion.result.failure, "");
+  EXPECT_NEAR(motion.signal("M").final, 0.2 * 30., 1e-6);
+  EXPECT_NEAR(motion.signal("v").final, 1.5 - 1., 1e-4);
+  EXPECT_NEAR(motion.signal("ux").final, 0.9 / 3., 1e-4);
+  EXPECT_NEAR(motion.signal("wx").final, 12. / 3., 1e-3);
+}
+
 /// A slider-crank with friction in its pins and its guide, driven by its own speed.
 const std::string slider_crank = R"toml(
 [body.crank]
@@ -319,10 +379,10 @@ TEST(JointFrictionScene, RefusesWhatMakesNoSense)
   EXPECT_EQ(complaint(pendulum), "");
   expect_complaint(
       with(pendulum, "friction = { coefficient = 0.01, radius = \"10 mm\", speed = \"0.1 um/s\" }", "friction = 0.1"),
-      "needs the radius of the pin");
+      "needs the radius of the surface");
   expect_complaint(with(pendulum, "radius = \"10 mm\", ", ""), "the key 'radius' is missing");
   expect_complaint(with(pendulum, "type = \"revolute\"", "type = \"rigid\""),
-                   "is for joints of type \"revolute\", \"prismatic\" and \"in-plane\"");
+                   "is for joints of type \"revolute\", \"prismatic\", \"cylindrical\"");
   expect_complaint(with(pendulum, "coefficient = 0.01", "coefficient = -0.01"), "joint.pin.friction.coefficient");
   expect_complaint(with(pendulum, "speed = \"0.1 um/s\"", "length = \"0.1 m\""), "length");
 }

@@ -143,6 +143,61 @@ TEST(RelativeMeasure, EveryFormHasTheGradientAndTheBiasOfItsValue)
         }
 }
 
+/// Wheels in mesh: any combination of their measures, the line of centres, the other flank.
+TEST(RelativeMeasure, AMeshHasTheGradientAndTheBiasOfItsValue)
+{
+  const auto all = placements();
+  for (const double angle : {0., 0.35, -0.35})
+    for (const Placement &second : all)
+    {
+      RelativeMeasure mesh;
+      mesh.form = Form::mesh;
+      mesh.a    = Vector3d(2., -1., 2.) / 3.;
+      mesh.b    = Vector3d(2., 2., -1.) / 3.;
+      PlacedMeasure placed{Placement(Vector3d(-1., 0.5, -1.2), Vector3d(-1., 0.4, -1.), {}, axis), second, mesh};
+      auto         &m  = placed.measure;
+      m.pressure_angle = std::abs(angle);
+      m.reach          = -0.9 * std::cos(angle);
+      m.flank          = angle == 0. ? 0. : angle > 0. ? m.reach : -m.reach;
+      const int n      = placed.n_measures();
+      for (int i = 0; i < n; ++i)
+        m.ratios.push_back(std::cos(2. + 3.1 * i));
+      const Path path(n);
+      double     gradient[PlacedMeasure::max_measures];
+      const auto s = [&](double t)
+      {
+        double unused[PlacedMeasure::max_measures];
+        return placed.evaluate(path.at(t).data(), path.v.data(), unused).s;
+      };
+      const auto                 value = placed.evaluate(path.u.data(), path.v.data(), gradient);
+      const Eigen::Map<VectorXd> G(gradient, n);
+      EXPECT_NEAR(G.dot(path.v), value.rate, 1e-13);
+      EXPECT_NEAR((s(h) - s(-h)) / (2. * h), value.rate, 1e-6 * std::max(1., std::abs(value.rate)));
+      EXPECT_NEAR((s(h) - 2. * s(0.) + s(-h)) / (h * h), G.dot(path.a) + value.bias,
+                  1e-5 * std::max(1., std::abs(value.bias)))
+          << n;
+    }
+}
+
+TEST(RelativeMeasure, ASpinIsTheDifferenceOfTheAngularVelocitiesAlongItsDirection)
+{
+  RelativeMeasure spin;
+  spin.form = Form::spin;
+  spin.a    = Vector3d(2., -1., 2.) / 3.;
+  const PlacedMeasure placed{Placement(point, centre, {}, axis), Placement::free(point, centre), spin};
+  const Vector3d      omega(2., -3., 5.), rotation(0.9, -1.3, 0.4);
+  const Matrix3d      directors = OrthonormalDirectors::measures(rotation) + Matrix3d::Identity();
+  double              u[13] = {0.7}, v[13] = {1.9}, G[PlacedMeasure::max_measures];
+  for (int i = 0; i < 3; ++i)
+  {
+    Eigen::Map<Vector3d>(u + 4 + 3 * i) = directors.col(i) - Vector3d::Unit(i);
+    Eigen::Map<Vector3d>(v + 4 + 3 * i) = omega.cross(directors.col(i));
+  }
+  const auto value = placed.evaluate(u, v, G);
+  EXPECT_NEAR(value.rate, spin.a.dot(omega - 1.9 * axis), 1e-13);
+  EXPECT_NEAR((Eigen::Map<VectorXd>(G, 13).dot(Eigen::Map<VectorXd>(v, 13))), value.rate, 1e-13);
+}
+
 // --- directors
 
 /// Directors turned by a rotation, less their described directions; angular velocity omega.

@@ -175,7 +175,7 @@ TEST(TransmittedJournal, TangentAndGeometricStiffnessAreTheDerivative)
 
 TEST(JointFriction, IsTheCoefficientTimesTheForceOfTheJoint)
 {
-  const JointFriction<1> pin({rubbing, 0.02, 2, 0});
+  const JointFriction<1> pin({rubbing, {0.02}, {2, 0}});
   const double           lambda[] = {300., -400.}, v = 30., u = 0.;
   LocalMotion            motion{0., &u, &v, &u, nullptr, false, lambda};
   double                 p, dp;
@@ -189,7 +189,7 @@ TEST(JointFriction, IsTheCoefficientTimesTheForceOfTheJoint)
 
 TEST(JointFriction, CountsTheTorqueOnAGuideByItsLength)
 {
-  const JointFriction<1> guide({rubbing, 0., 1, 1, 0.5});
+  const JointFriction<1> guide({rubbing, {}, {1, 1, 0.5}});
   const double           v = 2., u = 0.;
   double                 p;
   for (const auto &[F, M, N] : {std::array{100., 10., 100.}, std::array{100., -80., 320.}})
@@ -203,7 +203,7 @@ TEST(JointFriction, CountsTheTorqueOnAGuideByItsLength)
 
 TEST(JointFriction, TangentEqualsCentralQuotients)
 {
-  const JointFriction<2> plane({{0.1, 1e-3, 0.3, 0.02, 2.}, 0., 1, 0});
+  const JointFriction<2> plane({{0.1, 1e-3, 0.3, 0.02, 2.}, {}, {1, 0}});
   const double           lambda = -300., u[] = {0., 0.}, v[] = {5e-4, -2e-3};
   double                 p[2], dp[4];
   plane.tangent({0., u, v, u, nullptr, false, &lambda}, nullptr, {0., 1., 0.}, p, dp);
@@ -236,7 +236,7 @@ TEST(PlayParameters, AreChecked)
   bad.friction.stribeck_speed = 0.1; // and a static coefficient of zero
   EXPECT_THROW(JournalBearing{bad}, std::invalid_argument);
   EXPECT_THROW(PointContact({{0., -1., 0., Clearance::Stops::below}, rubbing}), std::invalid_argument);
-  EXPECT_THROW(JointFriction<1>({rubbing, -0.1, 2, 0}), std::invalid_argument);
+  EXPECT_THROW(JointFriction<1>({rubbing, {-0.1}, {2, 0}}), std::invalid_argument);
 }
 
 } // namespace
