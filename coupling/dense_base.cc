@@ -278,8 +278,7 @@ DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 {
   const auto LL = A.block(L_.first, L_.first, L_.n, L_.n);
   Blocks     blocks{A(N_, N_), A.middleRows(L_.first, L_.n)(Eigen::all, N_), LL.diagonal(), LL};
-  if (is_zero(blocks.LN))
-    blocks.LN.resize(0, 0);
+  blocks.LN = blocks.LN.leftCols(last_column(blocks.LN)).eval(); // bodies are not coupled to modes
   if (is_diagonal(blocks.LL))
     blocks.LL.resize(0, 0);
   return blocks;
@@ -297,8 +296,8 @@ void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
     y_L = A.diagonal.cwiseProduct(x_L);
   if (A.LN.size() > 0)
   {
-    y_N_.noalias() += A.LN.transpose() * x_L;
-    y_L.noalias() += A.LN * x_N_;
+    y_N_.head(A.LN.cols()).noalias() += A.LN.transpose() * x_L;
+    y_L.noalias() += A.LN * x_N_.head(A.LN.cols());
   }
   scatter(y_N_, N_, y);
 }
@@ -333,16 +332,19 @@ std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, doubl
   // By blocks: the whole of A is mostly zeros, and integrators that change their step ask often.
   const MatrixXd NN       = w_M * mass_.NN + w_B * damping_.NN + w_C * stiffness_.NN;
   const VectorXd diagonal = w_M * mass_.diagonal + w_B * damping_.diagonal + w_C * stiffness_.diagonal;
-  const auto     k        = std::max(last_column(mass_.LN), last_column(damping_.LN));
-  const MatrixXd of_mass  = mass_.LN.size() > 0 ? MatrixXd(mass_.LN.leftCols(k)) : MatrixXd::Zero(L_.n, k);
-  MatrixXd       LN       = w_M * of_mass;
-  if (damping_.LN.size() > 0)
-    LN += w_B * damping_.LN.leftCols(k);
+  const auto     k        = std::max(mass_.LN.cols(), damping_.LN.cols());
+  const auto     coupling = [&](const Blocks &A)
+  {
+    MatrixXd LN              = MatrixXd::Zero(L_.n, k);
+    LN.leftCols(A.LN.cols()) = A.LN;
+    return LN;
+  };
+  const MatrixXd M_LN = coupling(mass_), LN = w_M * M_LN + w_B * coupling(damping_);
   require(NN.allFinite() && LN.allFinite() && diagonal.allFinite(), "the matrix of the time step overflows");
   for (Eigen::Index i = 0; i < L_.n; ++i)
     if (diagonal(i) == 0.)
       refuse_singular(L_.first + int(i));
-  return std::make_unique<CondensedSolver>(NN, LN, diagonal, mass_.NN, of_mass, L_, N_);
+  return std::make_unique<CondensedSolver>(NN, LN, diagonal, mass_.NN, M_LN, L_, N_);
 }
 
 std::vector<SpectrumLine> DenseBase::spectrum() const

@@ -59,7 +59,7 @@ private:
   struct Blocks
   {
     Eigen::MatrixXd NN;       // [n_N x n_N]
-    Eigen::MatrixXd LN;       // [n_L x n_N]; empty if zero
+    Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last that is not zero; empty if there is none
     Eigen::VectorXd diagonal; // [n_L] of LL
     Eigen::MatrixXd LL;       // [n_L x n_L]; empty if diagonal
   };
