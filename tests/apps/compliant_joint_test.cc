@@ -156,6 +156,12 @@ TEST(CompliantJoint, ALinkageTendsToThatOfIdealJoints)
   EXPECT_NEAR(hard.signal("F_B0").final, ideal.signal("F_B0").final, 1e-2 * ideal.signal("F_B0").final);
   EXPECT_EQ(hard.n, ideal.n);
   expect_closed_balance(hard, 1e-4);
+
+  auto controlled = compliant("10 kN/mm", "20 kN s/m"); // which ideal joints do not know
+  controlled.push_back("run.tolerance=1e-7");
+  const SceneRun measured("double_four_bar.toml", controlled);
+  expect_closed_balance(measured, 1e-6);
+  EXPECT_NEAR(measured.signal("crank").final, hard.signal("crank").final, 1e-5);
 }
 
 // Bodies that move along the same directions give one difference: a pin between planar bodies has 4 measures, one on
