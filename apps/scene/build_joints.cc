@@ -7,6 +7,8 @@
 #include "mechanism/joints/compliant_joint.h"
 #include "mechanism/transmitted_element.h"
 
+#include <cmath>
+
 namespace gestell::apps
 {
 namespace
@@ -50,6 +52,56 @@ std::vector<CompliantJoint::Equation> yielding(const ComplianceRequest          
     throw std::invalid_argument("holds no rotation of these bodies; leave out 'rotational_stiffness' and "
                                 "'rotational_damping'");
   return all;
+}
+
+/// Whether s is linear in the motion of the two bodies: s'' = 0 in three positions of no order.
+bool is_linear(const Pair &pair, const RelativeMeasure &s)
+{
+  using mechanism::PlacedMeasure;
+  constexpr double straight = 1e-12;
+  const int        k        = int(pair.measures.size());
+  Eigen::VectorXd  u(k);
+  Eigen::MatrixXd  curvature(k, k);
+  for (int sample = 0; sample < 3; ++sample)
+  {
+    for (int i = 0; i < k; ++i)
+      u[i] = 0.5 * std::sin(1. + 7.3 * i + 2.1 * sample);
+    curvature.setZero();
+    PlacedMeasure{pair.first, pair.second, s}.add_curvature(u.data(), 1., curvature.data());
+    if (!curvature.isZero(straight))
+      return false;
+  }
+  return true;
+}
+
+/// Where all s are linear, as of a body in space that is held on the ground, each is one measure, whatever it is made
+/// of.
+void take_as_measures(Pair &pair, std::vector<CompliantJoint::Equation> &equations)
+{
+  using coupling::operator+, coupling::operator*;
+  for (const auto &equation : equations)
+    if (!is_linear(pair, equation.demand.measure))
+      return;
+  const double                   zero[mechanism::PlacedMeasure::max_measures] = {};
+  double                         G[mechanism::PlacedMeasure::max_measures];
+  std::vector<coupling::Measure> measures;
+  for (std::size_t i = 0; i < equations.size(); ++i)
+  {
+    IdealJoint::Equation &demand = equations[i].demand;
+    demand.offset -=
+        mechanism::PlacedMeasure{pair.first, pair.second, demand.measure}.evaluate(zero, zero, G).s; // as described
+    measures.emplace_back();
+    for (std::size_t k = 0; k < pair.measures.size(); ++k)
+      measures.back() = measures.back() + G[k] * pair.measures[k];
+    demand.measure.form = RelativeMeasure::Form::ratio;
+    demand.measure.ratios.assign(equations.size(), 0.);
+    demand.measure.ratios[i] = 1.;
+  }
+  using mechanism::Placement, mechanism::Vector3d;
+  const Placement::LinearMeasure own{Vector3d::Zero(), Vector3d::Zero()};
+  pair.first    = Placement(Vector3d::Zero(), Vector3d::Zero(), std::vector(equations.size(), own));
+  pair.second   = Placement();
+  pair.measures = measures;
 }
 
 /// What a joint looks like: a bar, a pin; of others only the points where they hold.
@@ -137,10 +189,10 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   if (joint.compliance)
   {
     equations.join_translations(felt);
-    machine.attach(
-        joint.name,
-        std::make_shared<CompliantJoint>(felt.first, felt.second, yielding(*joint.compliance, equations.list)),
-        felt.measures);
+    auto held = yielding(*joint.compliance, equations.list);
+    take_as_measures(felt, held);
+    machine.attach(joint.name, std::make_shared<CompliantJoint>(felt.first, felt.second, std::move(held)),
+                   felt.measures);
   }
   else
     machine.attach(joint.name, std::make_shared<IdealJoint>(felt.first, felt.second, equations.list, joint.law),

@@ -156,6 +156,12 @@ TEST(CompliantJoint, ALinkageTendsToThatOfIdealJoints)
   EXPECT_NEAR(hard.signal("F_B0").final, ideal.signal("F_B0").final, 1e-2 * ideal.signal("F_B0").final);
   EXPECT_EQ(hard.n, ideal.n);
   expect_closed_balance(hard, 1e-4);
+
+  auto controlled = compliant("10 kN/mm", "20 kN s/m"); // which ideal joints do not know
+  controlled.push_back("run.tolerance=1e-7");
+  const SceneRun measured("double_four_bar.toml", controlled);
+  expect_closed_balance(measured, 1e-6);
+  EXPECT_NEAR(measured.signal("crank").final, hard.signal("crank").final, 1e-5);
 }
 
 // Bodies that move along the same directions give one difference: a pin between planar bodies has 4 measures, one on
@@ -171,6 +177,41 @@ TEST(CompliantJoint, APinOfPlanarBodiesHasFourMeasures)
       {
         EXPECT_EQ(element.element->n_measures(), n) << joint;
       }
+}
+
+// A rigid body on three mounts of the ground: each takes what statics and its stiffness give it, and has three
+// measures.
+TEST(CompliantJoint, AMountOfABodyInSpaceHasThreeMeasures)
+{
+  std::string  scene = "gravity = [0, 0, -10]\n[body.block]\ntype = \"rigid\"\nmass = 6\ninertia = [0.3, 0.5, 0.4]\n"
+                       "position = [0, 0, 0]\n[output.signals]\nz = \"block.uz\"\nry = \"block.ry\"\n";
+  const double x[] = {-1., 1., 1.}, y[] = {0., -0.5, 0.5};
+  for (const int i : {0, 1, 2})
+  {
+    const std::string name = "mount" + std::to_string(i);
+    scene += "F" + std::to_string(i) + " = \"" + name + ".fz\"\n";
+  }
+  for (const int i : {0, 1, 2})
+    scene += "[joint.mount" + std::to_string(i) + "]\ntype = \"spherical\"\nfrom = \"ground\"\nto = \"block\"\nat = [" +
+             number(x[i]) + ", " + number(y[i]) + ", 0]\nstiffness = [1e5, 1e5, 2e5]\ndamping = 100\n";
+  const auto motion = run(scene + still);
+  EXPECT_NEAR(motion.signal("F0").final, 30., 1e-4);
+  EXPECT_NEAR(motion.signal("F1").final, 15., 1e-4);
+  EXPECT_NEAR(motion.signal("F2").final, 15., 1e-4);
+  const double left = -30. / 2e5, right = -15. / 2e5; // at x = -1 and x = 1
+  EXPECT_NEAR(motion.signal("z").final, 0.5 * (left + right), 1e-8);
+  EXPECT_NEAR(motion.signal("ry").final, -0.5 * (right - left), 1e-8);
+
+  const test::SceneFolder folder;
+  const coupling::Machine machine = apps::build_machine(apps::read_scene(folder.write("scene.toml", scene)));
+  int                     mounts  = 0;
+  for (const coupling::ElementPlacement &element : machine.elements())
+    if (element.name.rfind("mount", 0) == 0)
+    {
+      EXPECT_EQ(element.element->n_measures(), 3);
+      ++mounts;
+    }
+  EXPECT_EQ(mounts, 3);
 }
 
 /// Four rigid bodies in a closed loop of pins with parallel axes, from the crank angle phi.
