@@ -82,11 +82,9 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   print_modes("coupled machine", result.coupled_modes);
   print_poles(result.poles);
   if (result.along)
-  {
     print_along(*result.along);
-    for (const std::string &warning : along_warnings(*result.along))
-      std::cerr << "gestell: warning: " << warning << '\n';
-  }
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
     std::cout << folder.string()
               << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";

@@ -98,8 +98,9 @@ int run_command(const CommonOptions &options)
   write_results(folder, result);
 
   print_answer(*result.run);
-  for (const std::string &warning : result.run->warnings)
-    std::cerr << "gestell: warning: " << warning << '\n';
+  for (const auto *warnings : {&result.warnings, &result.run->warnings})
+    for (const std::string &warning : *warnings)
+      std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << "report: " << (folder / "report.html").string() << '\n';
   if (!result.run->failure.empty())
   {
