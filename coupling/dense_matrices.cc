@@ -191,7 +191,7 @@ Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian 
 
 Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, const std::vector<int> &fixed)
 {
-  const int          n = machine.size(), n_c = machine.n_constraints(), n_f = int(fixed.size());
+  const int n = machine.size(), n_c = machine.n_constraints(), n_f = int(fixed.size());
   if (n_c + n_f == 0)
     return Eigen::MatrixXd::Identity(n, n);
   ConstraintJacobian G(machine.constraint_blocks());

@@ -148,7 +148,7 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
 namespace
 {
 
-/// Adds -dp/du and -dp/dv [n x n] of the elements that are no structure, as they are at a motion.
+/// Adds -dp/du and -dp/dv [n x n] of the drives, which are no structure, as they are at a motion.
 /// @return whether there are any
 bool add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
 {
@@ -163,7 +163,7 @@ bool add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd
     mechanism::LocalMotion motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
     std::vector<double>    history(element.n_history() + 1);
     double                 rate;
-    const bool             drives = structure[first] == 0. && placement.joint < 0;
+    const bool drives = structure[first] == 0. && placement.joint < 0 && element.work() == mechanism::Work::input;
     if (drives)
       element.start(motion, history.data());
     if (drives && !element.holds(history.data(), rate)) // what sticks gives no way

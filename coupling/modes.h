@@ -68,9 +68,9 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
  *     y'' + V^T B_o V y' + V^T K_o V y = ...,     T x' + x = p(y, y', x),
  *
  * in its undamped modes V and the virtual coordinates x of drives and controllers.  Structural elements are engaged as
- * in K; elements that are no structure (drives, tools, friction of a motor's characteristic) enter with dp/du and dp/dv
- * at that motion.  Joints are taken as they stand.  Those at rest, s = 0, are left out; the slowest comes first.  None
- * if the machine has neither drives nor virtual coordinates: its modes tell all.
+ * in K; drives (elements whose work is input, and that are no structure) enter with dp/du and dp/dv at that motion,
+ * tools and friction do not act.  Joints are taken as they stand.  Those at rest, s = 0, are left out; the slowest
+ * comes first.  None if the machine has neither drives nor virtual coordinates: its modes tell all.
  *
  * Source: docs/theory/modes_along.md (6).
  */

@@ -68,9 +68,9 @@ public:
       std::ostringstream at_start;
       at_start << "; at the start of the scene it is " << swept_value(machine_, coordinate_, start.q) << " "
                << coordinate_.unit << ", take a range around that, or go along another coordinate or measure";
-      throw std::invalid_argument("--along " + coordinate_.name + ": no position has modes; " +
-                                  (gap.empty() ? "joints and what is held leave nothing to move"
-                                               : "the first: " + gap + at_start.str()));
+      throw std::invalid_argument(
+          "--along " + coordinate_.name + ": no position has modes; " +
+          (gap.empty() ? "joints and what is held leave nothing to move" : "the first: " + gap + at_start.str()));
     }
     for (ModesAt &one : along.positions)
       one.modes.resize(std::min(one.modes.size(), std::size_t(options_.lines)));

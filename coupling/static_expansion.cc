@@ -26,7 +26,8 @@ std::vector<std::pair<int, int>> matching_interfaces(const Machine &full, const 
 
 InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state)
 {
-  InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size())};
+  InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size()), state.settled,
+                        state.notes};
   const int    n_frame      = full.n_frame();
   const auto  &C            = full.full_frame()->C;
   const int    n_bodies     = full.n_mechanism();

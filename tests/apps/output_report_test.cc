@@ -88,10 +88,10 @@ TEST(Report, WarnsFirstThenAnswersThenExplains)
   }
 }
 
-TEST(Report, StatesTheEnergyResidualAsShareOfTheSupply)
+TEST(Report, StatesTheEnergyResidualAsShareOfWhatTheMotionExchanges)
 {
-  // 0.5 J of 1995 J
-  EXPECT_NE(make_report(example_result()).html.find("0.5 J</strong>, <strong>0.025 %"), std::string::npos);
+  // 0.5 J of 2200 J
+  EXPECT_NE(make_report(example_result()).html.find("0.5 J</strong>, <strong>0.023 %"), std::string::npos);
 }
 
 TEST(Report, LeavesOutWhatWasNotComputed)
