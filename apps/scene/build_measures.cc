@@ -140,7 +140,7 @@ void attach_on_measure(coupling::Machine &machine, const ElementRequest &element
   for (const LagRequest &lag : element.lags)
     measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
   machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure.measure, element.element),
-                 measures);
+                 measures, element.kind);
   const PlacedMeasure *plain = measure.measure.plain();
   if (!plain || plain->measure.form != mechanism::RelativeMeasure::Form::distance)
     return;

@@ -29,6 +29,10 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
 /// s = y - f(x) of the keys `from` (x), `to` (y), and `function` or `table`.
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x);
 
+/// f of `function` or `table`, whose argument is called `variable`.
+std::shared_ptr<const mechanism::PositionFunction> read_function(const SceneTable &table, const Variable &variable,
+                                                                 const Kind &x, const Kind &y);
+
 /// The sum of `terms = [{ of = "pinion", factor = "r" }, ...]`.
 MeasureRequest read_sum(const SceneTable &table, const Names &names);
 

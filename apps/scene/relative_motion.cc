@@ -59,6 +59,25 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   return {difference(from, to, rotor->axis, true), true, ""};
 }
 
+MotionMeasure motor_angle(const SceneTable &table, const Names &names, const Scene &scene)
+{
+  const BodyRequest &rotor  = names.body(table, "on", coupling::BodyKind::rotor);
+  std::string        stator = "ground";
+  for (const BodyRequest &body : scene.bodies)
+    if (body.name == rotor.name)
+      stator = body.carrier;
+  stator = names.marker(table, "to", stator);
+  if (stator == rotor.name)
+    throw table.error("to", "is '" + stator + "' like `on`; a motor turns its rotor against what carries it");
+  const BodyRequest *body = names.find_body(stator);
+  if (body && body->kind == coupling::BodyKind::rigid)
+    throw table.error("to",
+                      "'" + stator +
+                          "' is a rigid body, whose angle is no coordinate; put a rotor between, which a joint of "
+                          "type \"rigid\" holds to it");
+  return difference(rotor.name, stator, rotor.axis, true);
+}
+
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
                  const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags)
 {
@@ -72,6 +91,7 @@ void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mecha
     add_element(scene, table, std::move(element), std::vector<MotionMeasure>{motion.u});
   else
     scene.elements.push_back({table.name(), std::move(element), {}, motion.on, {}});
+  scene.elements.back().kind = motion.kind();
 }
 
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion)

@@ -18,7 +18,11 @@ struct RelativeMotion
   bool          rotation = false; ///< u is an angle
   std::string   on;               ///< u is this measure of the scene instead
 
-  std::string force_unit() const { return rotation ? "N m" : "N"; }
+  std::string           force_unit() const { return rotation ? "N m" : "N"; }
+  coupling::MeasureKind kind() const
+  {
+    return rotation ? coupling::MeasureKind::angle : coupling::MeasureKind::displacement;
+  }
 };
 
 /**
@@ -26,6 +30,9 @@ struct RelativeMotion
  * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
+
+/// Angle of the rotor `on` against `to`, or else against what carries it: there the stator sits.
+MotionMeasure motor_angle(const SceneTable &table, const Names &names, const Scene &scene);
 
 /// Runs `make`, and heads what the element says against its parameters with the place of the table.
 template <typename Make>

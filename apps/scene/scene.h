@@ -146,10 +146,13 @@ struct JointRequest
 
 struct SwitchRequest
 {
-  coupling::Switch request;
-  Quantity         level; ///< with its unit
-  std::string      place;
+  coupling::Switch        request;
+  Quantity                level; ///< with its unit
+  std::optional<Quantity> hysteresis;
+  std::string             place;
 };
+
+struct ProfileKeys;
 
 struct LinearRequest
 {
@@ -193,6 +196,10 @@ struct ElementRequest
   std::string                              on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
   std::vector<LagRequest>                  lags;   ///< the element's last measures
   std::optional<PairRequest>               pair{}; ///< the element is a law of these measures
+
+  coupling::MeasureKind              kind = coupling::MeasureKind::displacement;
+  std::shared_ptr<const ProfileKeys> levels{};      ///< what the order "set" tells; null: nothing
+  bool                               fixed = false; ///< cannot be switched off: its state would go on without it
 };
 
 struct PointMassRequest

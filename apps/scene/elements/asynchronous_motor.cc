@@ -15,13 +15,12 @@ mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table)
   return motor;
 }
 
-/// Measure: angle of the rotor about its own axis.
+/// Measure: angle of the rotor about its own axis, against the stator.
 void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto &rotor = names.body(table, "on", coupling::BodyKind::rotor);
-  const auto  motor = read_kloss(table);
+  const auto motor = read_kloss(table);
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::KlossMotor>(motor); }),
-              {{{rotor.name, true, rotor.axis, 1.}}});
+              {motor_angle(table, names, scene)});
 }
 
 } // namespace gestell::apps

@@ -10,11 +10,10 @@ namespace gestell::apps
 /// Of asynchronous motors, stationary or dynamic.
 mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table);
 
-/// Measures: angle of the rotor about its own axis; the torque, a lag.
+/// Measures: angle of the rotor about its own axis, against the stator; the torque, a lag.
 void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto &rotor = names.body(table, "on", coupling::BodyKind::rotor);
-  const auto  motor = read_kloss(table);
+  const auto motor = read_kloss(table);
   if (table.has("time_constant") == table.has("mains_frequency"))
     throw table.error(
         "needs either 'time_constant', with which the torque follows, or 'mains_frequency', from which it "
@@ -23,7 +22,7 @@ void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scen
                          ? table.positive("time_constant", kind::time)
                          : 1. / (2. * M_PI * table.positive("mains_frequency", kind::frequency) * motor.breakdown_slip);
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::DynamicMotor>(motor); }),
-              {{{rotor.name, true, rotor.axis, 1.}}}, {{table.name() + ".torque", lag}});
+              {motor_angle(table, names, scene)}, {{table.name() + ".torque", lag}});
 }
 
 } // namespace gestell::apps

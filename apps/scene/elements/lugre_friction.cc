@@ -27,6 +27,7 @@ void read_lugre_friction(const SceneTable &table, const Names &names, Scene &sce
     throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::LuGreFriction>(friction); }),
               {motion.u}, {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
+  scene.elements.back().kind = motion.kind();
 }
 
 } // namespace gestell::apps
