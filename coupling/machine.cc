@@ -68,12 +68,12 @@ void Machine::add_load(const std::string &name, const Measure &u, double constan
 }
 
 void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
-                     const std::vector<Measure> &measures)
+                     const std::vector<Measure> &measures, MeasureKind kind)
 {
   if (static_cast<int>(measures.size()) != element->n_measures())
     throw std::invalid_argument("element \"" + name + "\" takes " + std::to_string(element->n_measures()) +
                                 " measures, but " + std::to_string(measures.size()) + " were given");
-  parts_->elements.push_back({name, std::move(element), measures});
+  parts_->elements.push_back({name, std::move(element), measures, -1, kind});
 }
 
 void Machine::attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures)
@@ -309,8 +309,7 @@ void Machine::start(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
     part.element->start(part.motion(state, parts_->by_history), parts_->history_of(part));
-  for (const auto &own : parts_->switches)
-    parts_->history[own.history] = 0.;
+  parts_->start_switches();
   for (auto &part : parts_->placed)
     if (part.stop >= 0)
     {
@@ -366,8 +365,8 @@ void Machine::guard_values(const LocalState &state, Eigen::VectorXd &g) const
     first += n;
   }
   for (const auto &own : parts_->switches)
-    if (parts_->history[own.history] == 0.)
-      g[first++] = parts_->watched_value(own, state) - own.request.level;
+    if (parts_->is_active(own))
+      g[first++] = parts_->switch_guard(own, state);
 }
 
 GuardCrossing Machine::crossing(int i) const
@@ -384,10 +383,7 @@ void Machine::transition(int i, const LocalState &state)
   const auto &active = parts_->guards[i];
   if (active.element < 0)
   {
-    const auto &own              = parts_->switches[active.index];
-    const auto &target           = parts_->placed[own.target];
-    parts_->history[own.history] = 1.;
-    target.element->command(own.request.order, target.motion(state, parts_->by_history), parts_->history_of(target));
+    parts_->throw_switch(active.index, state);
     parts_->find_stopped(state);
     parts_->refresh_guards();
     return;

@@ -30,6 +30,7 @@ struct Signal
   int         load     = -1; ///< external load
   std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
   int         measure = -1;  ///< of add_measure(), whose value (quantity 0) or rate (1) it is
+  double      on_t    = 0.;  ///< weight of the time
 };
 
 enum class BodyKind
@@ -112,13 +113,31 @@ struct NamedMeasure
                                              Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]
 };
 
-/// When a signal crosses a level, an element is given an order, once.
+/// What is told to which element or joint.
+struct SwitchOrder
+{
+  std::string      element;
+  mechanism::Order order;
+};
+
+/// When a signal crosses a level, elements are given orders: once, or every time.
 struct Switch
 {
-  std::string   name, signal; ///< path of the signal
-  double        level    = 0.;
-  GuardCrossing crossing = GuardCrossing::rising;
-  std::string   element, order;
+  std::string              name, signal; ///< path of the signal; "t": the time
+  double                   level    = 0.;
+  GuardCrossing            crossing = GuardCrossing::rising;
+  std::vector<SwitchOrder> orders;
+  double                   delay      = 0.; ///< [s] from the crossing to the orders
+  std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
+  bool                     repeat     = false;
+  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back
+};
+
+/// What the measures of an element are.
+enum class MeasureKind
+{
+  displacement, ///< or several of all kinds, which the element itself tells apart
+  angle         ///< of an element that could act on a displacement, too: its forces are torques
 };
 
 struct ElementPlacement
@@ -127,6 +146,7 @@ struct ElementPlacement
   std::shared_ptr<mechanism::ForceElement> element;
   std::vector<Measure>                     measures;   ///< one per measure of the element
   int                                      joint = -1; ///< of friction in an ideal joint: which element that is
+  MeasureKind                              kind  = MeasureKind::displacement;
 };
 
 /**
@@ -172,7 +192,7 @@ public:
   void        add_measure(NamedMeasure measure);
   /// Signals of a point: "tip.x" where it is, "tip.ux" its displacement, "tip.vx" its velocity, along x, y and z.
   void add_place(const std::string &name, const PlacedPoint &place);
-  /// @throws std::invalid_argument for an unknown signal or element, or an order that the element does not know
+  /// @throws std::invalid_argument for an unknown signal, element or switch, or an order that the element does not know
   void add_switch(const Switch &request);
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
@@ -206,7 +226,7 @@ public:
 
   /// Nonlinear element acting on its measures; those of virtual coordinates come last.
   void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
-              const std::vector<Measure> &measures);
+              const std::vector<Measure> &measures, MeasureKind kind = MeasureKind::displacement);
   /// Friction of the ideal joint that was attached last, whose multipliers the element sees; it goes by the joint's
   /// name.
   void attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures);

@@ -278,8 +278,11 @@ void Machine::Parts::refresh_guards()
     }
   }
   for (std::size_t i = 0; i < switches.size(); ++i)
-    if (history[switches[i].history] == 0.)
-      guards.push_back({-1, static_cast<int>(i), switches[i].request.crossing, {switches[i].request.name, "switch"}});
+    if (is_active(switches[i]))
+      guards.push_back({-1,
+                        static_cast<int>(i),
+                        switch_crossing(switches[i]),
+                        {switches[i].request.name, switch_event(switches[i])}});
 }
 
 std::string Machine::Parts::coordinate_name(int i) const

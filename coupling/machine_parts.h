@@ -70,14 +70,25 @@ struct Machine::Parts
     double at(double t) const;
   };
 
-  /// A switch: what it watches lies in u (of a placed element, or of one of its own) and it obeys no more once thrown.
+  /// What a switch does at an instant.
+  enum class SwitchPhase
+  {
+    watches,
+    waits,   ///< for another switch
+    delays,  ///< its orders
+    returns, ///< its signal has to come back before it watches again
+    rests    ///< for good
+  };
+
+  /// A switch: what it watches lies in u (of a placed element, or of one of its own).
   struct PlacedSwitch
   {
-    Switch request;
-    Signal signal;
-    int    watched = -1; ///< element whose measures hold the motion of the signal
-    int    target  = -1; ///< element that gets the order
-    int    history = -1; ///< 1 once it was thrown
+    Switch           request;
+    Signal           signal;
+    int              watched = -1; ///< element whose measures hold the motion of the signal; of the time there is none
+    std::vector<int> targets;      ///< elements that get the orders
+    int              after   = -1; ///< index of the switch it waits for
+    int              history = -1; ///< its phase; time [s] at which delayed orders are due
   };
 
   struct PlacedGuard
@@ -150,20 +161,28 @@ struct Machine::Parts
   Vector3                position_of(const std::string &marker) const;
   bool                   moves_with_frame(const Marker &marker) const;
 
-  void        finish();
-  void        assemble_dense(int n);
-  void        assemble_sparse(int n);
-  void        assemble_mechanism(int n);
-  bool        has_joints() const;
-  void        place_elements(int n);
-  void        refresh_guards();
-  void        find_stopped(const LocalState &state);
-  bool        is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
-  void        add_watches();
-  void        place_switches();
-  double      watched_value(const PlacedSwitch &s, const LocalState &state) const;
-  std::string coordinate_name(int i) const;
-  double      output_offset(std::size_t i) const;
+  void          finish();
+  void          assemble_dense(int n);
+  void          assemble_sparse(int n);
+  void          assemble_mechanism(int n);
+  bool          has_joints() const;
+  void          place_elements(int n);
+  void          refresh_guards();
+  void          find_stopped(const LocalState &state);
+  bool          is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
+  void          add_watches();
+  void          place_switches();
+  void          start_switches();
+  SwitchPhase   phase(const PlacedSwitch &s) const;
+  bool          is_active(const PlacedSwitch &s) const; ///< it has a guard
+  GuardCrossing switch_crossing(const PlacedSwitch &s) const;
+  std::string   switch_event(const PlacedSwitch &s) const;
+  double        switch_guard(const PlacedSwitch &s, const LocalState &state) const;
+  double        watched_value(const PlacedSwitch &s, const LocalState &state) const;
+  void          throw_switch(int index, const LocalState &state);
+  void          give_orders(int index, const LocalState &state);
+  std::string   coordinate_name(int i) const;
+  double        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
   Signal                        signal(const std::string &name, const std::string &path) const;
 

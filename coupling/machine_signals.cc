@@ -20,6 +20,12 @@ Measure measure_of_row(const Eigen::VectorXd &row)
   return result;
 }
 
+/// Unit of the same quantity on an angle.
+std::string torsional(const std::string &unit)
+{
+  return unit == "N" ? "N m" : unit == "m" ? "rad" : unit == "m/s" ? "rad/s" : unit;
+}
+
 } // namespace
 
 double Machine::Parts::Load::at(double t) const
@@ -141,12 +147,20 @@ std::map<std::string, Signal> Machine::Parts::signals() const
   for (std::size_t e = 0; e < elements.size(); ++e)
   {
     const auto quantities = elements[e].element->quantities();
+    const bool turns      = elements[e].kind == MeasureKind::angle;
     for (std::size_t i = 0; i < quantities.size(); ++i)
     {
       const std::string path = elements[e].name + "." + quantities[i].name;
-      signals[path]          = {path, quantities[i].unit, {}, {}, static_cast<int>(e), static_cast<int>(i), 1., 0.};
+      const std::string unit = turns ? torsional(quantities[i].unit) : quantities[i].unit;
+      signals[path]          = {path, unit, {}, {}, static_cast<int>(e), static_cast<int>(i), 1., 0.};
     }
+    if (turns)
+      for (const auto &[name, alias] : {std::pair{".force", ".torque"}, std::pair{".displacement", ".angle"}})
+        if (const auto found = signals.find(elements[e].name + name); found != signals.end())
+          signals[elements[e].name + alias] = found->second;
   }
+  signals["t"]      = {"t", "s", {}, {}};
+  signals["t"].on_t = 1.;
   return signals;
 }
 
@@ -200,7 +214,7 @@ int Machine::coordinate(const std::string &name) const
 double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                          const LocalState &local) const
 {
-  double value = signal.offset;
+  double value = signal.offset + signal.on_t * local.t;
   for (const auto &[i, weight] : signal.on_q)
     value += weight * q[i];
   for (const auto &[i, weight] : signal.on_v)

@@ -40,19 +40,20 @@ void Machine::add_switch(const Switch &request)
   signal(request.name, request.signal); // throws with the nearest name
   std::vector<std::string> names;
   for (const ElementPlacement &element : parts_->elements)
-  {
     names.push_back(element.name);
-    if (element.name != request.element)
-      continue;
-    const auto orders = element.element->commands();
-    if (std::find(orders.begin(), orders.end(), request.order) == orders.end())
-      throw std::invalid_argument(
-          "\"" + request.element + "\" knows no order \"" + request.order + "\"" +
-          (orders.empty() ? std::string("; it obeys none") : suggestion(request.order, orders)));
-    parts_->switch_requests.push_back(request);
-    return;
+  for (const auto &[name, order] : request.orders)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw std::invalid_argument("there is no element \"" + name + "\"" + suggestion(name, names));
+    const auto &element = *parts_->elements[found - names.begin()].element;
+    const auto  known   = element.commands();
+    if (std::find(known.begin(), known.end(), order.name) == known.end())
+      throw std::invalid_argument("\"" + name + "\" knows no order \"" + order.name + "\"" +
+                                  (known.empty() ? std::string("; it obeys none") : suggestion(order.name, known)));
+    element.check_order(order);
   }
-  throw std::invalid_argument("there is no element \"" + request.element + "\"" + suggestion(request.element, names));
+  parts_->switch_requests.push_back(request);
 }
 
 /// Elements of no force for switches whose signal is a motion: its measures, or the two sums on q and q'.
@@ -66,7 +67,7 @@ void Machine::Parts::add_watches()
     own.signal  = signal(request.name, request.signal);
     if (own.signal.element >= 0)
       own.watched = own.signal.element;
-    else
+    else if (own.signal.on_t == 0.)
     {
       own.watched         = static_cast<int>(elements.size());
       const auto watching = own.signal.measure >= 0 ? measures[own.signal.measure].measures
@@ -78,22 +79,126 @@ void Machine::Parts::add_watches()
   }
 }
 
+namespace
+{
+enum Slot
+{
+  phase_slot,
+  due_slot,
+  n_slots
+};
+} // namespace
+
 void Machine::Parts::place_switches()
 {
   for (PlacedSwitch &own : switches)
   {
-    const auto target =
-        std::find_if(elements.begin(), elements.end(),
-                     [&](const ElementPlacement &element) { return element.name == own.request.element; });
-    own.target  = static_cast<int>(target - elements.begin());
+    for (const SwitchOrder &order : own.request.orders)
+    {
+      const auto target = std::find_if(elements.begin(), elements.end(),
+                                       [&](const ElementPlacement &element) { return element.name == order.element; });
+      own.targets.push_back(static_cast<int>(target - elements.begin()));
+    }
+    for (std::size_t i = 0; i < switches.size(); ++i)
+      if (!own.request.after.empty() && switches[i].request.name == own.request.after)
+        own.after = static_cast<int>(i);
+    if (!own.request.after.empty() && own.after < 0)
+      throw std::invalid_argument("switch \"" + own.request.name + "\": there is no switch \"" + own.request.after +
+                                  "\" that it could wait for");
     own.history = static_cast<int>(history.size());
-    history.conservativeResize(history.size() + 1);
-    history[own.history] = 0.;
+    history.conservativeResize(history.size() + n_slots);
   }
+  start_switches();
+}
+
+void Machine::Parts::start_switches()
+{
+  for (const PlacedSwitch &own : switches)
+  {
+    history[own.history + phase_slot] = double(own.after >= 0 ? SwitchPhase::waits : SwitchPhase::watches);
+    history[own.history + due_slot]   = 0.;
+  }
+}
+
+Machine::Parts::SwitchPhase Machine::Parts::phase(const PlacedSwitch &own) const
+{
+  return static_cast<SwitchPhase>(static_cast<int>(history[own.history + phase_slot]));
+}
+
+bool Machine::Parts::is_active(const PlacedSwitch &own) const
+{
+  return phase(own) != SwitchPhase::waits && phase(own) != SwitchPhase::rests;
+}
+
+GuardCrossing Machine::Parts::switch_crossing(const PlacedSwitch &own) const
+{
+  if (phase(own) == SwitchPhase::delays)
+    return GuardCrossing::rising;
+  const bool back = phase(own) == SwitchPhase::returns;
+  return (own.request.crossing == GuardCrossing::rising) != back ? GuardCrossing::rising : GuardCrossing::falling;
+}
+
+std::string Machine::Parts::switch_event(const PlacedSwitch &own) const
+{
+  return phase(own) == SwitchPhase::delays ? "orders" : phase(own) == SwitchPhase::returns ? "ready" : "switch";
+}
+
+double Machine::Parts::switch_guard(const PlacedSwitch &own, const LocalState &state) const
+{
+  if (phase(own) == SwitchPhase::delays)
+    return state.t - history[own.history + due_slot];
+  const double past = watched_value(own, state) - own.request.level;
+  if (phase(own) == SwitchPhase::watches)
+    return past;
+  return past + (own.request.crossing == GuardCrossing::rising ? 1. : -1.) * own.request.hysteresis;
+}
+
+/// Passes what it waited for: the crossing, the delay, the way back.
+void Machine::Parts::throw_switch(int index, const LocalState &state)
+{
+  const PlacedSwitch &own  = switches[index];
+  double             &next = history[own.history + phase_slot];
+  switch (phase(own))
+  {
+  case SwitchPhase::watches:
+    if (own.request.delay > 0.)
+    {
+      next                            = double(SwitchPhase::delays);
+      history[own.history + due_slot] = state.t + own.request.delay;
+      return;
+    }
+    give_orders(index, state);
+    return;
+  case SwitchPhase::delays:
+    give_orders(index, state);
+    return;
+  case SwitchPhase::returns:
+    next = double(SwitchPhase::watches);
+    return;
+  case SwitchPhase::waits:
+  case SwitchPhase::rests:
+    return;
+  }
+}
+
+void Machine::Parts::give_orders(int index, const LocalState &state)
+{
+  const PlacedSwitch &own           = switches[index];
+  history[own.history + phase_slot] = double(own.request.repeat ? SwitchPhase::returns : SwitchPhase::rests);
+  for (std::size_t i = 0; i < own.targets.size(); ++i)
+  {
+    const PlacedElement &target = placed[own.targets[i]];
+    target.element->command(own.request.orders[i].order, target.motion(state, by_history), history_of(target));
+  }
+  for (const PlacedSwitch &other : switches)
+    if (other.after == index && phase(other) == SwitchPhase::waits)
+      history[other.history + phase_slot] = double(SwitchPhase::watches);
 }
 
 double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &state) const
 {
+  if (own.signal.on_t != 0.)
+    return own.signal.scale * own.signal.on_t * state.t;
   const PlacedElement &part   = placed[own.watched];
   const auto           motion = part.motion(state, by_history);
   double               value  = own.signal.offset;

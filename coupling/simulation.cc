@@ -164,6 +164,12 @@ void guard(const Machine &machine, const InitialState &initial, const RunOptions
   }
 }
 
+bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
+{
+  return std::any_of(events.begin(), events.end(),
+                     [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
+}
+
 /// Switches that never act, or act before anything has moved, are seldom meant.
 void warn_of_switches(const Machine &machine, double begin, RunResult &result)
 {
@@ -174,7 +180,7 @@ void warn_of_switches(const Machine &machine, double begin, RunResult &result)
   if (!result.failure.empty() || result.interrupted)
     return;
   for (int i = 0; i < machine.n_guards(); ++i)
-    if (const ActiveGuard guard = machine.guard(i); guard.kind == "switch")
+    if (const ActiveGuard guard = machine.guard(i); guard.kind == "switch" && !happened(result.events, guard))
       result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
 }
 

@@ -61,7 +61,7 @@ void ForceElement::constraint(const LocalMotion &, const double *, double *, dou
 
 void ForceElement::constraint_rates(const LocalMotion &, const double *, double *, double *) const {}
 
-bool ForceElement::command(const std::string &, const LocalMotion &, double *) const
+bool ForceElement::command(const Order &, const LocalMotion &, double *) const
 {
   return false;
 }

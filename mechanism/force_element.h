@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mechanism/order.h"
+
 #include <string>
 #include <vector>
 
@@ -138,10 +140,11 @@ public:
   virtual double      constraint_size() const { return 1.; }
   virtual std::string constraint_name(int i) const { return (void)i, ""; }
 
-  /// Obeys an order of a switch, such as "brake", at the motion where it is given; false: the element knows no such
-  /// order.
-  virtual bool                     command(const std::string &order, const LocalMotion &motion, double *history) const;
+  /// Obeys an order of a switch at the motion where it is given; false: the element knows no such order.
+  virtual bool                     command(const Order &order, const LocalMotion &motion, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
+  /// @throws std::invalid_argument if the values of one of these orders are none for it
+  virtual void check_order(const Order &) const {}
 
   virtual void accept(const LocalMotion &, double *history) const { (void)history; }
 

@@ -26,55 +26,60 @@ Profile::Profile(const std::string &name, double from, const std::vector<Ramp> &
     before << end() << " s, where the ramp before ends, or later";
     require(i == 0 || is_constant() || ramp.at >= end(), name, row + ", begin [s]", ramp.at, before.str());
     require(i == 0 || ramp.at > ramps[i - 1].at, name, row + ", begin [s]", ramp.at, "after that of the ramp before");
-    add_ramp(level, ramp);
+    if (ramp.to == level)
+      continue;
+    Piece     of_ramp[most_pieces];
+    const int n = pieces_of(level, ramp, of_ramp);
+    for (int k = 0; k < n; ++k)
+      add(of_ramp[k]);
     level = ramp.to;
   }
 }
 
-void Profile::add(double begin, double c0, double c1, double c2)
+void Profile::add(const Piece &piece)
 {
-  if (!corners_.empty() && corners_.back() == begin)
-    pieces_.back() = {begin, {c0, c1, c2}, pieces_.back().area};
+  if (!corners_.empty() && corners_.back() == piece.begin)
+    pieces_.back() = {piece.begin, piece.c, pieces_.back().area};
   else
   {
-    corners_.push_back(begin);
-    const double area = integral(pieces_.size() - 1, begin);
-    pieces_.push_back({begin, {c0, c1, c2}, area});
+    corners_.push_back(piece.begin);
+    const double area = integral(pieces_.size() - 1, piece.begin);
+    pieces_.push_back({piece.begin, piece.c, area});
   }
 }
 
-void Profile::add_ramp(double from, const Ramp &ramp)
+int Profile::pieces_of(double from, const Ramp &ramp, Piece (&pieces)[most_pieces])
 {
   const double D = std::abs(ramp.to - from), s = ramp.to < from ? -1. : 1., a = ramp.rate, j = ramp.rate_of_rate;
-  if (D == 0.)
-    return;
-  double t_j = 0., t_c = 0., rate = s * a;
-  if (!std::isinf(j))
+  double       t_j = 0., t_c = 0., rate = s * a;
+  if (!std::isinf(j) && D > 0.)
   {
     t_j  = D >= a * a / j ? a / j : std::sqrt(D / j);
     rate = s * j * t_j;
   }
   if (!std::isinf(a))
     t_c = std::max(0., D / a - t_j);
+  int    n = 0;
   double t = ramp.at, level = from;
   if (t_j > 0.)
   {
-    add(t, level, 0., 0.5 * s * j);
+    pieces[n++] = {t, {level, 0., 0.5 * s * j}};
     t += t_j;
     level += 0.5 * rate * t_j;
   }
   if (t_c > 0.)
   {
-    add(t, level, rate, 0.);
+    pieces[n++] = {t, {level, rate, 0.}};
     t += t_c;
     level += rate * t_c;
   }
   if (t_j > 0.)
   {
-    add(t, level, rate, -0.5 * s * j);
+    pieces[n++] = {t, {level, rate, -0.5 * s * j}};
     t += t_j;
   }
-  add(t, ramp.to, 0., 0.);
+  pieces[n++] = {t, {ramp.to, 0., 0.}};
+  return n;
 }
 
 std::size_t Profile::piece_at(double t) const
@@ -84,28 +89,22 @@ std::size_t Profile::piece_at(double t) const
 
 double Profile::value(std::size_t piece, double t) const
 {
-  const auto  &p = pieces_[piece];
-  const double s = t - p.begin;
-  return p.c[0] + s * (p.c[1] + s * p.c[2]);
+  return pieces_[piece].value(t);
 }
 
 double Profile::rate(std::size_t piece, double t) const
 {
-  const auto &p = pieces_[piece];
-  return p.c[1] + 2. * p.c[2] * (t - p.begin);
+  return pieces_[piece].rate(t);
 }
 
 double Profile::integral(std::size_t piece, double t) const
 {
-  const auto  &p = pieces_[piece];
-  const double s = t - p.begin;
-  return p.area + s * (p.c[0] + s * (p.c[1] / 2. + s * p.c[2] / 3.));
+  return pieces_[piece].area + pieces_[piece].integral(t);
 }
 
 bool Profile::is_zero(std::size_t piece) const
 {
-  const auto &c = pieces_[piece].c;
-  return c[0] == 0. && c[1] == 0. && c[2] == 0.;
+  return pieces_[piece].is_zero();
 }
 
 std::vector<double> Profile::levels() const

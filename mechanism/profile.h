@@ -36,6 +36,26 @@ public:
     double rate_of_rate = unlimited; ///< j, > 0
   };
 
+  /// Level c0 + c1 s + c2 s^2, s = t - begin [s].
+  struct Piece
+  {
+    double                begin;
+    std::array<double, 3> c;
+    double                area = 0.; ///< integral of the profile up to begin
+
+    double value(double t) const { return c[0] + (t - begin) * (c[1] + (t - begin) * c[2]); }
+    double rate(double t) const { return c[1] + 2. * c[2] * (t - begin); }
+    double integral(double t) const ///< from begin on
+    {
+      const double s = t - begin;
+      return s * (c[0] + s * (c[1] / 2. + s * c[2] / 3.));
+    }
+    bool is_zero() const { return c[0] == 0. && c[1] == 0. && c[2] == 0.; }
+  };
+  static constexpr int most_pieces = 4;
+  /// The pieces of a ramp from a level to another, the last one behind it; their number.
+  static int pieces_of(double from, const Ramp &ramp, Piece (&pieces)[most_pieces]);
+
   Profile(double constant = 0.); // NOLINT: a level is a profile
 
   /// @param name   of the element and the quantity, for messages: "speed drive: speed"
@@ -61,15 +81,7 @@ public:
   std::vector<double> levels() const; ///< values at all corners: lowest and highest of the course are among them
 
 private:
-  /// c0 + c1 s + c2 s^2, s = t - begin, and its integral up to begin
-  struct Piece
-  {
-    double                begin;
-    std::array<double, 3> c;
-    double                area = 0.;
-  };
-  void add_ramp(double from, const Ramp &ramp);
-  void add(double begin, double c0, double c1, double c2);
+  void add(const Piece &piece);
 
   std::vector<double> corners_; ///< ascending; two at one place are a piece of no length, which is left out
   std::vector<Piece>  pieces_;  ///< one more than corners

@@ -118,16 +118,17 @@ void draw_joint(coupling::Machine &machine, const JointRequest &joint, const Pai
     machine.draw_pin({placed(machine, joint.from), body->axis});
 }
 
-/// The level of a switch is told in the unit of its signal.
-void check_level(const coupling::Machine &machine, const SwitchRequest &request)
+/// What a switch compares its signal with is told in the unit of the signal.
+void check_level(const coupling::Machine &machine, const SwitchRequest &request, const Quantity &level,
+                 const std::string &what)
 {
   const coupling::Signal signal = machine.signal(request.request.name, request.request.signal);
-  if (!request.level.checked || signal.unit.empty() || signal.unit == "1")
+  if (!level.checked || signal.unit.empty() || signal.unit == "1")
     return;
   const Quantity unit = parse_quantity("1 " + signal.unit, [](const std::string &) { return std::nullopt; });
-  if (!equal(unit.dimension, request.level.dimension))
+  if (!equal(unit.dimension, level.dimension))
     throw std::invalid_argument("the signal \"" + request.request.signal + "\" is told in " + signal.unit +
-                                ", but the level is " + describe(request.level.dimension));
+                                ", but the " + what + " is " + describe(level.dimension));
 }
 
 } // namespace
@@ -227,7 +228,9 @@ void attach_between(coupling::Machine &machine, const ElementRequest &element)
 
 void add_switch(coupling::Machine &machine, const SwitchRequest &request)
 {
-  check_level(machine, request);
+  check_level(machine, request, request.level, "level");
+  if (request.hysteresis)
+    check_level(machine, request, *request.hysteresis, "hysteresis");
   machine.add_switch(request.request);
 }
 

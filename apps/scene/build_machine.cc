@@ -96,7 +96,7 @@ void fill(coupling::Machine &machine, const Scene &scene)
                measures.push_back(measure_of(motion, machine));
              for (const auto &lag : element.lags)
                measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
-             machine.attach(element.name, element.element, measures);
+             machine.attach(element.name, element.element, measures, element.kind);
            });
   for (const auto &own : scene.switches)
     placed(own.place, [&] { add_switch(machine, own); });

@@ -177,14 +177,14 @@ void attach_on_measure(coupling::Machine &machine, const ElementRequest &element
     for (const LagRequest &lag : element.lags)
       measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
     machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure, element.element, rest),
-                   measures);
+                   measures, element.kind);
   };
   if (element.follows)
   {
     const auto point = placed(machine, element.own->second);
     machine.attach(element.name,
                    std::make_shared<mechanism::FollowerLoad>(point.placement, vector(element.own->a), element.element),
-                   point.measures);
+                   point.measures, element.kind);
     machine.draw_point(element.own->second.marker, point_of(machine, element.own->second));
     return;
   }

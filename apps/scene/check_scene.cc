@@ -92,10 +92,6 @@ void require_run(const Scene &scene)
     throw std::invalid_argument(
         scene.run.place + ": there is no [run]; it needs 'end' and 'step' (or 'tolerance'), such as end = \"0.5 s\", "
                           "step = \"10 us\"");
-  if (scene.signals.empty())
-    throw std::invalid_argument(scene.run.place +
-                                ": there are no signals to compute; name them in [output] signals = { x = "
-                                "\"slide.displacement\" }");
 }
 
 } // namespace gestell::apps

@@ -2,6 +2,7 @@
 
 #include "apps/scene/element_registry.h"
 #include "apps/scene/read_part.h"
+#include "apps/scene/read_switches.h"
 #include "coupling/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -172,6 +173,8 @@ void read_elements(const SceneTable &table, const Names &names, Scene &scene)
     for (const auto &known : element_types())
       if (known.name == type)
         known.read(element, names, scene);
+    if (element.choice("initially", {"on", "off"}, "on") == "off")
+      begin_off(element, scene);
   }
 }
 

@@ -168,6 +168,19 @@ constexpr JointName joint_names[] = {
     {"cylindrical", JointType::cylindrical}, {"rigid", JointType::rigid},         {"prismatic", JointType::prismatic},
     {"in-plane", JointType::in_plane},       {"distance", JointType::distance},   {"gear", JointType::gear}};
 
+/// Of bodies that can turn about their own axis only.
+void check_own_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
+{
+  const Vector3 axis = table.direction("axis");
+  for (const PlaceRequest *place : {&joint.from, &joint.to})
+  {
+    const BodyRequest *body = names.find_body(place->marker);
+    const bool turns = body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar);
+    if (turns && std::abs(dot(axis, body->axis)) < 1. - 1e-9)
+      throw table.error("axis", "'" + body->name + "' turns about another axis only, its own; leave 'axis' out");
+  }
+}
+
 /// The axes of a joint that turns about some.
 void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
 {
@@ -191,6 +204,8 @@ void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
   else if (turning || joint.type == JointType::cylindrical || joint.type == JointType::prismatic ||
            joint.type == JointType::in_plane)
     joint.axis = table.direction("axis");
+  else if (joint.type == JointType::revolute && table.has("axis"))
+    check_own_axis(table, names, joint);
 }
 
 /// Joints of one equation on a scalar of the motion, by their names.
@@ -420,27 +435,6 @@ void read_joints(const SceneTable &scene, const Names &names, Scene &result)
     check_new_name(table, names, result);
     result.joints.push_back(read_joint(table, names));
     result.element_places[table.name()] = table.place();
-  }
-}
-
-void read_switches(const SceneTable &scene, Scene &result)
-{
-  for (const auto &table : scene.tables("switch"))
-  {
-    check_thing_name(table);
-    SwitchRequest own;
-    own.place          = table.place();
-    own.request.name   = table.name();
-    own.request.signal = table.text("when");
-    const bool above   = table.has("above");
-    if (above == table.has("below"))
-      throw table.error("needs 'above' or 'below', the value at which it is thrown");
-    own.request.crossing = above ? coupling::GuardCrossing::rising : coupling::GuardCrossing::falling;
-    own.level            = table.quantity(above ? "above" : "below");
-    own.request.level    = own.level.value;
-    own.request.element  = table.text("tell");
-    own.request.order    = table.text("order");
-    result.switches.push_back(own);
   }
 }
 

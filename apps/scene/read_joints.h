@@ -13,7 +13,4 @@ void read_places(const SceneTable &scene, Names &names, Scene &result);
 /// Reads all [joint.NAME] into the scene.
 void read_joints(const SceneTable &scene, const Names &names, Scene &result);
 
-/// Reads all [switch.NAME] into the scene; once all else is read.
-void read_switches(const SceneTable &scene, Scene &result);
-
 } // namespace gestell::apps

@@ -1,5 +1,7 @@
 #include "apps/scene/read_profile.h"
 
+#include "apps/scene/read_scalars.h"
+
 namespace gestell::apps
 {
 namespace
@@ -19,6 +21,14 @@ ProfileKeys speed_profile()
   const Kind &speed = kind::angular_speed;
   return {speed, per_seconds(speed, "angular acceleration", "200 rad/s^2", 1),
           per_seconds(speed, "rate of an angular acceleration", "1000 rad/s^3", 2), "acceleration", "jerk"};
+}
+
+ProfileKeys path_profile()
+{
+  ProfileKeys keys      = level_profile(kind::speed, kind::speed.example);
+  keys.rate_key         = "acceleration";
+  keys.rate_of_rate_key = "jerk";
+  return keys;
 }
 
 ProfileKeys level_profile(const Kind &level, const std::string &example)
@@ -51,6 +61,36 @@ mechanism::Profile read_profile(const SceneTable &table, const std::string &key,
   {
     throw table.error(key, e.what());
   }
+}
+
+namespace
+{
+
+mechanism::Course begun(const SceneTable &table, const mechanism::Course &course, double from)
+{
+  return table.boolean("waits", false) ? course.waiting(from) : course;
+}
+
+} // namespace
+
+mechanism::Course read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from)
+{
+  return begun(table, read_profile(table, key, keys, from), from);
+}
+
+mechanism::Course read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                   double from)
+{
+  using mechanism::Course;
+  const Variable t{"t", "time", kind::time.dimension};
+  if (table.is_array(key))
+    return read_course(table, key, keys, from);
+  if (table.is_table(key))
+    return begun(table, Course(*read_function(table.table(key), t, kind::time, keys.level)), from);
+  const auto formula = table.formula(key, {t}, keys.level);
+  if (formula.is_constant())
+    return begun(table, formula.constant(), from);
+  return begun(table, Course(mechanism::PositionFunction(formula)), from);
 }
 
 } // namespace gestell::apps

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/scene_table.h"
-#include "mechanism/profile.h"
+#include "mechanism/course.h"
 
 namespace gestell::apps
 {
@@ -15,6 +15,7 @@ struct ProfileKeys
 };
 
 ProfileKeys speed_profile();                                       ///< of a rotor: rad/s
+ProfileKeys path_profile();                                        ///< of a motion along a path: m/s
 ProfileKeys level_profile(const Kind &level, const std::string &); ///< `rate` and `rate_of_rate` of anything else
 
 /**
@@ -24,5 +25,12 @@ ProfileKeys level_profile(const Kind &level, const std::string &); ///< `rate` a
  * @param from  level before the first ramp
  */
 mechanism::Profile read_profile(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
+
+/// As read_profile(); with `waits` the course stays at the level `from` until the order "start".
+mechanism::Course read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
+
+/// As read_course(); besides a formula of the time t, or a table { function = ... } or { table = ... } of it.
+mechanism::Course read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                   double from);
 
 } // namespace gestell::apps

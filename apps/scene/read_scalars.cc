@@ -101,7 +101,34 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
   table.warn("table", text.str());
 }
 
-/// f of `function` or `table`, whose argument is called `variable`.
+/// Speed that is constant until a switch brakes it, or a profile.
+std::shared_ptr<const mechanism::MotionLaw> read_speed(const SceneTable &table, bool turns)
+{
+  using mechanism::BrakedMotion;
+  const ProfileKeys keys  = turns ? speed_profile() : path_profile();
+  const auto        brake = table.optional_table("brake");
+  if (table.is_array("speed") || !brake)
+  {
+    const double from =
+        table.is_array("speed") || table.has("waits") ? table.number("initial_speed", keys.level, 0.) : 0.;
+    const auto speed = read_course(table, "speed", keys, from);
+    return checked(table, [&] { return std::make_shared<mechanism::ProfileMotion>(speed); });
+  }
+  BrakedMotion::Parameters motion;
+  motion.speed             = table.number("speed", keys.level);
+  const std::string family = brake->choice("family", {"linear", "cosine", "shaped"}, "linear");
+  motion.family            = family == "linear"   ? BrakedMotion::Family::linear
+                             : family == "cosine" ? BrakedMotion::Family::cosine
+                                                  : BrakedMotion::Family::shaped;
+  motion.duration          = brake->positive("duration", kind::time);
+  if (family == "shaped")
+    for (const auto &ramp : brake->table_array("ramps"))
+      motion.ramps.push_back({ramp.number("share", kind::number), ramp.not_negative("delay", kind::time, 0.)});
+  return checked(*brake, [&] { return std::make_shared<BrakedMotion>(motion); });
+}
+
+} // namespace
+
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
 {
@@ -153,41 +180,6 @@ std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, c
     throw table.error("table", e.what());
   }
 }
-
-/// Speed that is constant until a switch brakes it, or a profile.
-std::shared_ptr<const mechanism::MotionLaw> read_speed(const SceneTable &table, bool turns)
-{
-  using mechanism::BrakedMotion;
-  ProfileKeys keys = speed_profile();
-  if (!turns)
-  {
-    keys                  = level_profile(kind::speed, kind::speed.example);
-    keys.rate_key         = "acceleration";
-    keys.rate_of_rate_key = "jerk";
-  }
-  if (table.is_array("speed"))
-  {
-    const auto speed = read_profile(table, "speed", keys, table.number("initial_speed", keys.level, 0.));
-    return checked(table, [&] { return std::make_shared<mechanism::ProfileMotion>(speed); });
-  }
-  const double speed = table.number("speed", keys.level);
-  const auto   brake = table.optional_table("brake");
-  if (!brake)
-    return std::make_shared<mechanism::ConstantSpeed>(speed);
-  BrakedMotion::Parameters motion;
-  motion.speed             = speed;
-  const std::string family = brake->choice("family", {"linear", "cosine", "shaped"}, "linear");
-  motion.family            = family == "linear"   ? BrakedMotion::Family::linear
-                             : family == "cosine" ? BrakedMotion::Family::cosine
-                                                  : BrakedMotion::Family::shaped;
-  motion.duration          = brake->positive("duration", kind::time);
-  if (family == "shaped")
-    for (const auto &ramp : brake->table_array("ramps"))
-      motion.ramps.push_back({ramp.number("share", kind::number), ramp.not_negative("delay", kind::time, 0.)});
-  return checked(*brake, [&] { return std::make_shared<BrakedMotion>(motion); });
-}
-
-} // namespace
 
 ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const Names &names)
 {
@@ -285,24 +277,46 @@ void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind
 
 MeasureRequest read_sum(const SceneTable &table, const Names &names)
 {
-  MeasureRequest measure;
+  struct Part
+  {
+    SceneTable    table;
+    ScalarRequest y;
+    Quantity      factor; ///< a plain number takes the unit that makes its term fit
+  };
+  std::vector<Part> parts;
+  MeasureRequest    measure;
+  const auto        join = [&](const Part &part, const Dimension &sum)
+  {
+    const std::string unit = equal(sum, kind::length.dimension) ? "m" : equal(sum, kind::angle.dimension) ? "rad" : "";
+    if (unit.empty() || (!measure.unit.empty() && unit != measure.unit))
+      throw part.table.error("factor",
+                             "makes a term of " + describe(sum) + "; all terms must be lengths, or all angles");
+    measure.unit = unit;
+  };
   for (const auto &part : table.table_array("terms"))
   {
-    const auto y = read_scalar(part, "of", names);
-    refuse_wrapping(part, "of", y);
-    const Quantity factor = part.has("factor") ? part.quantity("factor") : Quantity{1., {}, true};
-    Dimension      sum    = y.kind().dimension;
+    parts.push_back(
+        {part, read_scalar(part, "of", names), part.has("factor") ? part.quantity("factor") : Quantity{1., {}, true}});
+    refuse_wrapping(part, "of", parts.back().y);
+    if (!parts.back().factor.checked)
+      continue;
+    Dimension sum = parts.back().y.kind().dimension;
     for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += factor.dimension[i];
-    const std::string unit = equal(sum, kind::length.dimension) ? "m" : equal(sum, kind::angle.dimension) ? "rad" : "";
-    if (!factor.checked)
-      throw part.error("factor", "is made from a parameter without unit; give that one its unit, so that it is known "
-                                 "what the sum is, a length or an angle");
-    if (unit.empty() || (!measure.terms.empty() && unit != measure.unit))
-      throw part.error("factor", "makes a term of " + describe(sum) + "; all terms must be lengths, or all angles");
-    measure.unit = unit;
-    measure.terms.push_back(y.term);
-    measure.terms.back().weight *= factor.value;
+      sum[i] += parts.back().factor.dimension[i];
+    join(parts.back(), sum);
+  }
+  for (const Part &part : parts)
+  {
+    if (measure.unit.empty()) // factors are plain numbers all over
+      for (const Part &other : parts)
+        if (other.y.unit != part.y.unit)
+          throw part.table.error("factor", "is a number without unit, as all factors here, but the motions are lengths "
+                                           "and angles; give one of the factors its unit, so that it is known what the "
+                                           "sum is");
+    if (measure.unit.empty())
+      join(part, part.y.kind().dimension);
+    measure.terms.push_back(part.y.term);
+    measure.terms.back().weight *= part.factor.value;
   }
   if (measure.terms.empty())
     throw table.error("needs 'terms' such as [{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]");

@@ -37,6 +37,10 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
 /// Refuses a periodic `function` f(x) of an ideal joint that jumps, or whose slope does, with the place.
 void refuse_jumps(const SceneTable &table, const mechanism::PositionFunction &f, const Kind &x);
 
+/// f of `function` or `table`, whose argument is called `variable`.
+std::shared_ptr<const mechanism::PositionFunction> read_function(const SceneTable &table, const Variable &variable,
+                                                                 const Kind &x, const Kind &y);
+
 /// The sum of `terms = [{ of = "pinion", factor = "r" }, ...]`.
 MeasureRequest read_sum(const SceneTable &table, const Names &names);
 

@@ -2,6 +2,7 @@
 #include "apps/scene/read_frame.h"
 #include "apps/scene/read_joints.h"
 #include "apps/scene/read_run.h"
+#include "apps/scene/read_switches.h"
 #include "apps/scene/scene.h"
 #include "coupling/nearest_name.h"
 

@@ -35,6 +35,22 @@ RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, co
   return {{}, false, "", std::make_shared<MeasureRequest>(along)};
 }
 
+/// What `to` names, or else what carries the shaft: there the motor pushes itself off.
+std::string stator_of(const SceneTable &table, const Names &names, const BodyRequest &shaft)
+{
+  const std::string stator = names.marker(table, "to", shaft.carrier.empty() ? "ground" : shaft.carrier);
+  if (stator == shaft.name)
+    throw table.error("to", "is '" + stator + "' like `on`; a motor turns its shaft against what carries it");
+  const BodyRequest *body = names.find_body(stator);
+  if (body && body->kind == coupling::BodyKind::point)
+    throw table.error("to", "'" + stator + "' is a point, which has no rotation; name what else holds the motor");
+  if (body && body->kind == coupling::BodyKind::rigid)
+    throw table.error("to", "'" + stator +
+                                "' is a rigid body, whose angle is no coordinate; put a rotor between, which a joint "
+                                "of type \"rigid\" holds to it");
+  return stator;
+}
+
 } // namespace
 
 MotionMeasure difference(const std::string &from, const std::string &to, const Vector3 &axis, bool rotation)
@@ -104,12 +120,15 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names)
       throw table.error("on", "the measure '" + name +
                                   "' is a length; a drive turns a rotor, a planar body or a "
                                   "measure that is an angle");
+    if (table.has("to"))
+      throw table.error("to", "is of no meaning: the measure '" + name +
+                                  "' tells already against what the motor turns; leave it out");
     return {{}, true, name};
   }
   const BodyRequest *body = names.find_body(name);
   if (!body || body->kind != coupling::BodyKind::planar)
     body = &names.body(table, "on", coupling::BodyKind::rotor);
-  return {{{name, true, body->axis, 1.}}, true, ""};
+  return {difference(name, stator_of(table, names, *body), body->axis, true), true, ""};
 }
 
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
@@ -122,6 +141,7 @@ void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mecha
                     const RelativeMotion &motion, const std::vector<LagRequest> &lags)
 {
   ElementRequest request{table.name(), std::move(element), {}, motion.on, lags};
+  request.kind    = motion.kind();
   request.own     = motion.own;
   request.follows = motion.follows;
   if (!motion.is_measure())

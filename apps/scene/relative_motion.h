@@ -21,8 +21,12 @@ struct RelativeMotion
   std::shared_ptr<const MeasureRequest> own{};
   bool                                  follows = false; ///< the direction of `own` turns with its second place
 
-  bool        is_measure() const { return !on.empty() || own; }
-  std::string force_unit() const { return rotation ? "N m" : "N"; }
+  bool                  is_measure() const { return !on.empty() || own; }
+  std::string           force_unit() const { return rotation ? "N m" : "N"; }
+  coupling::MeasureKind kind() const
+  {
+    return rotation ? coupling::MeasureKind::angle : coupling::MeasureKind::displacement;
+  }
 };
 
 /**
@@ -49,7 +53,10 @@ auto checked(const SceneTable &table, Make make)
 /// As above; of a load, whose direction may turn with `from`: `carried_by`.
 RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
 
-/// The motion of a shaft: `on` is a rotor, a planar body, or a measure that is an angle.
+/**
+ * The angle by which a motor turns its shaft.  `on` is a rotor or a planar body; it turns against `to`, where the
+ * stator sits: by default what carries the rotor, or the ground.  Or `on` is a measure that is an angle.
+ */
 RelativeMotion read_shaft(const SceneTable &table, const Names &names);
 
 /// Adds an element of one measure to the scene, with the virtual coordinates that follow it.

@@ -180,10 +180,13 @@ struct JointRequest
 
 struct SwitchRequest
 {
-  coupling::Switch request;
-  Quantity         level; ///< with its unit
-  std::string      place;
+  coupling::Switch        request;
+  Quantity                level; ///< with its unit
+  std::optional<Quantity> hysteresis;
+  std::string             place;
 };
+
+struct ProfileKeys;
 
 struct LinearRequest
 {
@@ -230,6 +233,10 @@ struct ElementRequest
   /// A measure without a name that the element acts on, counted from the position described.
   std::shared_ptr<const MeasureRequest> own{};
   bool follows = false; ///< of `own`: the element is a load on its second place along a direction that turns with it
+
+  coupling::MeasureKind              kind = coupling::MeasureKind::displacement;
+  std::shared_ptr<const ProfileKeys> levels{};      ///< what the order "set" tells; null: nothing
+  bool                               fixed = false; ///< cannot be switched off: its state would go on without it
 };
 
 struct PointMassRequest

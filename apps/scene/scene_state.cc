@@ -105,6 +105,15 @@ coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &ma
   return known;
 }
 
+/// What is said against a start, headed with the place of the joint it names, or else that of [start].
+std::invalid_argument headed(const Scene &scene, const std::string &message)
+{
+  for (const JointRequest &joint : scene.joints)
+    if (message.find("\"" + joint.name + "\"") != std::string::npos)
+      return std::invalid_argument(joint.place + ": " + message);
+  return std::invalid_argument(scene.start.place + ": " + message);
+}
+
 coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine, const coupling::KnownStart &known)
 {
   try
@@ -113,7 +122,7 @@ coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine,
   }
   catch (const std::invalid_argument &e)
   {
-    throw std::invalid_argument(scene.start.place + ": " + e.what());
+    throw headed(scene, e.what());
   }
 }
 
@@ -132,7 +141,7 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     }
     catch (const std::invalid_argument &e)
     {
-      throw std::invalid_argument(scene.start.place + ": " + e.what());
+      throw headed(scene, e.what());
     }
   }
   else
@@ -146,7 +155,7 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     }
     catch (const std::invalid_argument &e)
     {
-      throw std::invalid_argument(scene.start.place + ": " + e.what());
+      throw headed(scene, e.what());
     }
   }
   state.t       = scene.run.options.begin;

@@ -152,7 +152,25 @@ mechanism::Formula SceneTable::expression(const std::string &key, const SceneNod
   }
   catch (const std::invalid_argument &e)
   {
-    throw std::invalid_argument(at + e.what());
+    const bool formula = variables.empty() && is_formula_of_time(value, kind);
+    throw std::invalid_argument(
+        at + e.what() +
+        (formula ? ". It would be a formula of the time t, but this key takes a value: t is a tonne" : ""));
+  }
+}
+
+bool SceneTable::is_formula_of_time(const SceneNode &value, const Kind &kind) const
+{
+  if (value.type != Type::text)
+    return false;
+  try
+  {
+    return !formula_as(parameters_->expression(value, {{"t", "time", kind::time.dimension}}), kind, value.text)
+                .is_constant();
+  }
+  catch (const std::invalid_argument &)
+  {
+    return false;
   }
 }
 
@@ -417,33 +435,6 @@ std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
   for (const auto &element : value->elements)
     result.push_back(below(element, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key));
   return result;
-}
-
-namespace
-{
-
-void refuse_unknown(const SceneNode &table, const std::string &path)
-{
-  for (const auto &[key, value] : table.entries)
-  {
-    if (!value.used)
-      throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
-                                  key + "'" + coupling::suggestion(key, {table.asked.begin(), table.asked.end()}));
-    // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
-    const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
-    if (value.type == Type::table && (!value.asked.empty() || value.entries.empty()))
-      refuse_unknown(value, own);
-    for (std::size_t i = 0; i < value.elements.size(); ++i)
-      if (!value.elements[i].asked.empty())
-        refuse_unknown(value.elements[i], own + "[" + std::to_string(i + 1) + "]");
-  }
-}
-
-} // namespace
-
-void SceneTable::finish() const
-{
-  refuse_unknown(*node_, path_);
 }
 
 } // namespace gestell::apps

@@ -105,6 +105,7 @@ private:
   /// A value or a formula of `variables` of that kind.
   mechanism::Formula expression(const std::string &key, const SceneNode &value, const std::vector<Variable> &variables,
                                 const Kind &kind) const;
+  bool               is_formula_of_time(const SceneNode &value, const Kind &kind) const; ///< if there were a variable t
 
   const SceneNode  *node_;
   const Parameters *parameters_;

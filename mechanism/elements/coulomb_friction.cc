@@ -31,10 +31,30 @@ void CoulombFriction::engaged(const double *, double *K, double *D) const
 
 void CoulombFriction::start(const LocalMotion &motion, double *history) const
 {
-  const Profile    &e     = parameters_.engagement;
-  const std::size_t piece = e.piece_at(motion.t);
-  history[0]              = e.is_zero(piece) ? released : branch_at(motion.v[0]);
-  history[1]              = static_cast<double>(piece);
+  parameters_.engagement.start(motion.t, history + 1);
+  history[0] = parameters_.engagement.is_zero(history + 1) ? released : branch_at(motion.v[0]);
+}
+
+void CoulombFriction::follow_engagement(const LocalMotion &motion, double *history) const
+{
+  if (parameters_.engagement.is_zero(history + 1))
+    history[0] = released;
+  else if (branch_of(history) == released)
+    history[0] = branch_at(motion.v[0]);
+}
+
+bool CoulombFriction::command(const Order &order, const LocalMotion &motion, double *history) const
+{
+  if (!parameters_.engagement.command(order, motion.t, history + 1))
+    return false;
+  follow_engagement(motion, history);
+  return true;
+}
+
+void CoulombFriction::check_order(const Order &order) const
+{
+  if (order.name == "set")
+    require(order.level >= 0. && order.level <= 1., "coulomb friction", "engagement", order.level, "between 0 and 1");
 }
 
 bool CoulombFriction::holds(const double *history, double &rate) const
@@ -50,7 +70,7 @@ int CoulombFriction::n_own_guards(const double *history) const
 
 int CoulombFriction::n_guards(const double *history) const
 {
-  return n_own_guards(history) + int(parameters_.engagement.ends(piece_of(history)));
+  return n_own_guards(history) + parameters_.engagement.n_guards(history + 1);
 }
 
 std::vector<Guard> CoulombFriction::guards(const double *history) const
@@ -70,16 +90,14 @@ std::vector<Guard> CoulombFriction::guards(const double *history) const
   case released:
     break;
   }
-  if (parameters_.engagement.ends(piece_of(history)))
-    guards.push_back({"next_segment", Crossing::rising});
+  for (const Guard &guard : parameters_.engagement.guards(history + 1))
+    guards.push_back(guard);
   return guards;
 }
 
 void CoulombFriction::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const std::size_t piece = piece_of(history);
-  if (parameters_.engagement.ends(piece))
-    g[n_own_guards(history)] = motion.t - parameters_.engagement.corner(piece);
+  parameters_.engagement.guard_values(motion.t, history + 1, g + n_own_guards(history));
   if (branch_of(history) == released)
     return;
   if (branch_of(history) != stick)
@@ -88,10 +106,9 @@ void CoulombFriction::guard_values(const LocalMotion &motion, const double *hist
     return;
   }
   assert(motion.p != nullptr);
-  const double capacity =
-      parameters_.engagement.value(piece, motion.t) * normal_force(motion.lambda) * parameters_.static_force;
-  g[0] = capacity + motion.p[0];
-  g[1] = capacity - motion.p[0];
+  const double capacity = engagement(motion.t, true, history) * normal_force(motion.lambda) * parameters_.static_force;
+  g[0]                  = capacity + motion.p[0];
+  g[1]                  = capacity - motion.p[0];
 }
 
 void CoulombFriction::transition(int i, const LocalMotion &motion, double *history) const
@@ -101,11 +118,8 @@ void CoulombFriction::transition(int i, const LocalMotion &motion, double *histo
     history[0] = branch_of(history) != stick ? stick : i == 0 ? slip_forward : slip_backward;
     return;
   }
-  history[1] += 1.;
-  if (parameters_.engagement.is_zero(piece_of(history)))
-    history[0] = released;
-  else if (branch_of(history) == released)
-    history[0] = branch_at(motion.v[0]);
+  parameters_.engagement.transition(i - n_own_guards(history), motion.t, history + 1);
+  follow_engagement(motion, history);
 }
 
 std::vector<Quantity> CoulombFriction::quantities() const

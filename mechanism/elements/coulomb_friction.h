@@ -1,8 +1,8 @@
 #pragma once
 
+#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
 #include "mechanism/joints/joint_load.h"
-#include "mechanism/profile.h"
 #include "mechanism/stribeck.h"
 
 #include <optional>
@@ -48,10 +48,10 @@ public:
     double static_force  = 0.; ///< R0 [N or N m], >= R
     double belt_speed    = 0.; ///< v_b [m/s or rad/s]
 
-    double  stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: R drops at once
-    double  stribeck_exponent = 1.; ///< 1 or 2
-    double  viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
-    Profile engagement        = 1.; ///< e, 0 to 1
+    double stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: R drops at once
+    double stribeck_exponent = 1.; ///< 1 or 2
+    double viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
+    Course engagement        = 1.; ///< e, 0 to 1; a level or a profile
 
     std::optional<JointLoad> load = std::nullopt; ///< of a joint: R and R0 are per unit of its N [1 or m]
   };
@@ -72,8 +72,8 @@ public:
 
   void engaged(const double *u, double *K, double *D) const override; ///< d
 
-  /// history: active branch; piece of the engagement.
-  int  n_history() const override { return 2; }
+  /// history: active branch; that of the engagement.
+  int  n_history() const override { return 1 + parameters_.engagement.n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
   bool holds(const double *history, double &rate) const override;
   Work work() const override { return parameters_.belt_speed == 0. ? Work::dissipated : Work::input; }
@@ -82,6 +82,10 @@ public:
   std::vector<Guard> guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
+
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return Course::commands(); }
+  void                     check_order(const Order &order) const override;
 
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
@@ -102,17 +106,16 @@ private:
     return v > parameters_.belt_speed ? slip_forward : v < parameters_.belt_speed ? slip_backward : stick;
   }
 
-  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[1]); }
-  double             engagement(double t, bool by_history, const double *history) const
+  double engagement(double t, bool by_history, const double *history) const
   {
-    const Profile &e = parameters_.engagement;
-    return e.value(by_history ? piece_of(history) : e.piece_at(t), t);
+    return parameters_.engagement.at(t, by_history, history + 1).value;
   }
   double normal_force(const double *lambda) const
   {
     return parameters_.load ? parameters_.load->normal_force(lambda) : 1.;
   }
-  int n_own_guards(const double *history) const; ///< all but that of the engagement
+  void follow_engagement(const LocalMotion &motion, double *history) const; ///< released, or not any more
+  int  n_own_guards(const double *history) const;                           ///< all but that of the engagement
 
   Parameters parameters_;
   Stribeck   sliding_;

@@ -69,6 +69,12 @@ void FollowerLoad::transition(int i, const LocalMotion &motion, double *history)
   law_->transition(i, seen.motion(motion), history);
 }
 
+bool FollowerLoad::command(const Order &order, const LocalMotion &motion, double *history) const
+{
+  const Seen seen = see(motion);
+  return law_->command(order, seen.motion(motion), history);
+}
+
 double FollowerLoad::quantity(int i, const LocalMotion &motion, const double *history) const
 {
   const Seen seen = see(motion);

@@ -13,8 +13,8 @@ namespace gestell::mechanism
  *
  *     p = P e . dx/du,     power P e . x'.
  *
- * P is that of a law of one measure, which sees the speed e . x' as its rate; history and events are the law's.  Such a
- * load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step.
+ * P is that of a law of one measure, which sees the speed e . x' as its rate; history, events and orders are the law's.
+ * Such a load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step.
  *
  * Source: docs/theory/joints.md (5a).
  */
@@ -32,6 +32,10 @@ public:
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
   Work work() const override { return law_->work(); }
+
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return law_->commands(); }
+  void                     check_order(const Order &order) const override { law_->check_order(order); }
 
   std::vector<Guard> guards(const double *history) const override { return law_->guards(history); }
   int                n_guards(const double *history) const override { return law_->n_guards(history); }

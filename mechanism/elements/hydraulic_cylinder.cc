@@ -40,28 +40,38 @@ void HydraulicCylinder::engaged(const double *u, double *K, double *D) const
 
 void HydraulicCylinder::start(const LocalMotion &motion, double *history) const
 {
-  history[0] = double(parameters_.course.piece_at(motion.t));
+  parameters_.course.start(motion.t, history);
 }
 
 int HydraulicCylinder::n_guards(const double *history) const
 {
-  return parameters_.course.ends(piece_of(history)) ? 1 : 0;
+  return parameters_.course.n_guards(history);
 }
 
 std::vector<Guard> HydraulicCylinder::guards(const double *history) const
 {
-  return n_guards(history) > 0 ? std::vector<Guard>{{"next_segment", Crossing::rising}} : std::vector<Guard>{};
+  return parameters_.course.guards(history);
 }
 
 void HydraulicCylinder::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  if (n_guards(history) > 0)
-    g[0] = motion.t - parameters_.course.corner(piece_of(history));
+  parameters_.course.guard_values(motion.t, history, g);
 }
 
-void HydraulicCylinder::transition(int, const LocalMotion &, double *history) const
+void HydraulicCylinder::transition(int i, const LocalMotion &motion, double *history) const
 {
-  history[0] += 1.;
+  parameters_.course.transition(i, motion.t, history);
+}
+
+bool HydraulicCylinder::command(const Order &order, const LocalMotion &motion, double *history) const
+{
+  return parameters_.course.command(order, motion.t, history);
+}
+
+void HydraulicCylinder::check_order(const Order &order) const
+{
+  if (order.name == "set" && parameters_.control == Control::valve)
+    require(std::abs(order.level) <= 1., "hydraulic cylinder", "opening of the valve", order.level, "from -1 to 1");
 }
 
 std::vector<Quantity> HydraulicCylinder::quantities() const
@@ -74,7 +84,7 @@ double HydraulicCylinder::quantity(int i, const LocalMotion &motion, const doubl
   const double *u = motion.u, x = u[0] - parameters_.zero;
   if (i == 4)
     return x;
-  const auto c = chambers<double>(x, u[1], u[2], course(motion.t, motion.by_history ? history : nullptr));
+  const auto c = chambers<double>(x, u[1], u[2], course(motion.t, motion.by_history, history));
   return i == 1 ? c.p_a : i == 2 ? c.p_b : i == 3 ? c.q_a : parameters_.area_a * c.p_a - parameters_.area_b * c.p_b;
 }
 

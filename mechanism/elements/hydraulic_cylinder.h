@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
-#include "mechanism/profile.h"
 
 #include <cmath>
 
@@ -49,7 +49,7 @@ public:
     double  pressure_a = 0., pressure_b = 0.; ///< p_a0, p_b0 at x = 0 [Pa]
     double  leakage = 0.;                     ///< k_L [m^3/(s Pa)], >= 0
     Control control = Control::flow;
-    Profile course;
+    Course  course;
     double  rated_flow = 0., rated_drop = 0.; ///< of the valve: Q_N [m^3/s] at d_N [Pa], > 0
     double  supply = 0., tank = 0.;           ///< p_S, p_T [Pa]
   };
@@ -92,7 +92,7 @@ public:
     using std::exp;
     const auto            &P = parameters_;
     const Chambers<Number> c =
-        chambers<Number>(Number(m.u[0] - P.zero), m.u[1], m.u[2], course(m.t, m.by_history ? history : nullptr));
+        chambers<Number>(Number(m.u[0] - P.zero), m.u[1], m.u[2], course(m.t, m.by_history, history));
     p[0] = P.area_a * c.p_a - P.area_b * c.p_b;
     p[1] = m.u[1] + (lag / P.area_a) * c.q_a * exp(Number((c.p_a - P.pressure_a) / P.bulk_modulus));
     p[2] = m.u[2] + (lag / P.area_b) * c.q_b * exp(Number((c.p_b - P.pressure_b) / P.bulk_modulus));
@@ -106,22 +106,24 @@ public:
   void engaged(const double *u, double *K, double *D) const override;
   Work work() const override { return Work::input; }
 
-  /// history: active piece of the course.
-  int                n_history() const override { return 1; }
+  int                n_history() const override { return parameters_.course.n_history(); }
   void               start(const LocalMotion &motion, double *history) const override;
   int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return Course::commands(); }
+  void                     check_order(const Order &order) const override;
+
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[0]); }
-  double             course(double t, const double *history) const
+  double course(double t, bool by_history, const double *history) const
   {
-    return parameters_.course.value(history ? piece_of(history) : parameters_.course.piece_at(t), t);
+    return parameters_.course.at(t, by_history, history).value;
   }
   template <typename Number>
   Number root(const Number &drop) const

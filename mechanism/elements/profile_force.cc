@@ -5,35 +5,38 @@ namespace gestell::mechanism
 
 void ProfileForce::start(const LocalMotion &motion, double *history) const
 {
-  history[0] = static_cast<double>(profile_.piece_at(motion.t));
+  course_.start(motion.t, history);
 }
 
 std::vector<Guard> ProfileForce::guards(const double *history) const
 {
-  if (!profile_.ends(piece_of(history)))
-    return {};
-  return {{"next_segment", Crossing::rising}};
+  return course_.guards(history);
 }
 
 void ProfileForce::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  g[0] = motion.t - profile_.corner(piece_of(history));
+  course_.guard_values(motion.t, history, g);
 }
 
-void ProfileForce::transition(int, const LocalMotion &, double *history) const
+void ProfileForce::transition(int i, const LocalMotion &motion, double *history) const
 {
-  history[0] += 1.;
+  course_.transition(i, motion.t, history);
+}
+
+bool ProfileForce::command(const Order &order, const LocalMotion &motion, double *history) const
+{
+  return course_.command(order, motion.t, history);
 }
 
 std::vector<Quantity> ProfileForce::quantities() const
 {
-  return {{"force", "N"}, {"torque", "N m"}, {"power", "W"}};
+  return {{"force", "N"}, {"power", "W"}};
 }
 
 double ProfileForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
   const double p = -resistance(motion, history);
-  return i == 2 ? p * motion.v[0] : p;
+  return i == 1 ? p * motion.v[0] : p;
 }
 
 } // namespace gestell::mechanism

@@ -1,42 +1,41 @@
 #pragma once
 
+#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
-#include "mechanism/profile.h"
 
 namespace gestell::mechanism
 {
 
 /**
- * Force or torque that follows a profile over time:   p = F(t)        [N or N m]
+ * Force or torque that follows a course over time:   p = F(t)        [N or N m]
  *
- * +F acts on the measure u [m or rad].  Corners of the profile are events "next_segment".  Its work counts as input.
+ * +F acts on the measure u [m or rad].  Corners of the course are events.  Its work counts as input.
  */
 class ProfileForce : public DifferentiableElement<ProfileForce, 1>
 {
 public:
-  explicit ProfileForce(const Profile &profile) : profile_(profile) {}
+  explicit ProfileForce(const Course &course) : course_(course) {}
 
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    p[0] = Number(profile_.value(m.by_history ? piece_of(history) : profile_.piece_at(m.t), m.t));
+    p[0] = Number(course_.at(m.t, m.by_history, history).value);
   }
 
-  /// history: active piece of the profile.
-  int                   n_history() const override { return 1; }
-  void                  start(const LocalMotion &motion, double *history) const override;
-  Work                  work() const override { return Work::input; }
-  int                   n_guards(const double *history) const override { return int(profile_.ends(piece_of(history))); }
-  std::vector<Guard>    guards(const double *history) const override;
-  void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                  transition(int i, const LocalMotion &motion, double *history) const override;
-  std::vector<Quantity> quantities() const override;
-  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+  int                      n_history() const override { return course_.n_history(); }
+  void                     start(const LocalMotion &motion, double *history) const override;
+  Work                     work() const override { return Work::input; }
+  int                      n_guards(const double *history) const override { return course_.n_guards(history); }
+  std::vector<Guard>       guards(const double *history) const override;
+  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                     transition(int i, const LocalMotion &motion, double *history) const override;
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return Course::commands(); }
+  std::vector<Quantity>    quantities() const override;
+  double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[0]); }
-
-  Profile profile_;
+  Course course_;
 };
 
 } // namespace gestell::mechanism

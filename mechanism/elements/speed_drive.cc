@@ -23,26 +23,23 @@ double SpeedDrive::lag() const
 
 double SpeedDrive::wanted(const LocalMotion &motion, const double *history) const
 {
-  const Measures<double> measures{motion.t, motion.u, motion.v, motion.a, motion.by_history};
-  return wanted(measures, motion.by_history ? piece_of(history) : parameters_.speed.piece_at(motion.t));
+  return wanted(Measures<double>{motion.t, motion.u, motion.v, motion.a, motion.by_history}, history);
 }
 
 void SpeedDrive::start(const LocalMotion &motion, double *history) const
 {
-  history[0] = static_cast<double>(parameters_.speed.piece_at(motion.t));
-  history[1] = branch_at(wanted(motion, history));
+  parameters_.speed.start(motion.t, history + 1);
+  history[0] = branch_at(wanted(motion, history));
 }
 
 int SpeedDrive::n_guards(const double *history) const
 {
-  return int(parameters_.speed.ends(piece_of(history))) + (!limited() ? 0 : branch_of(history) == 0 ? 2 : 1);
+  return parameters_.speed.n_guards(history + 1) + (!limited() ? 0 : branch_of(history) == 0 ? 2 : 1);
 }
 
 std::vector<Guard> SpeedDrive::guards(const double *history) const
 {
-  std::vector<Guard> guards;
-  if (parameters_.speed.ends(piece_of(history)))
-    guards.push_back({"next_segment", Crossing::rising});
+  std::vector<Guard> guards = parameters_.speed.guards(history + 1);
   if (!limited())
     return guards;
   if (branch_of(history) == 0)
@@ -57,12 +54,11 @@ std::vector<Guard> SpeedDrive::guards(const double *history) const
 
 void SpeedDrive::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const std::size_t piece = piece_of(history);
-  if (parameters_.speed.ends(piece))
-    *g++ = motion.t - parameters_.speed.corner(piece);
+  parameters_.speed.guard_values(motion.t, history + 1, g);
+  g += parameters_.speed.n_guards(history + 1);
   if (!limited())
     return;
-  const double M     = wanted(Measures<double>{motion.t, motion.u, motion.v, motion.a, true}, piece);
+  const double M     = wanted(Measures<double>{motion.t, motion.u, motion.v, motion.a, true}, history);
   const double limit = parameters_.largest_torque;
   if (branch_of(history) != 0)
     g[0] = M - branch_of(history) * limit;
@@ -73,15 +69,20 @@ void SpeedDrive::guard_values(const LocalMotion &motion, const double *history, 
   }
 }
 
-void SpeedDrive::transition(int i, const LocalMotion &, double *history) const
+void SpeedDrive::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const bool ends = parameters_.speed.ends(piece_of(history));
-  if (ends && i == 0)
-    history[0] += 1.;
+  const int of_course = parameters_.speed.n_guards(history + 1);
+  if (i < of_course)
+    parameters_.speed.transition(i, motion.t, history + 1);
   else if (branch_of(history) != 0)
-    history[1] = 0.;
+    history[0] = 0.;
   else
-    history[1] = i == int(ends) ? 1. : -1.;
+    history[0] = i == of_course ? 1. : -1.;
+}
+
+bool SpeedDrive::command(const Order &order, const LocalMotion &motion, double *history) const
+{
+  return parameters_.speed.command(order, motion.t, history + 1);
 }
 
 std::vector<Quantity> SpeedDrive::quantities() const
@@ -94,10 +95,7 @@ double SpeedDrive::quantity(int i, const LocalMotion &motion, const double *hist
   if (i == 4)
     return motion.u[1];
   if (i == 2 || i == 3)
-  {
-    const std::size_t piece = motion.by_history ? piece_of(history) : parameters_.speed.piece_at(motion.t);
-    return parameters_.speed.value(piece, motion.t) - (i == 3 ? motion.v[0] : 0.);
-  }
+    return parameters_.speed.at(motion.t, motion.by_history, history + 1).value - (i == 3 ? motion.v[0] : 0.);
   double p[2];
   force(motion, history, p);
   return i == 0 ? p[0] : p[0] * motion.v[0];

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
-#include "mechanism/profile.h"
 
 namespace gestell::mechanism
 {
@@ -10,7 +10,7 @@ namespace gestell::mechanism
  * Drive with speed control (PI) and limited torque.
  *
  * Measures: phi [rad], angle of the driven shaft; z [N m], a lag of the time constant T_i = k_p/k_i that follows the
- * torque.  With the wanted speed w_r(t) of a profile
+ * torque.  With the wanted speed w_r(t) of a course
  *
  *     M = k_p (w_r - phi') + z,  but  -M_max <= M <= M_max        [N m],     p_phi = M
  *     T_i z' + z = M,                                                         p_z   = M
@@ -19,7 +19,7 @@ namespace gestell::mechanism
  * torque that acts and does not wind up (automatic reset, the same as back-calculation with the tracking time T_i).
  * Without an integral (k_i = 0) z stays zero.
  *
- * Events: "next_segment" of the profile, "limit_reached", "limit_left".  Its work counts as input, negative where it
+ * Events: corners of the course, "limit_reached", "limit_left".  Its work counts as input, negative where it
  * brakes.
  *
  * Source: K. J. Astrom, T. Hagglund, PID Controllers, 2nd ed. 1995 (automatic reset, windup).
@@ -29,10 +29,10 @@ class SpeedDrive : public DifferentiableElement<SpeedDrive, 2>
 public:
   struct Parameters
   {
-    double  proportional_gain = 0.;                 ///< k_p [N m s/rad], > 0
-    double  integral_gain     = 0.;                 ///< k_i [N m/rad], >= 0
-    double  largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
-    Profile speed;                                  ///< w_r [rad/s]
+    double proportional_gain = 0.;                 ///< k_p [N m s/rad], > 0
+    double integral_gain     = 0.;                 ///< k_i [N m/rad], >= 0
+    double largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
+    Course speed;                                  ///< w_r [rad/s]
   };
 
   explicit SpeedDrive(const Parameters &parameters);
@@ -43,27 +43,28 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    const Number M      = wanted(m, m.by_history ? piece_of(history) : parameters_.speed.piece_at(m.t));
+    const Number M      = wanted(m, history);
     const int    branch = m.by_history ? branch_of(history) : branch_at(value(M));
     p[0]                = branch == 0 ? M : Number(branch * parameters_.largest_torque);
     p[1]                = parameters_.integral_gain > 0. ? p[0] : Number(0.);
   }
 
-  /// history: active piece of the profile; -1, 1 at a limit, 0 within.
-  int                   n_history() const override { return 2; }
-  void                  start(const LocalMotion &motion, double *history) const override;
-  Work                  work() const override { return Work::input; }
-  int                   n_guards(const double *history) const override;
-  std::vector<Guard>    guards(const double *history) const override;
-  void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                  transition(int i, const LocalMotion &motion, double *history) const override;
-  std::vector<Quantity> quantities() const override;
-  double                quantity(int i, const LocalMotion &motion, const double *history) const override;
+  /// history: -1, 1 at a limit, 0 within; that of the course.
+  int                      n_history() const override { return 1 + parameters_.speed.n_history(); }
+  void                     start(const LocalMotion &motion, double *history) const override;
+  Work                     work() const override { return Work::input; }
+  int                      n_guards(const double *history) const override;
+  std::vector<Guard>       guards(const double *history) const override;
+  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void                     transition(int i, const LocalMotion &motion, double *history) const override;
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return Course::commands(); }
+  std::vector<Quantity>    quantities() const override;
+  double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[0]); }
-  static int         branch_of(const double *history) { return static_cast<int>(history[1]); }
-  bool               limited() const { return parameters_.largest_torque < Profile::unlimited; }
+  static int branch_of(const double *history) { return static_cast<int>(history[0]); }
+  bool       limited() const { return parameters_.largest_torque < Profile::unlimited; }
 
   int branch_at(double M) const
   {
@@ -72,9 +73,10 @@ private:
 
   /// M without its limits.
   template <typename Number>
-  Number wanted(const Measures<Number> &m, std::size_t piece) const
+  Number wanted(const Measures<Number> &m, const double *history) const
   {
-    return parameters_.proportional_gain * (parameters_.speed.value(piece, m.t) - m.v[0]) + m.u[1];
+    const double wanted_speed = parameters_.speed.at(m.t, m.by_history, history + 1).value;
+    return parameters_.proportional_gain * (wanted_speed - m.v[0]) + m.u[1];
   }
   double wanted(const LocalMotion &motion, const double *history) const;
 

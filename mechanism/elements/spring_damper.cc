@@ -25,12 +25,13 @@ double SpringDamper::stored_energy(const LocalMotion &motion, const double *) co
 
 std::vector<Quantity> SpringDamper::quantities() const
 {
-  return {{"force", "N"}, {"stretch", "m"}, {"rate", "m/s"}};
+  return {{"force", "N"}, {"stretch", "m"}, {"rate", "m/s"}, {"displacement", "m"}};
 }
 
 double SpringDamper::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  return i == 0 ? resistance(motion, history) : i == 1 ? motion.u[0] - parameters_.rest : motion.v[0];
+  const double values[] = {0., motion.u[0] - parameters_.rest, motion.v[0], motion.u[0]};
+  return i == 0 ? resistance(motion, history) : values[i];
 }
 
 } // namespace gestell::mechanism

@@ -39,9 +39,15 @@ void ConstraintElement::transition(int i, const LocalMotion &motion, double *his
   law_->transition(i, motion.t, history);
 }
 
-bool ConstraintElement::command(const std::string &order, const LocalMotion &motion, double *history) const
+bool ConstraintElement::command(const Order &order, const LocalMotion &motion, double *history) const
 {
   return law_ && law_->command(order, motion.t, history);
+}
+
+void ConstraintElement::check_order(const Order &order) const
+{
+  if (law_)
+    law_->check_order(order);
 }
 
 } // namespace gestell::mechanism

@@ -32,8 +32,9 @@ public:
   std::vector<Guard>       guards(const double *history) const override;
   void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void                     transition(int i, const LocalMotion &motion, double *history) const override;
-  bool                     command(const std::string &order, const LocalMotion &motion, double *history) const override;
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
+  void                     check_order(const Order &order) const override;
 
 protected:
   explicit ConstraintElement(std::shared_ptr<const MotionLaw> law) : law_(std::move(law)) {}

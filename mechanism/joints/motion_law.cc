@@ -8,7 +8,7 @@
 namespace gestell::mechanism
 {
 
-bool MotionLaw::command(const std::string &, double, double *) const
+bool MotionLaw::command(const Order &, double, double *) const
 {
   return false;
 }
@@ -119,9 +119,9 @@ void BrakedMotion::transition(int, double, double *history) const
   history[passed] += 1.;
 }
 
-bool BrakedMotion::command(const std::string &order, double t, double *history) const
+bool BrakedMotion::command(const Order &order, double t, double *history) const
 {
-  if (order != "brake")
+  if (order.name != "brake")
     return false;
   if (history[passed] >= 0.)
     return true; // brakes already
@@ -131,48 +131,80 @@ bool BrakedMotion::command(const std::string &order, double t, double *history) 
   return true;
 }
 
+void BrakedMotion::check_order(const Order &order) const
+{
+  require(std::isinf(order.rate) && std::isinf(order.rate_of_rate), "braked motion", "acceleration of the order",
+          order.rate, "left out: its key 'brake' tells how it brakes");
+}
+
 // --- a profile of the speed
 
-ProfileMotion::ProfileMotion(const Profile &speed) : speed_(speed)
+ProfileMotion::ProfileMotion(const Course &speed) : speed_(speed)
 {
-  double largest = 0.;
+  const Profile &profile = speed_.profile();
+  double         largest = 0.;
   for (const double level : speed_.levels())
     largest = std::max(largest, std::abs(level));
-  for (std::size_t piece = 0; speed_.ends(piece); ++piece)
+  for (std::size_t piece = 0; profile.ends(piece); ++piece)
   {
-    const double t = speed_.corner(piece), before = speed_.value(piece, t), behind = speed_.value(piece + 1, t);
+    const double t = profile.corner(piece), before = profile.value(piece, t), behind = profile.value(piece + 1, t);
     require(std::abs(behind - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed", behind - before,
             "zero: give its ramps a largest 'acceleration', as no finite force makes masses jump");
+  }
+  if (speed_.waits())
+  {
+    std::vector<double> history(speed_.n_history());
+    speed_.start(0., history.data());
+    const double before = speed_.at(0., true, history.data()).value, behind = profile.value(profile.piece_at(0.), 0.);
+    require(std::abs(behind - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed at its start",
+            behind - before, "zero: give ramps with a largest 'acceleration' from the initial speed on");
   }
 }
 
 void ProfileMotion::start(double t, double *history) const
 {
-  history[0] = t;
-  history[1] = double(speed_.piece_at(t));
+  speed_.start(t, history + 1);
+  history[0] = -speed_.integral(t, history + 1);
 }
 
 PrescribedMotion ProfileMotion::at(double t, const double *history) const
 {
-  const std::size_t piece = piece_of(history);
-  return {speed_.integral(piece, t) - speed_.integral(speed_.piece_at(history[0]), history[0]), speed_.value(piece, t),
-          speed_.rate(piece, t)};
-}
-
-std::vector<Guard> ProfileMotion::guards(const double *history) const
-{
-  return n_guards(history) > 0 ? std::vector<Guard>{{"next_segment", Crossing::rising}} : std::vector<Guard>{};
+  const auto speed = speed_.at(t, true, history + 1);
+  return {history[0] + speed_.integral(t, history + 1), speed.value, speed.rate};
 }
 
 void ProfileMotion::guard_values(double t, const double *history, double *g) const
 {
-  if (speed_.ends(piece_of(history)))
-    g[0] = t - speed_.corner(piece_of(history));
+  speed_.guard_values(t, history + 1, g);
 }
 
-void ProfileMotion::transition(int, double, double *history) const
+void ProfileMotion::transition(int i, double t, double *history) const
 {
-  history[1] += 1.;
+  speed_.transition(i, t, history + 1);
+}
+
+bool ProfileMotion::command(const Order &order, double t, double *history) const
+{
+  const double now = history[0] + speed_.integral(t, history + 1);
+  if (!speed_.command(order, t, history + 1))
+    return false;
+  history[0] = now - speed_.integral(t, history + 1);
+  return true;
+}
+
+std::vector<std::string> ProfileMotion::commands() const
+{
+  auto orders = Course::commands();
+  if (!speed_.waits()) // its speed would jump
+    orders.erase(std::find(orders.begin(), orders.end(), "start"));
+  return orders;
+}
+
+void ProfileMotion::check_order(const Order &order) const
+{
+  if (order.name == "set" || order.name == "brake")
+    require(std::isfinite(order.rate), "prescribed motion", "acceleration of the order \"" + order.name + "\"",
+            order.rate, "given: no finite force makes masses jump");
 }
 
 } // namespace gestell::mechanism

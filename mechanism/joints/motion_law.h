@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanism/course.h"
 #include "mechanism/position_function.h"
-#include "mechanism/profile.h"
 
 #include <string>
 #include <vector>
@@ -35,24 +35,10 @@ public:
   /// Goes on behind the corner of guard i at t.
   virtual void transition(int i, double t, double *history) const { (void)i, (void)t, (void)history; }
   /// Obeys an order of a switch ("brake") at t; false: the law knows no such order.
-  virtual bool                     command(const std::string &order, double t, double *history) const;
+  virtual bool                     command(const Order &order, double t, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
-};
-
-/// f(t) = speed (t - t_start)
-class ConstantSpeed : public MotionLaw
-{
-public:
-  explicit ConstantSpeed(double speed) : speed_(speed) {}
-  int              n_history() const override { return 1; } ///< t_start
-  void             start(double t, double *history) const override { history[0] = t; }
-  PrescribedMotion at(double t, const double *history) const override
-  {
-    return {speed_ * (t - history[0]), speed_, 0.};
-  }
-
-private:
-  double speed_;
+  /// @throws std::invalid_argument if the values of one of these orders are none for it
+  virtual void check_order(const Order &) const {}
 };
 
 /**
@@ -96,8 +82,9 @@ public:
   std::vector<Guard>       guards(const double *history) const override;
   void                     guard_values(double t, const double *history, double *g) const override;
   void                     transition(int i, double t, double *history) const override;
-  bool                     command(const std::string &order, double t, double *history) const override;
+  bool                     command(const Order &order, double t, double *history) const override;
   std::vector<std::string> commands() const override { return {"brake"}; }
+  void                     check_order(const Order &order) const override;
 
 private:
   bool brakes(const double *history) const; ///< and a corner is to come
@@ -106,25 +93,29 @@ private:
   std::vector<double> corners_; ///< [s] after t_brake, ascending; the last one ends the motion
 };
 
-/// f(t), the integral of a speed that follows a profile from t_start on; its corners are events "next_segment".
+/// f(t), the integral of a speed from t_start on, that follows a profile and obeys orders; its corners are events
+/// "next_segment".
 class ProfileMotion : public MotionLaw
 {
 public:
-  /// @param speed  [m/s or rad/s]; @throws std::invalid_argument if it jumps: no finite force makes a body do that
-  explicit ProfileMotion(const Profile &speed);
+  /// @param speed  [m/s or rad/s], a level or a profile
+  /// @throws std::invalid_argument if it jumps: no finite force makes a body do that
+  explicit ProfileMotion(const Course &speed);
 
-  int                n_history() const override { return 2; } ///< t_start; active piece
+  int                n_history() const override { return 1 + speed_.n_history(); } ///< what to add to the integral
   void               start(double t, double *history) const override;
   PrescribedMotion   at(double t, const double *history) const override;
-  int                n_guards(const double *history) const override { return speed_.ends(piece_of(history)) ? 1 : 0; }
-  std::vector<Guard> guards(const double *history) const override;
+  int                n_guards(const double *history) const override { return speed_.n_guards(history + 1); }
+  std::vector<Guard> guards(const double *history) const override { return speed_.guards(history + 1); }
   void               guard_values(double t, const double *history, double *g) const override;
   void               transition(int i, double t, double *history) const override;
 
-private:
-  static std::size_t piece_of(const double *history) { return static_cast<std::size_t>(history[1]); }
+  bool                     command(const Order &order, double t, double *history) const override;
+  std::vector<std::string> commands() const override; ///< "start" if it waits for it
+  void                     check_order(const Order &order) const override;
 
-  Profile speed_;
+private:
+  Course speed_;
 };
 
 /// f(t) by a formula or a table of the time, whose kinks are events.

@@ -234,6 +234,43 @@ TEST(Places, DrivesTurnRotorsPlanarBodiesAndAngles)
   }
 }
 
+// Between two planar bodies no torque comes from outside; the measure of their twist gives the same motion.
+TEST(Places, DrivesPushThemselvesOffPlanarBodies)
+{
+  const std::string drive  = "[element.drive]\ntype = \"speed drive\"\nspeed = \"100 rpm\"\nproportional_gain = 2\n";
+  const auto        bodies = run(discs + drive + "on = \"one\"\nto = \"two\"\n");
+  const double      w_1 = bodies.signal("w1").final, w_2 = bodies.signal("w2").final;
+  EXPECT_NEAR(0.2 * w_1 + 0.3 * w_2, 0.2 * 10., 1e-9);
+  EXPECT_NEAR(w_1 - w_2, 10. * M_PI / 3., 1e-4);
+  EXPECT_NEAR(run(discs + drive + "on = \"twist\"\n").signal("w1").final, w_1, 1e-9);
+}
+
+// Loads that turn with their body obey as all others do (3 N, then 1 N, at an arm of 0.4 m), and so do springs on
+// places.
+TEST(Places, LoadsOnPlacesObeySwitches)
+{
+  const auto thrust = [](const std::string &type, const std::string &order)
+  {
+    const auto motion = run(with_tip(type + "from = \"tip\"\ncarried_by = \"plate\"\ndirection = [0, 0, 1]\n" +
+                                     "[switch.less]\nwhen = \"t\"\nabove = \"0.2 s\"\ntell = \"load\"\n" + order));
+    expect_closed_balance(motion, 1e-6);
+    return motion;
+  };
+  for (const char *type : {"type = \"force\"\nconstant = 3\n", "type = \"force profile\"\nprofile = 3\n"})
+  {
+    const auto set = thrust(type, "order = \"set\"\nto = 1\n"), off = thrust(type, "order = \"off\"\n");
+    EXPECT_NEAR(set.signal("w").final, -0.4 / 0.5 * (3. * 0.2 + 1. * 0.3), 1e-9) << type;
+    EXPECT_EQ(set.signal("F").final, 1.) << type;
+    EXPECT_NEAR(off.signal("w").final, -0.4 / 0.5 * 3. * 0.2, 1e-9) << type;
+    EXPECT_EQ(off.signal("F").final, 0.) << type;
+  }
+  const std::string spring = "type = \"spring-damper\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\npreload = -3\n";
+  const auto        freed =
+      run(with_tip(spring + "[switch.off]\nwhen = \"tip.vz\"\nabove = 0.5\ntell = \"load\"\norder = \"off\"\n"));
+  EXPECT_NEAR(freed.signal("vz").final, 3. / 2. * time_of(freed, "switch"), 1e-9);
+  EXPECT_LT(time_of(freed, "switch"), 0.4);
+}
+
 TEST(Places, ASwitchWatchesAPlace)
 {
   const auto motion =
@@ -276,6 +313,9 @@ TEST(Places, WhatCannotActIsRefused)
   expect_complaint(load("type = \"asynchronous motor\"\non = \"height\"\n[measure.height]\ntype = \"along\"\nfrom = "
                         "\"tip\"\ndirection = [0, 0, 1]\n"),
                    "is a length");
+  const std::string motor = "[element.e]\ntype = \"speed drive\"\nspeed = 1\nproportional_gain = 1\n";
+  expect_complaint(discs + motor + "on = \"twist\"\nto = \"two\"\n", "element.e.to: is of no meaning");
+  expect_complaint(discs + point + motor + "on = \"one\"\nto = \"bob\"\n", "'bob' is a point");
   expect_complaint(point + "[element.e]\ntype = \"asynchronous motor\"\non = \"bob\"\n", "'bob' is no rotor");
   expect_complaint(plate + point +
                        "[measure.m]\ntype = \"along\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\ncarried_by = \"bob\"\n",

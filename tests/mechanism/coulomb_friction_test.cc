@@ -104,7 +104,7 @@ private:
   }
 
   CoulombFriction friction_;
-  double          t_ = 0., u_, v_, history_[2] = {};
+  double          t_ = 0., u_, v_, history_[8] = {};
 };
 
 // Half a period takes 2 R/c off the amplitude; the slide rests for good where |c u| <= R0.  The oscillator adds up
@@ -160,7 +160,8 @@ TEST(CoulombFriction, StickSlipOnABeltHasItsExactCycle)
 TEST(CoulombFriction, HoldsUpToItsStaticForceAndLetsGoTheWayItIsPulled)
 {
   const CoulombFriction friction({4., 6., 0.2});
-  double                history[2] = {7., 0.}, rate = 0.;
+  double                rate = 0., history[8] = {7.};
+  ASSERT_EQ(friction.n_history(), 8);
   friction.start(probe1(0., 0.2).motion(), history);
   ASSERT_TRUE(friction.holds(history, rate));
   EXPECT_EQ(rate, 0.2);
@@ -183,7 +184,7 @@ TEST(CoulombFriction, HoldsUpToItsStaticForceAndLetsGoTheWayItIsPulled)
 TEST(CoulombFriction, KeepsItsForceBeyondTheEndOfASlipWhenFollowedByHistory)
 {
   const CoulombFriction friction({4., 6., 0.});
-  const double          forward[2] = {1., 0.}, held[2] = {};
+  const double          forward[8] = {1.}, held[8] = {};
   EXPECT_EQ(force(friction, probe1(0., -1e-9), forward, true)[0], -4.);
   EXPECT_EQ(force(friction, probe1(0., -1e-9), forward, false)[0], 4.);
   EXPECT_EQ(force(friction, probe1(0., 0.), held, false)[0], 0.);

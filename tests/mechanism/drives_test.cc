@@ -114,7 +114,7 @@ TEST(ProfileForce, IsItsProfile)
   EXPECT_EQ(past(element, 0, probe, history.data()), 0.);
   element.transition(0, probe.motion(true), history.data());
   EXPECT_GT(force(element, probe.moved(0.1), history.data(), true)[0], 1.);
-  EXPECT_EQ(element.quantity(2, probe.motion(true), history.data()), 2.);
+  EXPECT_EQ(element.quantity(1, probe.motion(true), history.data()), 2.);
 }
 
 // --- drives
@@ -214,8 +214,7 @@ TEST(Stribeck, FallsFromTheStaticToTheKineticForce)
                   1e-9);
     }
   // Past the event the slip goes on along its tangent.
-  const double forward[] = {1., 0.};
-  EXPECT_NEAR(force(one, probe1(0., -0.01), forward, true)[0], -(4. + 2. * 1.1) + 0.02, 1e-12);
+  EXPECT_NEAR(force(one, probe1(0., -0.01), history.data(), true)[0], -(4. + 2. * 1.1) + 0.02, 1e-12);
   const RegularisedFriction smooth({4., 1e-3, 6., 0.1, 1., 2.});
   EXPECT_NEAR(force(smooth, probe1(0., 0.05), nullptr)[0], -(4. + 2. * std::exp(-0.5) + 0.1), 1e-12);
 }

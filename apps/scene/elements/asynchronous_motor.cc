@@ -15,7 +15,7 @@ mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table)
   return motor;
 }
 
-/// Measure: angle of the shaft.
+/// Measure: angle of the shaft, against the stator.
 void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto shaft = read_shaft(table, names);

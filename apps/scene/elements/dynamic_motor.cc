@@ -10,7 +10,7 @@ namespace gestell::apps
 /// Of asynchronous motors, stationary or dynamic.
 mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table);
 
-/// Measures: angle of the shaft; the torque, a lag.
+/// Measures: angle of the shaft, against the stator; the torque, a lag.
 void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto shaft = read_shaft(table, names);

@@ -1,5 +1,4 @@
-#include "mechanism/elements/harmonic_force.h"
-
+#include "apps/scene/read_switches.h"
 #include "apps/scene/relative_motion.h"
 
 #include <cmath>
@@ -28,10 +27,9 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
     scene.loads.push_back(load);
     return;
   }
-  mechanism::HarmonicForce::Parameters force{load.constant, {}, motion.rotation};
-  for (const coupling::Oscillation &part : load.oscillations)
-    force.oscillations.push_back({part.omega, part.amplitude, part.phase});
-  add_element_on(scene, table, std::make_shared<mechanism::HarmonicForce>(force), motion);
+  const ElementRequest element = element_of(load);
+  add_element_on(scene, table, element.element, motion);
+  scene.elements.back().levels = element.levels;
 }
 
 } // namespace gestell::apps

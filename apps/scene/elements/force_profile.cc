@@ -14,9 +14,11 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
   const double from   = table.number("initial", kind, 0.);
   if (!table.has("profile"))
     throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
-  const auto profile = read_profile(table, "profile", level_profile(kind, kind.example), from);
+  const ProfileKeys keys    = level_profile(kind, kind.example);
+  const auto        profile = read_free_course(table, "profile", keys, from);
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }),
                  motion);
+  scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
 }
 
 } // namespace gestell::apps

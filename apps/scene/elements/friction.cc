@@ -101,8 +101,10 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
     throw table.error("needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" "
                       "}]");
   const double from = table.not_negative("initial_engagement", kind::number, 0.);
-  brake.engagement  = read_profile(table, "engagement", level_profile(kind::number, "5"), from);
+  const auto   keys = level_profile(kind::number, "5");
+  brake.engagement  = read_course(table, "engagement", keys, from);
   add_friction(table, motion, brake, scene);
+  scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
 }
 
 void read_clutch(const SceneTable &table, const Names &names, Scene &scene)

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "mechanism/force_element.h"
+
+#include <memory>
+
+namespace gestell::mechanism
+{
+
+/**
+ * A force element that the orders "off" and "on" of switches take out of the machine and put back.
+ *
+ * Off: p = 0, it holds nothing and has no events; its virtual coordinates fade away.  What it had stored is dissipated
+ * at that instant.  On: it begins anew, as it does at the start of a run; energy it brings along (of a spring that is
+ * tight already) does not count, its store begins with zero.  All other orders are its own, and it obeys them while it
+ * is off, too.
+ *
+ * Source: docs/theory/switches.md.
+ */
+class SwitchedElement : public ForceElement
+{
+public:
+  enum class Begin
+  {
+    on,
+    off
+  };
+
+  SwitchedElement(std::shared_ptr<const ForceElement> law, Begin begin);
+
+  const ForceElement &law() const { return *law_; }
+
+  int n_measures() const override { return law_->n_measures(); }
+  /// history: 1 where it is not as it began; energy it brought along [J]; that of the law.
+  int  n_history() const override { return n_slots + law_->n_history(); }
+  void start(const LocalMotion &motion, double *history) const override;
+  void force(const LocalMotion &motion, const double *history, double *p) const override;
+  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
+               double *dp) const override;
+  void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
+                   double *dp_dv) const override;
+  bool holds(const double *history, double &rate) const override;
+  /// As it begins.
+  void engaged(const double *u, double *K, double *D) const override;
+  void stiffest(const double *u, double *K, double *D) const override { law_->stiffest(u, K, D); }
+  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+
+  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override;
+  void                     check_order(const Order &order) const override { law_->check_order(order); }
+  void                     accept(const LocalMotion &motion, double *history) const override;
+  double                   stored_energy(const LocalMotion &motion, const double *history) const override;
+  Work                     work() const override { return law_->work(); }
+  double                   penetration(const LocalMotion &motion) const override;
+
+  std::vector<Guard> guards(const double *history) const override;
+  int                n_guards(const double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+
+  std::vector<Quantity> quantities() const override { return law_->quantities(); }
+  /// Forces, torques and powers are zero while it is off.
+  double quantity(int i, const LocalMotion &motion, const double *history) const override;
+
+private:
+  enum Slot
+  {
+    changed,
+    brought,
+    n_slots
+  };
+  bool is_on(const double *history) const { return (begin_ == Begin::on) == (history[changed] == 0.); }
+  std::shared_ptr<const ForceElement> law_;
+  Begin                               begin_;
+  std::vector<char>                   is_force_; ///< by quantity: zero while it is off
+};
+
+} // namespace gestell::mechanism
