@@ -67,7 +67,7 @@ TEST_P(Switches, PutASpringIn)
   EXPECT_NEAR(motion.signal("x").final, 0.005 * std::cos(s) + 0.05 * std::sin(s), 2e-6);
   EXPECT_NEAR(motion.signal("F").final, 800. * motion.signal("x").final, 1e-9);
   EXPECT_LT(std::abs(motion.result.energy.dissipated), 1e-5); // although the spring came tight
-  EXPECT_LT(std::abs(motion.result.energy.residual), 1e-6);   // [J] of 1 J that goes to and fro
+  EXPECT_LT(std::abs(motion.result.energy.residual), 1e-6); // [J] of 1 J that goes to and fro
 }
 
 const std::string motor = "[element.motor]\ntype = \"force profile\"\nfrom = \"shaft\"\nprofile = \"20 N m\"\n";
@@ -102,22 +102,6 @@ TEST(Switches, GiveSeveralOrdersAtOnce)
                                            "order = \"off\" }, { tell = \"brake\", order = \"on\" }]\n"));
   EXPECT_NEAR(time_of(motion, "stick"), 0.8 + 8. / 25., 1e-9);
   EXPECT_EQ(count(motion, "switch"), 1);
-}
-
-// The example: the overload opens the clutch, the brake falls in 30 ms later and stops the crank that springs back.
-TEST(Switches, StopThePress)
-{
-  const SceneRun motion("press_emergency_stop.toml");
-  const double   trip = time_of(motion, "switch");
-  EXPECT_NEAR(time_of(motion, "orders"), trip + 0.03, 1e-9);
-  EXPECT_GT(time_of(motion, "stick"), trip + 0.03);
-  EXPECT_GT(motion.signal("F_P").max, 1.3e6);
-  EXPECT_EQ(motion.signal("M_T").final, 0.);
-  EXPECT_NEAR(motion.signal("M_B").min, -60e3, 1e-6);
-  EXPECT_LT(std::abs(motion.signal("M_B").final), 75e3);
-  EXPECT_LT(std::abs(motion.signal("w").final), 1e-9);
-  EXPECT_NEAR(motion.signal("w_fly").final, 3.1458, 1e-4); // no torque on the flywheel any more, from trip on
-  expect_closed_balance(motion, 1e-5);
 }
 
 // --- courses
