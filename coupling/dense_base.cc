@@ -110,6 +110,20 @@ void scatter(const VectorXd &from, const std::vector<int> &which, VectorXd &x)
     x[which[i]] = from[Eigen::Index(i)];
 }
 
+/// y = A x + B z; few rows are multiplied without the overhead that products of large matrices have.
+void sum_of_products(const MatrixXd &A, const VectorXd &x, const MatrixXd &B, const VectorXd &z, VectorXd &y)
+{
+  constexpr Eigen::Index few = 32;
+  if (y.size() <= few)
+  {
+    y.noalias() = A.lazyProduct(x);
+    y.noalias() += B.lazyProduct(z);
+    return;
+  }
+  y.noalias() = A * x;
+  y.noalias() += B * z;
+}
+
 /// (5.5.3/4-7) for a diagonal A_LL:  G = A_LL^-1 A_LN,  q_N = A_red^-1 (f_N - G^T f_L),  q_L = A_LL^-1 f_L - G q_N.
 class CondensedSolver final : public LinearSolver
 {
@@ -165,8 +179,7 @@ public:
       x_L_ = inverse_LL_.cwiseProduct(h_L + f_L);
       subtract_A_NL_times(x_L_, f_N_);
     }
-    x_N_.noalias() = of_h_ * h_N_;
-    x_N_.noalias() += A_red_inverse_ * f_N_;
+    sum_of_products(of_h_, h_N_, A_red_inverse_, f_N_, x_N_);
     scatter(x_N_, N_, x);
   }
 
