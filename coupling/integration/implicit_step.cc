@@ -66,6 +66,9 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   {
     options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
     options_.share_of_error *= share_of_joints;
+    // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
+    if (system.forces_need_multipliers())
+      options_.share_of_error = 0.;
   }
   const int n_u = static_cast<int>(system.directions().cols());
   xi_.setZero(n_u);
