@@ -92,7 +92,7 @@ coupling::RunResult shock(int n_rows)
 
 coupling::Mode mode(double f, double zeta, const Eigen::VectorXd &shape)
 {
-  return {f, f * std::sqrt(1. - zeta * zeta), zeta, {100., 0., 2. / 3.}, shape};
+  return {f, f * std::sqrt(1. - zeta * zeta), zeta, {100., 0., 2. / 3.}, 0., shape};
 }
 
 } // namespace
