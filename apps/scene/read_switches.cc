@@ -96,9 +96,9 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
       throw table.error("tell", "'" + name + "' is a mass, which cannot be switched");
   for (const JointRequest &joint : scene.joints)
     if (joint.name == name && (order == "on" || order == "off"))
-      throw table.error("order", "'" + name +
-                                     "' is an ideal joint, which always holds; where it shall let go, use a \"clutch\" "
-                                     "or a \"spring-damper\" instead");
+      throw table.error("order", "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
+                                     " joint, which always holds; where it shall let go, use a \"clutch\" or a "
+                                     "\"spring-damper\" instead");
 }
 
 std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)

@@ -326,6 +326,11 @@ TEST(Switches, RefuseWhatElementsCannotObey)
   const std::string feed = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = 1 }\n";
   expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"off\"\n"),
                    "is an ideal joint");
+  const std::string pin =
+      "[body.bob]\ntype = \"point\"\nmass = 1\nposition = [0, 0, 0]\n[joint.pin]\ntype = \"spherical\"\n"
+      "from = \"ground\"\nto = \"bob\"\nat = [0, 0, 0]\nstiffness = 1e6\n";
+  expect_complaint(slider(2., "1 s") + pin + switched("s", at_time + "tell = \"pin\"\norder = \"off\"\n"),
+                   "is a compliant joint");
   expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\n"),
                    "no finite force makes masses jump");
   const std::string jumps =
