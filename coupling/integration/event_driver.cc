@@ -9,6 +9,8 @@ namespace gestell::coupling
 
 namespace
 {
+constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
+
 /// To what an event at t in a step of length h is located: far below what any step's error does to its time.
 double resolution(double t, double h)
 {
@@ -164,14 +166,15 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
   crossing.t     = high;
 }
 
-/// Begin, middle and end of the step tell that no guard comes near zero between them: the parabola through them stays
-/// away by more than twice what it moves, the part that bends counted fourfold.
+/// Begin, end and one instant between them tell that no guard comes near zero: the parabola through them stays away by
+/// more than twice what it moves, the part that bends counted sixfold.  That instant is not the middle, where a rise in
+/// one half and a fall in the other would hide: c s (s - 1/2) (s - 1) is nowhere larger than 1.7 times there.
 bool EventDriver::far_from_zero() const
 {
   for (int i = 0; i < system_.n_guards(); ++i)
   {
-    const double s = sign(i), begin = s * g_[0][i], inside = s * g_[middle][i], end = s * g_[n_inside + 1][i];
-    const double way = std::abs(end - begin) + 4. * std::abs(inside - 0.5 * (begin + end));
+    const double s = sign(i), begin = s * g_[0][i], inside = s * probe_[i], end = s * g_[n_inside + 1][i];
+    const double way = std::abs(end - begin) + 6. * std::abs(inside - begin - off_middle * (end - begin));
     if (!(std::max({begin, inside, end}) < -2. * way))
       return false;
   }
@@ -197,12 +200,12 @@ bool EventDriver::first_crossing(Crossing &first)
   };
   system_.guard_values(before_, g_[0]);
   system_.guard_values(integrator_.local(), g_[last]);
-  sample(middle);
+  integrator_.interpolate(begin + off_middle * (end - begin), between_);
+  system_.guard_values(between_, probe_);
   if (far_from_zero())
     return false;
   for (int k = 1; k < last; ++k)
-    if (k != middle)
-      sample(k);
+    sample(k);
 
   first.t = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n; ++i)

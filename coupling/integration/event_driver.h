@@ -69,7 +69,7 @@ private:
   void   observe() const;
   void   make_room();
 
-  static constexpr int n_inside = 3, middle = 2; ///< samples inside a step
+  static constexpr int n_inside = 3; ///< samples inside a step
 
   SecondOrderSystem                        &system_;
   TimeIntegrator                           &integrator_;

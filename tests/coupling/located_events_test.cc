@@ -118,6 +118,19 @@ TEST_P(WallSpring, EventsOfExactPropagationAreRightToTheNanosecond)
   EXPECT_LT(largest_time_error(events, expected), 1e-9);
 }
 
+// A whole period in one step: begin, middle and end are alike, and the wall is reached and left between them.
+TEST(LocatedEvents, AreNotMissedWhereBeginMiddleAndEndOfAStepAreAlike)
+{
+  const double  omega = 2. * M_PI, way = 0.9;
+  WallSystem    system({"", 1., 0., omega * omega, 0., 1., 0., way, 0., 0., omega, 1.});
+  MethodOptions method = exact(0.);
+  method.step          = 1.;
+  const auto events    = run(system, method, Vector::Zero(1), Vector::Constant(1, omega), 1.);
+  ASSERT_GE(events.size(), 2u); // at the level itself rounding may turn the guard once more
+  EXPECT_NEAR(events.front().t, std::asin(way) / omega, 1e-9);
+  EXPECT_NEAR(events.back().t, 0.5 - std::asin(way) / omega, 1e-9);
+}
+
 TEST_P(WallSpring, EventsOfBdf2ComeWithItsOrder)
 {
   const Wall  &wall     = GetParam();
