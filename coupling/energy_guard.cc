@@ -19,19 +19,20 @@ constexpr double of_begin = 1e-6; ///< what iterations leave of the energy at th
 void EnergyGuard::step(const EnergyState &state, double size)
 {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  if (!std::isfinite(state.input + state.stored + state.dissipated + state.kinetic + state.forces + size))
+    throw ConvergenceFailure("the motion grew beyond all numbers: its energy is none");
   ++steps_;
-  through_ += std::abs(state.input - input_) + std::abs(state.dissipated - dissipated_);
-  input_      = state.input;
-  dissipated_ = state.dissipated;
-  largest_    = std::max({largest_, state.kinetic, std::abs(state.stored)});
-  rounding_   = std::max(rounding_, epsilon * state.forces * std::max(size, 1.));
-  loss_       = std::max(loss_, state.residual());
-  gain_       = std::max(gain_, -state.residual());
+  input_.add(state.input);
+  dissipated_.add(state.dissipated);
+  largest_  = std::max({largest_, state.kinetic, std::abs(state.stored)});
+  rounding_ = std::max(rounding_, epsilon * state.forces * std::max(size, 1.));
+  loss_     = std::max(loss_, state.residual());
+  gain_     = std::max(gain_, -state.residual());
 }
 
 double EnergyGuard::exchanged() const
 {
-  return std::max(largest_, through_);
+  return std::max(largest_, input_.length() + dissipated_.length());
 }
 
 double EnergyGuard::residual() const

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/energy_balance.h"
 
+#include <algorithm>
 #include <string>
 
 namespace gestell::coupling
@@ -10,11 +11,11 @@ namespace gestell::coupling
 /**
  * Says whether the energy balance of a run is open: its residual against the energy that the motion exchanges,
  *
- *     E = max( kinetic energy that coordinates gained or lost, |stored|, sum |d input| + sum |d dissipated| ),
+ *     E = max( kinetic energy that coordinates gained or lost, |stored|, range of input + range of dissipated ),
  *
  * the largest of each so far.  A vibration that goes on for long is so measured by its own energy, a machine that is
- * driven by the work that went through it.  Below the rounding of N steps, N epsilon sum|f| max(|q|, 1), or a
- * millionth of the energy it began with, nothing is open.
+ * driven by the work that went through it; what a load gives and takes back in every period adds nothing.  Below the
+ * rounding of N steps, N epsilon sum|f| max(|q|, 1), or a millionth of the energy it began with, nothing is open.
  *
  * Source: docs/theory/integration.md (11a).
  */
@@ -33,6 +34,7 @@ public:
 
   /// Once per step.
   /// @param size  largest |q|
+  /// @throws ConvergenceFailure if the energy is no finite number
   void step(const EnergyState &state, double size);
 
   double      exchanged() const; ///< E [J]
@@ -41,9 +43,19 @@ public:
   std::string words() const; ///< what is open, empty if closed
 
 private:
+  /// Of a quantity that begins with zero.
+  struct Range
+  {
+    double least = 0., most = 0.;
+
+    void   add(double value) { least = std::min(least, value), most = std::max(most, value); }
+    double length() const { return most - least; }
+  };
+
   double at_begin_ = 0.;
   double gain_ = 0., loss_ = 0.; ///< largest -residual and residual
-  double largest_ = 0., through_ = 0., rounding_ = 0., input_ = 0., dissipated_ = 0.;
+  double largest_ = 0., rounding_ = 0.;
+  Range  input_, dissipated_;
   long   steps_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace gestell::tests
 {
@@ -106,6 +107,35 @@ TEST(EnergyGuard, WorkThatGoesThroughIsTheMeasureOfADrivenMachine)
   EXPECT_NEAR(guard.exchanged(), 1998., 1e-9);
   EXPECT_EQ(guard.verdict(), Verdict::closed);
   EXPECT_EQ(guard.words(), "");
+}
+
+TEST(EnergyGuard, WhatALoadGivesAndTakesBackIsNoWorkThatGoesThrough)
+{
+  // 1 J in and out in each of 1000 periods, of which a thousandth is lost every time: all of the joule in the end.
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 1000; ++k)
+    for (const double input : {1., 0.})
+    {
+      state.input  = input;
+      state.stored = input - 1e-3 * k;
+      guard.step(state, 1.);
+    }
+  EXPECT_NEAR(guard.exchanged(), 1., 1e-9);
+  EXPECT_EQ(guard.verdict(), Verdict::open);
+}
+
+TEST(EnergyGuard, AnEnergyThatIsNoNumberEndsTheRun)
+{
+  for (double EnergyState::*part : {&EnergyState::input, &EnergyState::stored, &EnergyState::dissipated})
+    for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
+    {
+      EnergyGuard guard;
+      EnergyState state;
+      guard.step(state, 1.);
+      state.*part = value;
+      EXPECT_THROW(guard.step(state, 1.), ConvergenceFailure);
+    }
 }
 
 TEST(EnergyGuard, RoundingOfManyStepsIsNoError)
