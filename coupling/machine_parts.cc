@@ -230,12 +230,12 @@ void Machine::Parts::place_elements(int n)
     {
       placed.back().first_constraint = placed.back().first_multiplier = n_constraints;
       joints.push_back(int(placed.size()) - 1);
-      joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->constraint_size()});
+      joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->size_of_terms()});
       n_constraints += n_c;
     }
     else
     {
-      force_blocks.push_back({n_measures, k});
+      force_blocks.push_back({n_measures, k, placement.element->size_of_terms()});
       if (placement.joint >= 0)
         placed.back().first_multiplier = placed[placement.joint].first_constraint;
     }

@@ -136,8 +136,9 @@ public:
   virtual void constraint(const LocalMotion &motion, const double *history, double *g, double *G) const;
   /// g' = G u' + rate, g'' = G u'' + bias; [n_c] each.
   virtual void constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const;
-  /// Size [m, rad] of the numbers whose difference g is: rounding leaves so much times epsilon of it.
-  virtual double      constraint_size() const { return 1.; }
+  /// Size [m, rad] of the numbers whose difference g is, or the motion that the force depends on: rounding leaves so
+  /// much times epsilon of it.  Zero: that motion is the measures themselves.
+  virtual double      size_of_terms() const { return n_constraints() > 0 ? 1. : 0.; }
   virtual std::string constraint_name(int i) const { return (void)i, ""; }
 
   /// Obeys an order of a switch at the motion where it is given; false: the element knows no such order.

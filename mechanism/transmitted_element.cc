@@ -34,6 +34,14 @@ TransmittedElement::TransmittedElement(const Placement &first, const Placement &
           "at most " + std::to_string(max_seen));
 }
 
+double TransmittedElement::size_of_terms() const
+{
+  double size = law_->size_of_terms();
+  for (const CombinedMeasure &measure : measures_)
+    size = std::max(size, measure.size());
+  return size;
+}
+
 TransmittedElement::Seen TransmittedElement::see(const LocalMotion &motion, const double *history) const
 {
   Seen      seen;

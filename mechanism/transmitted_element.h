@@ -54,6 +54,7 @@ public:
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;
   void accept(const LocalMotion &motion, double *history) const override;
 
+  double size_of_terms() const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
   double penetration(const LocalMotion &motion) const override;

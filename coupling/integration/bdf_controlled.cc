@@ -17,7 +17,6 @@ constexpr int    most_rungs_below = 60;
 constexpr int    first_rung       = 5;    ///< tried at the begin of a run
 constexpr double newton_part      = 1e-2; ///< of the tolerance
 constexpr double finest_newton    = 1e-12;
-constexpr double joint_rounding   = 8.; ///< times that of one number: several terms, enlarged by levers
 template <typename Value>
 void require(bool valid, const char *option, Value value, const char *needed)
 {
@@ -247,11 +246,7 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   const StepForm                 form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   const ImplicitStep::Condensed &condensed = implicit_.condensed(form, work_);
   implicit_.solve(condensed, f_, base_, x_, local_, work_);
-  moved_ = condensed.S.diagonal().cwiseProduct(local_.p);
-  // Joints are closed up to rounding of the places they join.
-  for (const ConstraintBlock &block : system_.constraint_blocks())
-    for (int k = block.first_measure; k < block.first_measure + block.n_measures; ++k)
-      moved_[k] = std::max(std::abs(moved_[k]), joint_rounding * block.size);
+  moved_                         = condensed.S.diagonal().cwiseProduct(local_.p);
   z.head(n_)                     = h_q_ + x_;
   z.segment(n_, n_)              = h_v_ + inverse * x_;
   z.segment(2 * n_, n_u_)        = local_.u;

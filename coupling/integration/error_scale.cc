@@ -14,6 +14,7 @@ namespace
 constexpr double rounding      = 8. * std::numeric_limits<double>::epsilon();
 constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
 constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
+constexpr double terms         = 8.;    ///< rounding of numbers that are the sum of several, enlarged by levers
 constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
 constexpr double rigid         = 1e-7;  ///< modes below this part of the highest frequency are rigid motions
 constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
@@ -45,6 +46,7 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   find_masses();
   find_groups();
   find_ends();
+  find_noise();
   const auto n = m_.size(), n_u = system.directions().cols(), n_ends = Eigen::Index(end_index_.size());
   for (Eigen::VectorXd *x : {&q_begin_, &v_begin_})
     x->setZero(n);
@@ -185,6 +187,36 @@ void ErrorScale::find_ends()
         virtual_measures_.push_back(j);
 }
 
+/// What joints and forces leave of the sizes of their terms in their own measures, from there in the coordinates, and
+/// so in all measures of these.
+void ErrorScale::find_noise()
+{
+  noise_.setZero(ends_.cols());
+  const auto own = [this](int first, int n, double size) { noise_.segment(first, n).setConstant(terms * size); };
+  for (const ConstraintBlock &block : system_.constraint_blocks())
+    own(block.first_measure, block.n_measures, block.size);
+  for (const ForceBlock &block : system_.force_blocks())
+    own(block.first_measure, block.n_measures, block.size);
+  for (const int j : virtual_measures_)
+    noise_[j] = 0.;
+
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(ends_.rows()); // of the coordinates, as its root
+  noise_of_groups_.assign(n_groups_, 0.);
+  for (int j = 0; j < ends_.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
+      energy[it.row()] = std::max(energy[it.row()], root_mass_[j] * noise_[j]);
+  for (int j = 0; j < ends_.outerSize(); ++j)
+  {
+    double of_ends = 0.;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
+      if (const double m = m_[end_index_[it.row()]]; m > 0.)
+        of_ends = std::max(of_ends, it.value() * energy[it.row()] / std::sqrt(m));
+    noise_[j] = std::max(noise_[j], of_ends);
+  }
+  for (std::size_t k = 0; k < end_index_.size(); ++k)
+    noise_of_groups_[end_group_[k]] = std::max(noise_of_groups_[end_group_[k]], energy[Eigen::Index(k)]);
+}
+
 /// sum m_i (x_i - from_i)^2 of each group; returns their sum.
 double ErrorScale::energy(const Vector &x, const Vector *from, std::vector<double> &sums) const
 {
@@ -278,7 +310,7 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
   energy(to.q, nullptr, sums_);
   energy(to.v, nullptr, sums_v_);
   energy(to.v, &from.v, changes_);
-  std::fill(moved_.begin(), moved_.end(), 0.);
+  moved_ = noise_of_groups_;
   for (int j = 0; j < ends_.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
@@ -294,8 +326,8 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
   for (int j = 0; j < ends_.outerSize(); ++j)
   {
     double way = 0., speed = 0.;
-    double size = std::max(std::abs(to.u[j]), std::abs(moved[j]));
-    double rate = std::max(std::abs(to.u_rate[j]), std::abs(moved[j]) / h);
+    double size = std::max({std::abs(to.u[j]), std::abs(moved[j]), noise_[j]});
+    double rate = std::max({std::abs(to.u_rate[j]), std::abs(moved[j]) / h, noise_[j] / h});
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
       way += it.value() * bounded(scale_.end_q[it.row()], scale_.end_v[it.row()]);

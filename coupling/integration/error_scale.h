@@ -30,7 +30,8 @@ namespace gestell::coupling
  *
  * A group does not count for less than 1e-6 of the one that moves most: bodies at rest have no scale of their own.
  * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
- * and what forces that balance each other would do alone.
+ * what forces that balance each other would do alone, and the numbers whose difference a joint closes or a force
+ * depends on: l - l cos(phi) knows an angle below 1e-8 no more.
  */
 class ErrorScale
 {
@@ -92,6 +93,7 @@ private:
   void        find_masses();
   void        find_groups();
   void        find_ends();
+  void        find_noise();
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
   void        set_scales(double h, const Motion &from, const Motion &to, const Vector &moved);
 
@@ -103,14 +105,16 @@ private:
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
   std::vector<int>            end_group_; ///< and their groups
-  std::vector<int> virtual_measures_;     ///< their rates follow from them and are rounding in short steps: not judged
-  Eigen::VectorXd  root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
-  Eigen::VectorXd  q_begin_, v_begin_, u_begin_, rate_begin_;
-  Excursions       accepted_, reached_; ///< before and after the step that is considered
-  Excursions       expected_, scale_;   ///< of a step refused; reached or expected
-  double           t_ = 0., expected_until_ = 0.;
-  Eigen::VectorXd  inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
-  mutable std::vector<double> sums_, sums_v_, changes_, moved_;       // [groups]
+  std::vector<int>    virtual_measures_;  ///< their rates follow from them and are rounding in short steps: not judged
+  Eigen::VectorXd     root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
+  Eigen::VectorXd     noise_; ///< of the numbers that leave rounding in the measures, times the number of terms [n_u]
+  Eigen::VectorXd     q_begin_, v_begin_, u_begin_, rate_begin_;
+  Excursions          accepted_, reached_; ///< before and after the step that is considered
+  Excursions          expected_, scale_;   ///< of a step refused; reached or expected
+  double              t_ = 0., expected_until_ = 0.;
+  Eigen::VectorXd     inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
+  std::vector<double> noise_of_groups_;                                  ///< as noise_, in the energy norm [groups]
+  mutable std::vector<double> sums_, sums_v_, changes_, moved_;          // [groups]
 };
 
 /// Frequency [rad/s] of the slowest elastic mode of a spectrum; infinite if there is none.

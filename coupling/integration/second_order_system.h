@@ -60,7 +60,8 @@ struct HeldMeasure
 /// The measures of one force element: its block of dp/du.
 struct ForceBlock
 {
-  int first_measure, n_measures;
+  int    first_measure, n_measures;
+  double size = 0.; ///< of the numbers [m, rad] whose difference the motion is that the force depends on; 0: of u alone
 };
 
 /// Numbers in all blocks of dp/du together.

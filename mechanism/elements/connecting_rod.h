@@ -59,6 +59,7 @@ public:
   void   start(const LocalMotion &motion, double *history) const override;
   void   engaged(const double *u, double *K, double *D) const override;
   bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+  double size_of_terms() const override { return parameters_.crank_radius + parameters_.length; }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
 
   int                n_guards(const double *history) const override;

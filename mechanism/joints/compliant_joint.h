@@ -47,6 +47,7 @@ public:
   void engaged(const double *u, double *K, double *D) const override;
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;
 
+  double size_of_terms() const override { return first_.size() + second_.size(); }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
 
   /// Signals as those of the ideal joint: every lambda by the name of its equation, then "resultant".

@@ -74,7 +74,7 @@ double IdealJoint::driven_value(const double *u) const
   return 0.;
 }
 
-double IdealJoint::constraint_size() const
+double IdealJoint::size_of_terms() const
 {
   double size = first_.size() + second_.size();
   for (const Equation &equation : equations_)

@@ -41,7 +41,7 @@ public:
 
   void   constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
   void   constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const override;
-  double constraint_size() const override;
+  double size_of_terms() const override;
   void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
   std::string constraint_name(int i) const override { return equations_[i].name; }
 

@@ -56,7 +56,7 @@ double MeasureJoint::driven_value(const double *u) const
   return measure().evaluate(u, at_rest, G).s;
 }
 
-double MeasureJoint::constraint_size() const
+double MeasureJoint::size_of_terms() const
 {
   return std::max(measure().size(), std::abs(parameters_.offset));
 }
