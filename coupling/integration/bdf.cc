@@ -90,6 +90,7 @@ void Bdf::set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 /// Starts at past(0), of which q, v, u, u' are known.
 void Bdf::begin_from(double t)
 {
+  implicit_.forget_contraction();
   t_begin_     = t;
   index_       = 0;
   n_past_      = 1;

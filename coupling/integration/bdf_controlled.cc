@@ -155,6 +155,7 @@ void BdfControlled::restart()
   cut_     = false;
   fresh_   = true;
   t_begin_ = t_end_ = local_.t;
+  implicit_.forget_contraction();
   system_.local_force(local_, local_.p);
   ++work_.evaluations;
   if (is_implied() && has_consistent())

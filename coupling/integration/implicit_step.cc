@@ -11,8 +11,9 @@ namespace gestell::coupling
 namespace
 {
 constexpr double rounding         = 8. * std::numeric_limits<double>::epsilon();
-constexpr double joint_rounding   = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double sum_rounding     = 8.;   ///< times that of one number: several terms, enlarged by levers
 constexpr double share_of_joints  = 1e-3; ///< of the tolerance
+constexpr double most_left        = 1e-7; ///< of the excursion of a measure, however large the local error is
 constexpr double finest_tolerance = 1e-13;
 constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
 } // namespace
@@ -59,13 +60,15 @@ bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
 } // namespace
 
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
-    : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks())
+    : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks()),
+      most_left_(most_left)
 {
   // What positions are wrong by, multipliers are by m/h^2 times that.
   if (G_.n_rows() > 0)
   {
     options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
     options_.share_of_error *= share_of_joints;
+    most_left_ *= share_of_joints;
     // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
     if (system.forces_need_multipliers())
       options_.share_of_error = 0.;
@@ -75,6 +78,7 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   xi_free_.setZero(n_u);
   residual_.setZero(n_u);
   correction_.setZero(n_u);
+  first_correction_.setZero(n_u);
   u_begin_.setZero(n_u);
   scale_.setZero(n_u);
   scale_before_.setZero(n_u);
@@ -92,9 +96,29 @@ void ImplicitStep::begin(const Eigen::VectorXd &u)
 {
   u_begin_ = u;
   scale_.setZero();
-  contraction_ = unknown_contraction;
-  seen_ = seen_size_ = 1.;
-  levers_age_        = 0;
+  // At rest nothing but rounding moves a measure: that of the numbers whose difference a force depends on.
+  for (const ForceBlock &block : force_blocks_)
+    scale_.segment(block.first_measure, block.n_measures)
+        .setConstant(sum_rounding * rounding / options_.tolerance * block.size);
+  levers_age_ = 0;
+  forget_contraction();
+}
+
+void ImplicitStep::forget_contraction()
+{
+  contraction_ = seen_ = seen_size_ = unseen_contraction;
+  unseen_                           = 0;
+}
+
+/// Newton contracts less in a longer step, and a prediction over another length errs by another amount.
+void ImplicitStep::note_form(const StepForm &form)
+{
+  if (form.time == form_time_)
+    return;
+  if (form.time > form_time_)
+    contraction_ = unseen_contraction;
+  form_time_ = form.time;
+  seen_ = seen_size_ = unseen_contraction;
 }
 
 const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, IntegrationWork &work)
@@ -164,12 +188,12 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, boo
     const auto             G     = static_cast<const ConstraintJacobian &>(G_)[b];
     const double           least = weak_lever * G.cwiseAbs().maxCoeff();
     if (least > 0.)
-      of_joints = std::max(of_joints, joint_rounding * left * block.size * weak_lever / least);
+      of_joints = std::max(of_joints, sum_rounding * left * block.size * weak_lever / least);
     for (int k = 0; least > 0. && k < block.n_measures; ++k)
     {
       const double lever = std::max(least, G.col(k).cwiseAbs().maxCoeff());
       double      &scale = scale_[block.first_measure + k];
-      scale              = std::max(scale, joint_rounding * left * block.size / lever);
+      scale              = std::max(scale, sum_rounding * left * block.size / lever);
     }
   }
   scale_ = scale_.cwiseMax(of_joints);
@@ -185,17 +209,20 @@ double ImplicitStep::size_of_correction() const
 }
 
 /// What a correction leaves, by what the one before it left.  Newton's corrections shrink the faster the smaller they
-/// are; one that is larger than that seen last is thought to leave more in proportion.  Nothing is thought of one that
-/// has suddenly grown, as where a law bends.
+/// are; one that is larger than that seen last is thought to leave more in proportion.  Of one that has suddenly grown,
+/// as where a law bends, and where nothing has been seen yet, only the next one tells.
 double ImplicitStep::remaining(int iteration, double size, double size_before)
 {
   double contraction = contraction_;
   if (iteration > 0 && size_before > 0.)
   {
     contraction = contraction_ = std::clamp(size / size_before, 1e-4, 1.);
-    seen_                      = size / size_before;
-    seen_size_                 = size_before;
-    unseen_                    = 0;
+    if (good_predictions_)
+    {
+      seen_      = size / size_before;
+      seen_size_ = size_before;
+      unseen_    = 0;
+    }
   }
   else if (good_predictions_ && unseen_ < most_unseen && size < sudden_growth * first_size_)
   {
@@ -208,13 +235,32 @@ double ImplicitStep::remaining(int iteration, double size, double size_before)
   return std::min(size, left);
 }
 
+/// A share of the first correction is taken for each measure by itself: in the first iteration that of the largest one
+/// says the same of all.
+bool ImplicitStep::is_converged(int iteration, double size, double remaining) const
+{
+  if (remaining <= options_.tolerance)
+    return true;
+  if (!good_predictions_ || remaining > most_left_)
+    return false;
+  if (iteration == 0)
+    return remaining <= options_.share_of_error * size;
+  const double part = remaining / size;
+  for (Eigen::Index j = 0; j < correction_.size(); ++j)
+    if (part * std::abs(correction_[j]) >
+        std::max(options_.tolerance * scale_[j], options_.share_of_error * std::abs(first_correction_[j])))
+      return false;
+  return true;
+}
+
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
 {
   const StepForm &form        = condensed.form;
   const auto     &held        = system_.held();
   const bool      joints      = G_.n_rows() > 0;
   bool            turned      = joints; // G has, since Newton's matrix got it
-  double          size_before = 0., tolerance = options_.tolerance;
+  double          size_before = 0.;
+  note_form(form);
   singular_ = joints_singular_ = false;
   for (const HeldMeasure &h : held)
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
@@ -259,18 +305,18 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     xi_.noalias() += damping * correction_;
     if (joints)
       local.lambda += damping * g_;
-    if (iteration == 0 && good_predictions_)
-      tolerance = std::max(tolerance, options_.share_of_error * size);
-    if (damping == 1. && remaining(iteration, size, size_before) <= tolerance)
+    if (damping == 1. && is_converged(iteration, size, remaining(iteration, size, size_before)))
     {
       // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
       add_tangent_times(correction_, local.p);
       if (joints)
         G_.set_forces(local.lambda, local.p);
       motion(form, base, local);
-      contraction_ = std::max(contraction_, unknown_contraction);
+      contraction_ = std::max(contraction_, best_contraction);
       return true;
     }
+    if (iteration == 0 && good_predictions_)
+      first_correction_ = correction_;
     turned      = joints && iteration > 0 && size > good_contraction * size_before;
     size_before = size;
   }
@@ -286,8 +332,8 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     scale_before_ = scale_;
     if (iterate_sparse(condensed.form, f, base, x, local, work))
       return;
-    scale_       = scale_before_;
-    contraction_ = unknown_contraction;
+    scale_ = scale_before_;
+    forget_contraction();
     saddle_->forget_pivots();
     fail(base.t);
   }
@@ -337,9 +383,9 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
   scale_before_ = scale_;
   if (!iterate(condensed, base, local, work))
   {
-    scale_       = scale_before_; // runaway iterates are no excursions
-    contraction_ = unknown_contraction;
-    levers_age_  = 0;
+    scale_ = scale_before_; // runaway iterates are no excursions
+    forget_contraction();
+    levers_age_ = 0;
     fail(base.t);
   }
 }

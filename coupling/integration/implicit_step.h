@@ -16,8 +16,9 @@ struct NewtonOptions
   double      tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
   int         max_iterations = 25;
   JointSolver joints         = JointSolver::automatic; ///< of systems with ideal joints
-  double      share_of_error = 1e-3; ///< of the first correction of a step that may be left where it is as large as the
-                                     ///< local error: expect_good_predictions(); 0: the tolerance alone counts
+  double      share_of_error = 1e-3; ///< of the first correction of each measure that may be left where it is as large
+                                     ///< as the local error, but at most 1e-7 of its excursion:
+                                     ///< expect_good_predictions(); 0: the tolerance alone counts
 };
 
 /**
@@ -97,13 +98,16 @@ public:
 
   /// A new motion begins with the measures u: their excursions are counted from there.
   void begin(const Eigen::VectorXd &u);
+  /// Other laws hold from here on: how fast Newton converges is to be seen anew.
+  void forget_contraction();
 
 private:
-  static constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
-  static constexpr double good_contraction    = 0.05; ///< of Newton's corrections: what was made of G serves on
-  static constexpr double sudden_growth       = 10.;  ///< of the first correction from step to step
-  static constexpr int    steps_of_levers     = 16;   ///< the levers of joints are looked at once in so many
-  static constexpr int    most_unseen         = 20;   ///< steps of one iteration before another one is looked at
+  static constexpr double unseen_contraction = 1.;   ///< of Newton where it has not been seen: nothing is expected
+  static constexpr double best_contraction   = 1e-2; ///< that is expected of the steps to come
+  static constexpr double good_contraction   = 0.05; ///< of Newton's corrections: what was made of G serves on
+  static constexpr double sudden_growth      = 10.;  ///< of the first correction from step to step
+  static constexpr int    steps_of_levers    = 16;   ///< the levers of joints are looked at once in so many
+  static constexpr int    most_unseen        = 20;   ///< steps of one iteration before another one is looked at
 
   void   find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
                      IntegrationWork &work);
@@ -114,14 +118,16 @@ private:
   bool   factorise_sparse(IntegrationWork &work);
   void   add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const;
   double size_of_correction() const;
+  void   note_form(const StepForm &form);
   double remaining(int iteration, double size, double size_before);
+  bool   is_converged(int iteration, double size, double remaining) const;
   void   motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
 
   const SecondOrderSystem                   &system_;
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
-  Eigen::VectorXd                  f_, x_led_, xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_;
+  Eigen::VectorXd f_, x_led_, xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_, first_correction_;
   std::vector<ForceBlock>          force_blocks_;
   ConstraintJacobian               G_;
   Eigen::VectorXd                  g_;       ///< [n_c] g, then d_lambda
@@ -132,11 +138,13 @@ private:
   std::unique_ptr<SaddleMatrix>    saddle_;            ///< null: condensed
   Eigen::VectorXd                  y_;                 ///< [n + n_c + n_h] residual, then correction
   bool                             good_predictions_ = false;
-  double                           contraction_; ///< of Newton's corrections, as seen last; what they may be
-  double                           seen_ = 1., seen_size_ = 1.; ///< the same, after a correction of that size
-  double                           first_size_ = 0.;            ///< of the first correction of a step
-  long                             levers_age_ = 0;             ///< [steps]
-  int                              unseen_     = 0;             ///< steps since
+  double                           most_left_;      ///< of the excursion of a measure, where share_of_error counts
+  double                           contraction_;    ///< of Newton's corrections, as seen last in steps of this form
+  double                           form_time_ = 0.; ///< of these [s]
+  double seen_ = 1., seen_size_ = 1.;               ///< the same of good predictions, after a first one of that size
+  double first_size_ = 0.;                          ///< of the first correction of a step
+  long   levers_age_ = 0;                           ///< [steps]
+  int    unseen_     = 0;                           ///< steps since
 };
 
 /// Tells which measures that stick leave their forces undetermined.

@@ -28,6 +28,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
   const auto  n = x.size(), n_c = Eigen::Index(G_.n_rows());
   double      size_before = 0.;
   singular_ = joints_singular_ = false;
+  note_form(form);
   saddle_->hold(held);
   saddle_->set_weights(form.w_M, form.w_B, form.w_C, form.force);
   y_.resize(saddle_->size());
@@ -85,7 +86,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
       add_tangent_times(correction_, local.p); // to second order in the correction
       G_.set_forces(local.lambda, local.p);
       motion(form, base, local);
-      contraction_ = std::max(contraction_, unknown_contraction);
+      contraction_ = std::max(contraction_, best_contraction);
       return true;
     }
     if (iteration > 0 && size > good_contraction * size_before)

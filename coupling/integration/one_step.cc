@@ -81,6 +81,7 @@ void OneStep::restart()
 {
   if (cut_)
     std::swap(end_, cut_point_);
+  implicit_.forget_contraction();
   Instant &here = end_.motion;
   t_begin_      = here.t;
   index_        = 0;

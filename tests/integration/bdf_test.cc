@@ -166,6 +166,44 @@ TEST(Bdf, NewtonLeavesASmallShareOfTheErrorOfTheFormula)
   }
 }
 
+TEST(Bdf, NewtonLeavesLittleOfTheMotionHoweverLargeTheErrorOfTheFormula)
+{
+  // Ten steps in a period: the formula errs by a tenth, Newton may leave 1e-7 of the excursion in each of 20 steps.
+  EXPECT_LT(std::abs(duffing(0.5, 1e-3).first - duffing(0.5, 0.).first), 20. * 1e-7 * 1.5);
+}
+
+TEST(Bdf, NewtonBelievesOnlyInAContractionSeenSinceTheRestart)
+{
+  SmallSystem system = driven_chain();
+  system.set_law(Eigen::Vector2d(1., -2.),
+                 [](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   p     = -30. * u;
+                   dp_du = -30.;
+                   dp_dv = 0.;
+                 });
+  Bdf::Options options;
+  options.step = 0.01;
+  Bdf bdf(system, options);
+  bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
+  const auto iterations = [&bdf]
+  {
+    const long before = bdf.work().newton;
+    bdf.advance();
+    return bdf.work().newton - before;
+  };
+  for (const bool again : {false, true})
+  {
+    if (again)
+      bdf.restart();
+    for (int i = 0; i < 2; ++i) // until three points make good predictions
+      bdf.advance();
+    EXPECT_EQ(iterations(), 2) << again; // the second sees that the law is linear
+    for (int i = 0; i < 5; ++i)
+      EXPECT_EQ(iterations(), 1) << again;
+  }
+}
+
 TEST(Bdf, StepIsDividedWhereNewtonFails)
 {
   // A force whose Newton iteration has no solution for coarse steps: p grows faster than the step can balance.
