@@ -73,12 +73,20 @@ void add(Canonical &to, const fem::SurfaceSelector &selector)
   to.add("faces", selector.faces);
 }
 
+void add(Canonical &to, const fem::Material &material)
+{
+  to.add("E", material.E).add("nu", material.nu).add("rho", material.rho);
+}
+
 void add(Canonical &to, const fem::Support &support)
 {
   to.add("support", support.name).add("surfaces", support.surfaces).add("kind", int(support.kind));
   for (const bool held : support.held)
     to.add("held", held);
   to.add("stiffness", support.stiffness).add("damping", support.damping);
+  to.add("per area", support.per_area[0]).add("per area", support.per_area[1]);
+  for (const auto &axis : support.axes)
+    to.add("axis", axis);
 }
 
 void add(Canonical &to, const fem::InterfaceSpecification &interface)
@@ -86,6 +94,27 @@ void add(Canonical &to, const fem::InterfaceSpecification &interface)
   to.add("interface", interface.name).add("surfaces", interface.surfaces).add("coupling", int(interface.coupling));
   if (interface.position)
     to.add("position", *interface.position);
+  if (interface.radius > 0.)
+    to.add("radius", interface.radius);
+}
+
+void add(Canonical &to, const fem::ModalRatios &ratios)
+{
+  to.add("zeta", ratios.constant);
+  for (const double zeta : ratios.by_mode)
+    to.add("of mode", zeta);
+  for (const auto &[hz, zeta] : ratios.by_frequency)
+    to.add("at", hz).add("zeta", zeta);
+}
+
+void add(Canonical &to, const fem::AttachedMass &mass)
+{
+  to.add("mass", mass.name).add("kg", mass.mass);
+  if (mass.centre)
+    to.add("centre", *mass.centre);
+  for (const double J : mass.inertia.reshaped())
+    to.add("J", J);
+  to.add("on", mass.interface).add("surfaces", mass.surfaces).add("coupling", int(mass.coupling));
 }
 
 std::string canonical(const fem::FrameSpecification &frame)
@@ -95,8 +124,10 @@ std::string canonical(const fem::FrameSpecification &frame)
   to.add("size", frame.mesh.size).add("max_cells", frame.mesh.max_cells);
   for (const auto &[name, size] : frame.mesh.surface_size)
     to.add("surface", name).add("size", size);
-  to.add("E", frame.material.E).add("nu", frame.material.nu).add("rho", frame.material.rho);
-  to.add("zeta", frame.modal_damping_ratio);
+  add(to, frame.material);
+  for (const auto &[solids, material] : frame.materials)
+    add(to.add("solids", solids), material);
+  add(to, frame.modal_damping_ratio);
   if (frame.rayleigh_mass > 0. || frame.rayleigh_stiffness > 0.)
     to.add("alpha", frame.rayleigh_mass).add("beta", frame.rayleigh_stiffness);
   for (const auto &[name, selector] : frame.surfaces)
@@ -108,6 +139,8 @@ std::string canonical(const fem::FrameSpecification &frame)
     add(to, support);
   for (const auto &interface : frame.interfaces)
     add(to, interface);
+  for (const auto &mass : frame.masses)
+    add(to, mass);
   for (const auto &cut : frame.cuts)
     to.add("cut", cut.name).add("through", cut.through).add("normal", cut.normal);
   return to.text();

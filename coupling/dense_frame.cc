@@ -98,7 +98,7 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   require_semidefinite_stiffness(C);
   const DenseModes modes = dense_modes(C, M);
   const MatrixXd   Z     = (M * modes.V)(order, Eigen::all);
-  dense.B += Z * (2. * frame.modal_damping_ratio * modes.omega).asDiagonal() * Z.transpose();
+  dense.B += Z * frame.modal_damping_ratio.modal_dampers(modes.omega).asDiagonal() * Z.transpose();
   dense.frequencies_hz  = modes.omega / (2. * M_PI);
   dense.frequency_error = VectorXd::Zero(modes.omega.size());
   return dense;

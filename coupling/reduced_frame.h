@@ -39,6 +39,7 @@ struct ReducedFrame
   int                      n_full  = 0; ///< coordinates of the unreduced frame
   int                      n_cells = 0;
   double                   mass    = 0.;            ///< [kg]
+  fem::FrameFacts          facts;                   ///< of a frame made of cells
   Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
   double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold
   Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Eigen::MatrixXd;
 
 constexpr const char *format  = "Gestell reduced frame";
-constexpr int         version = 3;
+constexpr int         version = 4;
 
 MatrixXd number(double x)
 {
@@ -74,6 +74,46 @@ fem::Interface read_interface(const Hdf5File &file, const std::string &at)
   return interface;
 }
 
+void write_facts(Hdf5File &file, const fem::FrameFacts &facts)
+{
+  for (std::size_t i = 0; i < facts.parts.size(); ++i)
+  {
+    const std::string at = "facts/parts/" + std::to_string(i) + "/";
+    file.write(at + "name", facts.parts[i].name);
+    file.write(at + "material", facts.parts[i].material);
+    file.write(at + "mass", number(facts.parts[i].mass));
+  }
+  file.write("facts/mass", number(facts.whole.mass));
+  file.write("facts/centre", MatrixXd(facts.whole.centre));
+  file.write("facts/inertia", MatrixXd(facts.whole.inertia));
+  file.write("facts/rigid_energy", number(facts.rigid_energy));
+  for (std::size_t i = 0; i < facts.free_motions.size(); ++i)
+    file.write("facts/free_motions/" + std::to_string(i), facts.free_motions[i]);
+}
+
+fem::FrameFacts read_facts(const Hdf5File &file)
+{
+  fem::FrameFacts facts;
+  const auto      each = [&](const std::string &group, const auto &read)
+  {
+    for (int i = 0; file.has(group) && file.has(group + "/" + std::to_string(i)); ++i)
+      read(group + "/" + std::to_string(i));
+  };
+  each("facts/parts",
+       [&](const std::string &at)
+       {
+         facts.parts.push_back(
+             {file.read_text(at + "/name"), file.read_text(at + "/material"), file.read_number(at + "/mass")});
+       });
+  each("facts/free_motions", [&](const std::string &at) { facts.free_motions.push_back(file.read_text(at)); });
+  const MatrixXd centre = file.read_matrix("facts/centre"), inertia = file.read_matrix("facts/inertia");
+  if (centre.size() != 3 || inertia.rows() != 3 || inertia.cols() != 3)
+    throw std::runtime_error("the mass properties are incomplete");
+  facts.whole        = {file.read_number("facts/mass"), centre.reshaped(), inertia};
+  facts.rigid_energy = file.read_number("facts/rigid_energy");
+  return facts;
+}
+
 void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key)
 {
   file.write("format", std::string(format));
@@ -107,6 +147,7 @@ void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key
     file.write(at + "on_q", MatrixXd(frame.outputs[i].on_q));
     file.write(at + "on_v", MatrixXd(frame.outputs[i].on_v));
   }
+  write_facts(file, frame.facts);
   for (std::size_t i = 0; i < frame.notes.size(); ++i)
     file.write("notes/" + std::to_string(i), frame.notes[i]);
 }
@@ -143,6 +184,7 @@ ReducedFrame read_all(const Hdf5File &file)
     frame.outputs.push_back({file.read_text(at + "name"), file.read_text(at + "unit"), file.read_vector(at + "on_q"),
                              file.read_vector(at + "on_v")});
   }
+  frame.facts = read_facts(file);
   for (int i = 0; file.has("notes") && file.has("notes/" + std::to_string(i)); ++i)
     frame.notes.push_back(file.read_text("notes/" + std::to_string(i)));
   return frame;

@@ -65,7 +65,7 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
 
 } // namespace
 
-FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const Material &material,
+FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
                       const Kinematics &kinematics)
 {
   const Eigen::Vector3d     normal = unit_normal(cut);
@@ -80,7 +80,7 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
     if (height[cell] <= 0. || std::none_of(nodes.begin(), nodes.end(), [&](int node) { return below[node]; }))
       continue;
     divides               = true;
-    const CellStiffness C = cell_stiffness(mesh, static_cast<int>(cell), material);
+    const CellStiffness C = cell_stiffness(mesh, static_cast<int>(cell), materials[cell]);
     for (int a = 0; a < 10; ++a)
       if (below[nodes[a]])
         for (int b = 0; b < 10; ++b)

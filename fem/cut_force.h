@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/cell_materials.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
 #include "fem/kinematics.h"
@@ -21,7 +22,7 @@ namespace gestell::fem
  *
  * @throws std::invalid_argument for a normal of no length and for a plane that does not divide the frame.
  */
-FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const Material &material,
+FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
                       const Kinematics &kinematics);
 
 } // namespace gestell::fem

@@ -1,11 +1,14 @@
 #include "fem/discretisation.h"
 
+#include "fem/attached_masses.h"
+#include "fem/cell_materials.h"
 #include "fem/cut_force.h"
 #include "fem/elasticity.h"
 #include "fem/interfaces.h"
 #include "fem/rigid_motions.h"
 #include "fem/skin.h"
 #include "fem/supports.h"
+#include "fem/weighing.h"
 
 #include <algorithm>
 
@@ -32,35 +35,30 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
   return result;
 }
 
-/// Mass of every node, int rho N_a dV [kg]: the row sums of M.
-Eigen::VectorXd nodal_mass(const BlockMatrix &M)
+/// Nodes with six coordinates: of masses with surfaces of their own, then of interfaces, which thus stand last in q.
+std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &specification)
 {
-  const BlockMatrix::Rows rows = M.rows();
-  Eigen::VectorXd         mass = Eigen::VectorXd::Zero(M.n_nodes());
-  for (int i = 0; i < M.n_nodes(); ++i)
-    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
-      mass[i] += rows.values[k];
-  return mass;
+  require_valid(specification.masses, specification.interfaces);
+  std::vector<InterfaceSpecification> nodes = nodes_of_masses(specification.masses);
+  nodes.insert(nodes.end(), specification.interfaces.begin(), specification.interfaces.end());
+  return nodes;
 }
 
-/// Mass, centre of mass and the load of a unit acceleration.
-void weigh(const QuadraticMesh &mesh, const BlockMatrix &M, const Kinematics &kinematics, FrameMatrices &frame)
+/// Mass, centre and the load of a unit acceleration, with all that is attached; M gets the attached masses.
+void weigh(const QuadraticMesh &mesh, const BlockMatrix &M, const Kinematics &kinematics,
+           const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, FrameMatrices &frame)
 {
-  const Eigen::VectorXd nodal  = nodal_mass(M);
-  Eigen::Vector3d       moment = Eigen::Vector3d::Zero();
-  for (int i = 0; i < mesh.n_nodes(); ++i)
-    moment += nodal[i] * Eigen::Map<const Eigen::Vector3d>(mesh.points[i].data());
-  frame.mass = nodal.sum();
-  moment /= frame.mass;
-  frame.centre = {moment[0], moment[1], moment[2]};
-
-  frame.acceleration_load.resize(kinematics.n_coordinates(), 3);
-  for (int d = 0; d < 3; ++d)
+  frame.acceleration_load = acceleration_load(nodal_mass(M), kinematics);
+  frame.facts.whole       = weigh(mesh, M);
+  for (const AttachedMass &mass : masses)
   {
-    Eigen::VectorXd load                    = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-    load(Eigen::seqN(d, mesh.n_nodes(), 3)) = nodal;
-    frame.acceleration_load.col(d)          = kinematics.gather(load);
+    frame.facts.whole.add(properties_of(mass, node_of(mass, nodes)));
+    frame.facts.parts.push_back({mass.name, "", mass.mass});
   }
+  if (!masses.empty())
+    add_masses(masses, nodes, frame);
+  frame.mass                                       = frame.facts.whole.mass;
+  Eigen::Map<Eigen::Vector3d>(frame.centre.data()) = frame.facts.whole.centre;
 }
 
 Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
@@ -75,25 +73,28 @@ Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatc
 
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
 {
-  require_valid(specification.material);
+  const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = quadratic_mesh(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   Constraints                       constraints(quadratic.n_nodes());
-  const std::vector<CoupledPatch>   coupled = couple_patches(mesh, quadratic, specification.interfaces, constraints);
-  constraints                               = constrain(quadratic, supports, coupled, std::move(constraints));
+  const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);
+  constraints                             = constrain(quadratic, supports, coupled, std::move(constraints));
   const Kinematics kinematics(constraints);
 
   FrameMatrices frame;
-  frame.n_cells             = static_cast<int>(mesh.cells.size());
-  frame.modal_damping_ratio = specification.modal_damping_ratio;
-  frame.interfaces          = make_interfaces(coupled, constraints, kinematics);
+  frame.n_cells                      = static_cast<int>(mesh.cells.size());
+  frame.modal_damping_ratio          = specification.modal_damping_ratio;
+  frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
+  const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
+  frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
   for (const CutSpecification &cut : specification.cuts)
-    frame.outputs.push_back(cut_force(cut, quadratic, specification.material, kinematics));
+    frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics));
 
   Eigen::SparseMatrix<double> rayleigh(kinematics.n_coordinates(), kinematics.n_coordinates());
   // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
   {
-    BlockMatrix C = assemble_stiffness(quadratic, specification.material);
+    BlockMatrix C            = assemble_stiffness(quadratic, materials);
+    frame.facts.rigid_energy = rigid_energy(quadratic, C);
     for (FrameOutput &output : support_forces(supports, C, kinematics))
       frame.outputs.push_back(std::move(output));
     if (specification.rayleigh_stiffness > 0.)
@@ -102,18 +103,17 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
     frame.C = kinematics.project(C);
   }
   {
-    const BlockMatrix M = assemble_mass(quadratic, specification.material);
+    const BlockMatrix M = assemble_mass(quadratic, materials);
     frame.M             = kinematics.project(M);
     if (specification.rayleigh_mass > 0.)
       rayleigh += specification.rayleigh_mass * frame.M;
-    weigh(quadratic, M, kinematics, frame);
+    weigh(quadratic, M, kinematics, specification.masses, nodes, frame);
   }
   frame.B = kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
   if (rayleigh.nonZeros() > 0)
     frame.B += rayleigh;
 
-  const Eigen::Vector3d centre(frame.centre[0], frame.centre[1], frame.centre[2]);
-  frame.rigid_motions = rigid_coordinates(quadratic, centre, constraints, kinematics, frame.interfaces);
+  frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
   frame.picture       = skin_picture(quadratic, kinematics);
   return frame;

@@ -37,7 +37,7 @@ void require_range(const Material &material, bool holds, const char *quantity, d
 
 void require_valid(const Material &material)
 {
-  const auto &[E, nu, rho, place] = material;
+  const auto &[E, nu, rho, place, name] = material;
   require_range(material, std::isfinite(E) && E > 0., "Young's modulus E", E, "E > 0 Pa", "steel has 210 GPa");
   require_range(material, std::isfinite(nu) && nu > -1. && nu < 0.5, "Poisson's ratio nu", nu, "-1 < nu < 0.5",
                 "steel has 0.3; an incompressible material (0.5) locks these elements, take 0.49 at most");
@@ -75,20 +75,20 @@ CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material
   return material.rho * determinant * reference_integrals().mass;
 }
 
-BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const Material &material)
+BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials)
 {
   BlockMatrix C(3, mesh.n_nodes(), mesh.cells);
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    C.add(mesh.cells[cell], cell_stiffness(mesh, static_cast<int>(cell), material).data());
+    C.add(mesh.cells[cell], cell_stiffness(mesh, static_cast<int>(cell), materials[cell]).data());
   C.finish();
   return C;
 }
 
-BlockMatrix assemble_mass(const QuadraticMesh &mesh, const Material &material)
+BlockMatrix assemble_mass(const QuadraticMesh &mesh, const CellMaterials &materials)
 {
   BlockMatrix M(1, mesh.n_nodes(), mesh.cells);
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    M.add(mesh.cells[cell], cell_mass(mesh, static_cast<int>(cell), material).data());
+    M.add(mesh.cells[cell], cell_mass(mesh, static_cast<int>(cell), materials[cell]).data());
   M.finish();
   return M;
 }

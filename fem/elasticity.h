@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/block_matrix.h"
+#include "fem/cell_materials.h"
 #include "fem/frame_specification.h"
 #include "fem/quadratic_mesh.h"
 
@@ -39,9 +40,9 @@ CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material
 void require_valid(const Material &material);
 
 /// C of the free frame, blocks of 3 x 3 between nodes.
-BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const Material &material);
+BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials);
 
 /// M of the free frame for one direction: M_full = M (x) I_3.
-BlockMatrix assemble_mass(const QuadraticMesh &mesh, const Material &material);
+BlockMatrix assemble_mass(const QuadraticMesh &mesh, const CellMaterials &materials);
 
 } // namespace gestell::fem

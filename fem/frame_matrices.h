@@ -1,9 +1,13 @@
 #pragma once
 
+#include "fem/mass_properties.h"
+#include "fem/modal_ratios.h"
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,6 +58,23 @@ struct ModalDamping
   Eigen::VectorXd d;
 };
 
+/// What a frame made of cells weighs, and how well its elements keep rigid motions free: for people.
+struct FrameFacts
+{
+  struct Part
+  {
+    std::string name, material; ///< of a solid; an attached mass has no material
+    double      mass = 0.;      ///< [kg]
+  };
+  std::vector<Part> parts;
+  MassProperties    whole;
+  /// Largest strain energy of the six rigid motions of the unsupported frame, as a share of the energies that cancel in
+  /// it: rounding, some 1e-15, if all is well; nan if not known.
+  double rigid_energy = std::numeric_limits<double>::quiet_NaN();
+  /// Motions the supported frame makes without elastic energy, in words; see free_motions().
+  std::vector<std::string> free_motions;
+};
+
 /**
  * A linear frame M q'' + B q' + C q = f, the one value that fem hands to coupling.
  *
@@ -62,9 +83,9 @@ struct ModalDamping
  */
 struct FrameMatrices
 {
-  Eigen::SparseMatrix<double> M, B, C;                  // [n x n] kg, N s/m, N/m
-  double                      modal_damping_ratio = 0.; ///< zeta of the modes of the supported frame
-  ModalDamping                modal_damping;            ///< empty until computed
+  Eigen::SparseMatrix<double> M, B, C;             // [n x n] kg, N s/m, N/m
+  ModalRatios                 modal_damping_ratio; ///< zeta of the modes of the supported frame
+  ModalDamping                modal_damping;       ///< empty until computed
   std::vector<Interface>      interfaces;
   Eigen::MatrixXd             translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
   /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
@@ -75,7 +96,8 @@ struct FrameMatrices
   std::array<double, 3>    centre{}; ///< of mass [m]
   std::vector<FrameOutput> outputs;
   Picture                  picture;
-  double                   mass    = 0.; ///< of the frame [kg]
+  FrameFacts               facts;
+  double                   mass    = 0.; ///< of the frame with what is attached [kg]
   int                      n_cells = 0;
 
   /// Coordinates q1 of all interfaces, ascending.

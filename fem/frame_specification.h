@@ -1,9 +1,14 @@
 #pragma once
 
+#include "fem/modal_ratios.h"
+
+#include <Eigen/Core>
+
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gestell::fem
@@ -44,6 +49,7 @@ struct Material
   double      nu  = 0.; ///< Poisson's ratio
   double      rho = 0.; ///< density [kg/m^3]
   std::string place;
+  std::string name{}; ///< "steel", for reports
 };
 
 enum class SupportKind
@@ -52,22 +58,27 @@ enum class SupportKind
   foundation
 };
 
-/// Stiffness and damping are totals over the surface, spread evenly over its area, per global direction.
+/// Stiffness and damping of a foundation are totals over the surface, spread evenly over its area, or given per area;
+/// they act along `axes`.
 struct Support
 {
   std::string              name;
   std::vector<std::string> surfaces;
   SupportKind              kind = SupportKind::clamped;
   std::array<bool, 3>      held{true, true, true}; ///< clamped: which displacements (x, y, z)
-  Vector3                  stiffness{};            ///< foundation: [N/m]
-  Vector3                  damping{};              ///< foundation: [N s/m]
+  Vector3                  stiffness{};            ///< foundation: [N/m], per area [N/m^3]
+  Vector3                  damping{};              ///< foundation: [N s/m], per area [N s/m^3]
   std::string              place;
+  std::array<bool, 2>      per_area{false, false}; ///< stiffness, damping
+  std::array<Vector3, 3>   axes{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< foundation: orthonormal directions of the three values
 };
 
 enum class InterfaceCoupling
 {
-  rigid,  ///< RBE2: the surface moves as a rigid body with the node
-  average ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
+  rigid,   ///< RBE2: the surface moves as a rigid body with the node
+  average, ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
+  point    ///< the point of the surface nearest to `position`: average over the triangles around it
 };
 
 /// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces.
@@ -77,6 +88,21 @@ struct InterfaceSpecification
   std::vector<std::string> surfaces;
   InterfaceCoupling        coupling = InterfaceCoupling::rigid;
   std::optional<Vector3>   position; ///< [m]; default: centroid of the surfaces
+  std::string              place;
+  double                   radius = 0.;          ///< of a point [m]: triangles within it; 0: those that meet there
+  std::string              what   = "interface"; ///< what messages call its owner
+};
+
+/// A rigid body fastened to the frame, such as a motor or a counterweight: to surfaces, or to the node of an interface.
+struct AttachedMass
+{
+  std::string              name;
+  double                   mass    = 0.;                      ///< [kg]
+  Eigen::Matrix3d          inertia = Eigen::Matrix3d::Zero(); ///< about its centre of mass, global axes [kg m^2]
+  std::optional<Vector3>   centre;    ///< of mass [m]; default: the node of the interface, the centroid of the surfaces
+  std::string              interface; ///< that carries it; empty: it has surfaces
+  std::vector<std::string> surfaces;
+  InterfaceCoupling        coupling = InterfaceCoupling::rigid; ///< to the surfaces
   std::string              place;
 };
 
@@ -100,16 +126,19 @@ struct MeshOptions
 /// All that defines a frame made from CAD or from a mesh.
 struct FrameSpecification
 {
-  std::string                            cad;       ///< .step .stp .brep .geo .msh; absolute path
-  double                                 unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
-  MeshOptions                            mesh;
-  Material                               material;
-  double                                 modal_damping_ratio = 0.;
+  std::string cad;       ///< .step .stp .brep .geo .msh; absolute path
+  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
+  MeshOptions mesh;
+  Material    material; ///< of all solids but those in `materials`
+  /// By the name of a solid or a pattern of names ('*', '?'); of several that fit the last counts.
+  std::vector<std::pair<std::string, Material>> materials;
+  ModalRatios                                   modal_damping_ratio;
   double                                 rayleigh_mass = 0.; ///< alpha [1/s] of B = alpha M + beta C of the material
   double                                 rayleigh_stiffness = 0.; ///< beta [s]
   std::map<std::string, SurfaceSelector> surfaces;
   std::vector<Support>                   supports;
   std::vector<InterfaceSpecification>    interfaces;
+  std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
   std::string                            place; ///< "press.toml:12: frame"
 };

@@ -21,6 +21,8 @@ const char *const axis_names[3] = {"x", "y", "z"};
 constexpr double free_share = 1e-13;
 // Directions closer than this to an axis bear the name of the axis.
 constexpr double alike = 1e-3;
+// Parts whose motions are named; a frame that falls into more has a mesh whose cells do not hang together.
+constexpr std::size_t most_parts = 20;
 
 std::string triple(const Eigen::Vector3d &v)
 {
@@ -54,13 +56,56 @@ Eigen::VectorXd cancelling_energy(const Eigen::SparseMatrix<double> &C, const Ei
   return sum;
 }
 
-/// Free motions as columns (u0, theta L), orthonormal [6 x k].
-Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &held, double length)
+/// Coordinates that the pattern of C connects while some are held.
+std::vector<std::vector<int>> connected_parts(const Eigen::SparseMatrix<double> &C, const std::vector<int> &held)
 {
-  Eigen::MatrixXd Z = frame.rigid_motions;
-  Z.rightCols(3) /= length;
+  std::vector<char> done(C.rows(), 0);
   for (const int i : held)
-    Z.row(i).setZero();
+    done[i] = 1;
+  std::vector<std::vector<int>> parts;
+  for (int start = 0; start < C.rows(); ++start)
+  {
+    if (done[start])
+      continue;
+    done[start]           = 1;
+    std::vector<int> part = {start};
+    for (std::size_t next = 0; next < part.size(); ++next)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(C, part[next]); entry; ++entry)
+        if (!done[entry.row()])
+        {
+          done[entry.row()] = 1;
+          part.push_back(static_cast<int>(entry.row()));
+        }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Mean place of the coordinates that are displacements: of one along x the turns about the frame's centre tell y and
+/// z.
+Eigen::Vector3d middle_of(const FrameMatrices &frame, const std::vector<int> &part)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), count = Eigen::Vector3d::Constant(1e-300);
+  for (const int i : part)
+    for (int d = 0; d < 3; ++d)
+    {
+      const int e = (d + 1) % 3, f = (d + 2) % 3;
+      if ((frame.rigid_motions.row(i).head<3>() - Eigen::RowVector3d::Unit(d)).norm() > 0.)
+        continue;
+      sum[e] -= frame.rigid_motions(i, 3 + f);
+      sum[f] += frame.rigid_motions(i, 3 + e);
+      count[e] += 1.;
+      count[f] += 1.;
+    }
+  return Eigen::Map<const Eigen::Vector3d>(frame.centre.data()) + sum.cwiseQuotient(count);
+}
+
+/// Free motions of a part as columns (u0, theta L), orthonormal [6 x k].
+Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &part, double length)
+{
+  Eigen::MatrixXd Z   = Eigen::MatrixXd::Zero(frame.C.rows(), 6);
+  Z(part, Eigen::all) = frame.rigid_motions(part, Eigen::all);
+  Z.rightCols(3) /= length;
   const Eigen::MatrixXd energy = Z.transpose() * (frame.C * Z);
   Eigen::MatrixXd       size   = Z.transpose() * Z;
   size.diagonal().array() += 1e-12 * size.trace(); // a motion of held coordinates only has no size
@@ -103,16 +148,9 @@ std::string rotation_name(const Eigen::VectorXd &motion, const Eigen::Vector3d &
   return text;
 }
 
-} // namespace
-
-std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vector<int> &held)
+/// Names of the motions in a space of them.
+std::vector<std::string> names_of(Eigen::MatrixXd space, const Eigen::Vector3d &centre, double length)
 {
-  if (frame.rigid_motions.cols() != 6)
-    return {};
-  const double    length = std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
-                                     std::max(frame.rigid_motions.leftCols(3).squaredNorm(), 1e-300));
-  Eigen::MatrixXd space  = free_space(frame, held, length);
-
   std::vector<std::string> names;
   for (int i = 0; i < 6 && space.cols() > 0; ++i)
     if (take_out(space, i))
@@ -129,8 +167,30 @@ std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vec
     if (motion.tail<3>().norm() < alike)
       names.push_back("translation along " + direction_name(motion.head<3>().normalized()));
     else
-      names.push_back(rotation_name(motion, Eigen::Map<const Eigen::Vector3d>(frame.centre.data()), length));
+      names.push_back(rotation_name(motion, centre, length));
   }
+  return names;
+}
+
+} // namespace
+
+std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vector<int> &held)
+{
+  if (frame.rigid_motions.cols() != 6)
+    return {};
+  const double                        length = std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
+                                                         std::max(frame.rigid_motions.leftCols(3).squaredNorm(), 1e-300));
+  const std::vector<std::vector<int>> parts  = connected_parts(frame.C, held);
+  std::vector<std::string>            names;
+  for (std::size_t part = 0; part < std::min(parts.size(), most_parts); ++part)
+    for (std::string &name : names_of(free_space(frame, parts[part], length),
+                                      Eigen::Map<const Eigen::Vector3d>(frame.centre.data()), length))
+    {
+      if (parts.size() > 1)
+        name += " of part " + std::to_string(part + 1) + " of " + std::to_string(parts.size()) + ", near " +
+                triple(middle_of(frame, parts[part])) + " m";
+      names.push_back(std::move(name));
+    }
   return names;
 }
 

@@ -13,7 +13,7 @@ namespace
 
 std::string head(const InterfaceSpecification &interface)
 {
-  const std::string owner = "interface \"" + interface.name + "\"";
+  const std::string owner = interface.what + " \"" + interface.name + "\"";
   return interface.place.empty() ? owner : interface.place + ": " + owner;
 }
 
@@ -47,8 +47,9 @@ void require_apart(const std::vector<CoupledPatch> &interfaces, const QuadraticM
         return text.str();
       };
       if (owner[node] >= 0)
-        throw std::invalid_argument(head(interfaces[k].specification) + " shares the point " + place() +
-                                    " with interface \"" + interfaces[owner[node]].specification.name +
+        throw std::invalid_argument(head(interfaces[k].specification) + " shares the point " + place() + " with " +
+                                    interfaces[owner[node]].specification.what + " \"" +
+                                    interfaces[owner[node]].specification.name +
                                     "\"; a point can follow one node only: choose surfaces that do not touch, or join "
                                     "them in one interface.");
       if (const auto support = constraints.holder.find(node); support != constraints.holder.end())
@@ -68,13 +69,15 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
   std::vector<CoupledPatch> result;
   for (const InterfaceSpecification &interface : interfaces)
   {
-    CoupledPatch coupled{
-        interface,
-        surface_patch(mesh, quadratic, interface.surfaces, "interface \"" + interface.name + "\"", interface.place),
-        Eigen::Vector3d::Zero()};
+    CoupledPatch coupled{interface,
+                         surface_patch(mesh, quadratic, interface.surfaces,
+                                       interface.what + " \"" + interface.name + "\"", interface.place),
+                         Eigen::Vector3d::Zero()};
     coupled.position = interface.position
                            ? Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(interface.position->data()))
                            : coupled.patch.centroid;
+    if (interface.coupling == InterfaceCoupling::point)
+      shrink_to_point(coupled, quadratic);
     require_plane(coupled, quadratic);
     result.push_back(std::move(coupled));
   }

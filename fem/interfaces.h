@@ -18,6 +18,17 @@ struct CoupledPatch
   Eigen::Vector3d        position; ///< x0 of the node [m]
 };
 
+/**
+ * Cuts the patch down to the point of the surface nearest to the position, which moves there: to the triangles that
+ * meet at the corner nearest to it, or with a radius to those whose centroid lies within it.
+ *
+ * A concentrated force bends a continuum without bound as cells shrink; only a radius gives a flexibility that does not
+ * depend on the mesh.
+ *
+ * @throws std::invalid_argument if no triangle lies within the radius.
+ */
+void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh);
+
 /// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
                                          const std::vector<InterfaceSpecification> &interfaces,

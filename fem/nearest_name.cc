@@ -30,10 +30,10 @@ int edit_distance(const std::string &a, const std::string &b)
 
 } // namespace
 
-std::string nearest_names(const std::string &name, const std::vector<std::string> &known)
+std::string nearest_names(const std::string &name, const std::vector<std::string> &known, const std::string &what)
 {
   if (known.empty())
-    return "it has no named surface at all";
+    return "it has no named " + what + " at all";
 
   std::vector<std::string> sorted(known);
   std::stable_sort(sorted.begin(), sorted.end(),

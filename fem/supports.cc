@@ -56,12 +56,35 @@ Eigen::VectorXd clamped_row(const std::vector<char> &counted, const BlockMatrix 
   return row;
 }
 
-Eigen::VectorXd foundation_row(const SurfacePatch &patch, int d, double total, int n_displacements)
+/// sum_d k_d a_d a_d^T
+Eigen::Matrix3d directed(const Support &support, Vector3 Support::*totals)
 {
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(n_displacements);
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
+  for (int d = 0; d < 3; ++d)
+  {
+    const Eigen::Map<const Eigen::Vector3d> a(support.axes[d].data());
+    K += (support.*totals)[d] * a * a.transpose();
+  }
+  return 0.5 * (K + K.transpose());
+}
+
+Eigen::VectorXd foundation_row(const SupportedPatch &supported, int d, Vector3 Support::*totals, int n_displacements)
+{
+  const auto &[support, patch] = supported;
+  const Eigen::Matrix3d K      = directed(support, totals);
+  Eigen::VectorXd       row    = Eigen::VectorXd::Zero(n_displacements);
   for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-    row[3 * patch.nodes[i] + d] = -total / patch.area * patch.weight[i];
+    row.segment<3>(3 * patch.nodes[i]) = -patch.weight[i] / patch.area * K.col(d);
   return row;
+}
+
+void require_orthonormal(const Support &support)
+{
+  Eigen::Matrix3d A;
+  for (int d = 0; d < 3; ++d)
+    A.col(d) = Eigen::Map<const Eigen::Vector3d>(support.axes[d].data());
+  if (!((A.transpose() * A - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-8))
+    throw std::invalid_argument(head(support) + ": its axes must be unit vectors at right angles to each other.");
 }
 
 } // namespace
@@ -73,8 +96,15 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
   for (const Support &support : supports)
   {
     require_valid(support);
+    require_orthonormal(support);
     result.push_back(
         {support, surface_patch(mesh, quadratic, support.surfaces, "support \"" + support.name + "\"", support.place)});
+    auto &[own, patch] = result.back();
+    for (int d = 0; d < 3; ++d)
+    {
+      own.stiffness[d] *= support.per_area[0] ? patch.area : 1.;
+      own.damping[d] *= support.per_area[1] ? patch.area : 1.;
+    }
   }
   return result;
 }
@@ -96,14 +126,15 @@ void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Suppor
 {
   for (const auto &[support, patch] : supports)
     if (support.kind == SupportKind::foundation)
+    {
+      const Eigen::Matrix3d per_area = directed(support, totals) / patch.area;
       for (int column = 0; column < patch.S.outerSize(); ++column)
         for (Eigen::SparseMatrix<double>::InnerIterator entry(patch.S, column); entry; ++entry)
         {
-          Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-          for (int d = 0; d < 3; ++d)
-            block(d, d) = (support.*totals)[d] / patch.area * entry.value();
+          const Eigen::Matrix3d block = entry.value() * per_area;
           matrix.add_block(patch.nodes[entry.row()], patch.nodes[column], block.data());
         }
+    }
   matrix.finish();
 }
 
@@ -124,14 +155,15 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
   const int                n = kinematics.n_displacements();
   std::vector<char>        counted_before(n, 0);
   std::vector<FrameOutput> outputs;
-  for (const auto &[support, patch] : supports)
+  for (const SupportedPatch &supported : supports)
     for (int d = 0; d < 3; ++d)
     {
+      const auto &[support, patch] = supported;
       FrameOutput output{"support." + support.name + "." + "xyz"[d], "N", {}, {}};
       if (support.kind == SupportKind::foundation)
       {
-        output.on_q = kinematics.gather(foundation_row(patch, d, support.stiffness[d], n));
-        output.on_v = kinematics.gather(foundation_row(patch, d, support.damping[d], n));
+        output.on_q = kinematics.gather(foundation_row(supported, d, &Support::stiffness, n));
+        output.on_v = kinematics.gather(foundation_row(supported, d, &Support::damping, n));
       }
       else
       {

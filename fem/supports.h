@@ -19,7 +19,7 @@ struct SupportedPatch
 };
 
 /**
- * Finds the surfaces and checks the numbers.
+ * Finds the surfaces and checks the numbers; what was given per area becomes the total.
  *
  * @throws std::invalid_argument for unknown surfaces, negative stiffness or damping, a foundation with none.
  */
@@ -30,7 +30,7 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
 void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints);
 
 /**
- * Adds elastic foundations:  (k_d / A) int N N^T dA  for every direction d, k_d the total stiffness [N/m].
+ * Adds elastic foundations:  sum_d (k_d / A) a_d a_d^T int N N^T dA,  k_d the total stiffness [N/m] along the axis a_d.
  *
  * @param totals Support::stiffness (into C) or Support::damping (into B).
  */
@@ -42,7 +42,7 @@ BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_
 /**
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
  *
- * Foundation:  -(k_d / A) int u_d dA - (d_d / A) int u'_d dA.
+ * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
  * Clamped:      sum over held nodes of the row of C for direction d; loads and inertia of the held nodes themselves
  *               are not contained.  A node of several supports counts for the first.
  *

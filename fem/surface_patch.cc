@@ -51,16 +51,13 @@ double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
 
 } // namespace
 
-SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
-                           const std::string &owner, const std::string &place)
+SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int, 6>> faces)
 {
   SurfacePatch  patch;
   std::set<int> nodes;
-  for (const int triangle : triangles_of(mesh, surfaces, head(place, owner)))
-  {
-    patch.faces.push_back(quadratic.skin.at(triangle));
-    nodes.insert(patch.faces.back().begin(), patch.faces.back().end());
-  }
+  for (const std::array<int, 6> &face : faces)
+    nodes.insert(face.begin(), face.end());
+  patch.faces = std::move(faces);
   patch.nodes.assign(nodes.begin(), nodes.end());
   const auto local = [&](int node)
   { return static_cast<int>(std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node) - patch.nodes.begin()); };
@@ -68,21 +65,30 @@ SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, con
   std::vector<Eigen::Triplet<double>> entries;
   for (const std::array<int, 6> &face : patch.faces)
   {
-    const double area = triangle_area(quadratic, face);
+    const double area = triangle_area(mesh, face);
     patch.area += area;
     for (int k = 0; k < 3; ++k)
-      patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(quadratic.points[face[k]].data());
+      patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
     for (int a = 0; a < 6; ++a)
       for (int b = 0; b < 6; ++b)
         entries.emplace_back(local(face[a]), local(face[b]), 2. * area * reference_integrals().triangle_mass(a, b));
   }
-  if (!(patch.area > 0.))
-    throw std::invalid_argument(head(place, owner) + ": the surfaces have no area; select faces of a solid.");
-
   patch.centroid /= patch.area;
   patch.S.resize(patch.nodes.size(), patch.nodes.size());
   patch.S.setFromTriplets(entries.begin(), entries.end());
   patch.weight = patch.S * Eigen::VectorXd::Ones(patch.nodes.size());
+  return patch;
+}
+
+SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
+                           const std::string &owner, const std::string &place)
+{
+  std::vector<std::array<int, 6>> faces;
+  for (const int triangle : triangles_of(mesh, surfaces, head(place, owner)))
+    faces.push_back(quadratic.skin.at(triangle));
+  SurfacePatch patch = surface_patch(quadratic, std::move(faces));
+  if (!(patch.area > 0.))
+    throw std::invalid_argument(head(place, owner) + ": the surfaces have no area; select faces of a solid.");
   return patch;
 }
 

@@ -30,4 +30,7 @@ struct SurfacePatch
 SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
                            const std::string &owner, const std::string &place);
 
+/// The part of a surface that these faces make up.
+SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int, 6>> faces);
+
 } // namespace gestell::fem

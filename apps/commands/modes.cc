@@ -2,6 +2,7 @@
 #include "apps/commands/modes_along.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
+#include "apps/output/frame_lines.h"
 #include "apps/output/number_text.h"
 #include "apps/output/result_folder.h"
 
@@ -78,6 +79,8 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
     write_results(folder, result);
   }
 
+  for (const std::string &line : frame_lines(result.model))
+    std::cout << "frame: " << line << '\n';
   print_modes("frame as supported, interface free", result.frame_modes);
   print_modes("coupled machine", result.coupled_modes);
   print_poles(result.poles);

@@ -1,6 +1,7 @@
 #include "apps/commands/prepared_machine.h"
 
 #include "apps/scene/carried_bodies.h"
+#include "apps/scene/damping_text.h"
 #include "apps/version.h"
 #include "coupling/content_key.h"
 #include "coupling/frame_service_loader.h"
@@ -80,7 +81,7 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
     fem::FrameMatrices frame = frame_matrices(scene, progress);
     prepared.companion =
         build_machine(scene, coupling::frame_service().reduce(frame, scene.reduction.options, progress_of(progress)));
-    if (frame.modal_damping_ratio > 0.)
+    if (frame.modal_damping_ratio.any())
     {
       const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
       coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress_of(progress));
@@ -130,6 +131,8 @@ ModelFacts model_facts(const PreparedMachine &prepared)
       facts.cells = frame->n_cells;
     if (frame->mass > 0.)
       facts.frame_mass = frame->mass;
+    facts.frame        = frame->facts;
+    facts.free_motions = static_cast<int>((frame->frequencies_hz.array() == 0.).count());
     if (frame->omega0.size() > 0 && !prepared.companion)
     {
       facts.static_residual = frame->static_residual;
@@ -172,12 +175,13 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
 {
   coupling::Machine &small = prepared.small();
   Result             result;
-  result.scene       = scene.name;
-  result.description = scene.description;
-  result.version     = version;
-  result.command     = command;
-  result.model       = model_facts(prepared);
-  result.frame_modes = coupling::frame_modes(small, scene.modes.number);
+  result.scene         = scene.name;
+  result.description   = scene.description;
+  result.version       = version;
+  result.command       = command;
+  result.model         = model_facts(prepared);
+  result.model.damping = damping_text(scene.frame);
+  result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
   const coupling::Linearisation how{scene.modes.open, geometric};
   const Eigen::VectorXd         q = modes_configuration(scene, small);
   result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);

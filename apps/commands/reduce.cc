@@ -1,6 +1,8 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/prepared_machine.h"
+#include "apps/output/frame_lines.h"
 #include "apps/output/result_folder.h"
+#include "apps/scene/damping_text.h"
 #include "coupling/reduced_frame_file.h"
 
 #include <iomanip>
@@ -32,7 +34,6 @@ int reduce_command(const CommonOptions &options)
   }
   std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
             << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
-            << "  mass          " << frame.mass << " kg\n"
             << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
             << " % (energy; exact at the interface)\n"
             << "  supported frame, interface free:\n    mode   frequency [Hz]   estimated relative error\n";
@@ -43,6 +44,13 @@ int reduce_command(const CommonOptions &options)
       std::cout << std::setprecision(3) << std::setw(27) << frame.frequency_error[j];
     std::cout << '\n';
   }
+  ModelFacts facts;
+  facts.frame        = frame.facts;
+  facts.frame_mass   = frame.mass;
+  facts.free_motions = static_cast<int>((frame.frequencies_hz.array() == 0.).count());
+  facts.damping      = damping_text(scene.frame);
+  for (const std::string &line : frame_lines(facts))
+    std::cout << "  " << line << '\n';
   for (const std::string &note : frame.notes)
     std::cout << "  note: " << note << '\n';
   for (const auto &[phase, seconds] : progress.wall_seconds())

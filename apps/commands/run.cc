@@ -98,6 +98,8 @@ int run_command(const CommonOptions &options)
   write_results(folder, result);
 
   print_answer(*result.run);
+  if (!result.model.damping.empty())
+    std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto *warnings : {&result.warnings, &result.run->warnings})
     for (const std::string &warning : *warnings)
       std::cerr << "gestell: warning: " << warning << '\n';

@@ -1,6 +1,7 @@
 #include "apps/output/report.h"
 
 #include "apps/output/along_report.h"
+#include "apps/output/frame_lines.h"
 #include "apps/output/html.h"
 #include "apps/output/mode_charts.h"
 #include "apps/output/number_text.h"
@@ -290,6 +291,13 @@ std::string numerics_section(const Result &result)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (const auto lines = frame_lines(m); !lines.empty())
+  {
+    html += "<h3>The frame</h3><ul>";
+    for (const std::string &line : lines)
+      html += "<li>" + escape_xml(line) + "</li>";
+    html += "</ul>\n";
+  }
   if (!result.bodies_from_cad.empty())
   {
     html += "<h3>Bodies from CAD</h3><ul>";

@@ -4,6 +4,7 @@
 #include "coupling/excitation_orders.h"
 #include "coupling/modes.h"
 #include "coupling/simulation.h"
+#include "fem/frame_matrices.h"
 
 #include <limits>
 #include <optional>
@@ -27,6 +28,10 @@ struct ModelFacts
   double frame_mass      = std::numeric_limits<double>::quiet_NaN(); ///< [kg]
   double frequency_error = std::numeric_limits<double>::quiet_NaN(); ///< largest estimated relative error by reduction
   double static_residual = std::numeric_limits<double>::quiet_NaN(); ///< see coupling::ReducedFrame
+
+  fem::FrameFacts frame;            ///< of a frame made of cells
+  int             free_motions = 0; ///< modes of the frame of frequency zero
+  std::string     damping;          ///< of the frame, for people
 };
 
 /// Modes along a coordinate, and what excites them there.

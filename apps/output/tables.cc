@@ -23,6 +23,45 @@ std::string csv_field(const std::string &text)
   return quoted + '"';
 }
 
+void write_numbers(JsonWriter &json, const char *name, const double *x, int n)
+{
+  json.begin_array(name);
+  for (int i = 0; i < n; ++i)
+    json.number("", x[i]);
+  json.end_array();
+}
+
+void write_frame(JsonWriter &json, const ModelFacts &model)
+{
+  if (const fem::MassProperties &whole = model.frame.whole; whole.mass > 0.)
+  {
+    write_numbers(json, "centre", whole.centre.data(), 3);
+    json.begin_array("inertia");
+    for (int i = 0; i < 3; ++i)
+      write_numbers(json, "", whole.inertia.data() + 3 * i, 3); // symmetric: a column is a row
+    json.end_array();
+    json.begin_array("parts");
+    for (const auto &[name, material, mass] : model.frame.parts)
+    {
+      json.begin_object();
+      json.text("name", name);
+      json.text("material", material);
+      json.number("mass", mass);
+      json.end_object();
+    }
+    json.end_array();
+    json.number("rigid_energy", model.frame.rigid_energy);
+  }
+  if (model.damping.empty())
+    return;
+  json.integer("free_motions", model.free_motions);
+  json.begin_array("free_motion_names");
+  for (const std::string &name : model.frame.free_motions)
+    json.text("", name);
+  json.end_array();
+  json.text("damping", model.damping);
+}
+
 void write_model(JsonWriter &json, const ModelFacts &model)
 {
   const auto count = [&](const char *name, int n)
@@ -40,6 +79,7 @@ void write_model(JsonWriter &json, const ModelFacts &model)
   json.number("frame_mass", model.frame_mass);
   json.number("frequency_error", model.frequency_error);
   json.number("static_residual", model.static_residual);
+  write_frame(json, model);
   json.end_object();
 }
 

@@ -56,6 +56,8 @@ inline const Kind force{"force", "46 kN", {1, 1, -2}};
 inline const Kind torque{"torque", "240 N m", {2, 1, -2}};
 inline const Kind stiffness{"stiffness", "420 kN/mm", {0, 1, -2}};
 inline const Kind damping{"damping", "600 kN s/m", {0, 1, -1}};
+inline const Kind bedding{"stiffness per area", "40 N/mm^3", {-2, 1, -2}};
+inline const Kind damping_per_area{"damping per area", "600 kN s/m^3", {-2, 1, -1}};
 inline const Kind torsional_stiffness{"torsional stiffness", "1300 kN m/rad", {2, 1, -2}};
 inline const Kind torsional_damping{"torsional damping", "3 kN m s/rad", {2, 1, -1}};
 inline const Kind cubic_stiffness{"cubic stiffness", "5 N/mm^3", {-2, 1, -2}};

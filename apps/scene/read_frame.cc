@@ -11,8 +11,9 @@ FrameRequest read_frame(const SceneTable &scene)
     return request;
   request.place = frame->place();
 
-  const bool cad = frame->has("cad"), matrices = frame->has("mass") || frame->has("stiffness"),
-             reduced = frame->has("reduced");
+  const bool cad      = frame->has("cad"),
+             matrices = (frame->has("mass") && !frame->is_table("mass")) || frame->has("stiffness"),
+             reduced  = frame->has("reduced");
   if (cad + matrices + reduced != 1)
     throw frame->error(
         "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices) and 'reduced' "

@@ -1,11 +1,12 @@
 #include "apps/scene/names.h"
+#include "apps/scene/read_damping.h"
 #include "apps/scene/read_frame.h"
 #include "apps/scene/read_material.h"
+#include "apps/scene/read_tensor.h"
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -80,6 +81,17 @@ fem::Vector3 per_direction(const SceneTable &table, const std::string &key, cons
   return value;
 }
 
+/// `key`, a total over the surface, or `key`_per_area.
+fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, const Kind &total, const Kind &per_area,
+                               bool &is_per_area)
+{
+  const std::string longer = key + "_per_area";
+  is_per_area              = table.has(longer);
+  if (is_per_area && table.has(key))
+    throw table.error(longer, "stands beside '" + key + "', the total over the surface; give one of them");
+  return is_per_area ? per_direction(table, longer, per_area) : per_direction(table, key, total);
+}
+
 fem::Support read_support(const SceneTable &table, const fem::FrameSpecification &frame)
 {
   check_thing_name(table);
@@ -107,10 +119,18 @@ fem::Support read_support(const SceneTable &table, const fem::FrameSpecification
   }
   if (foundation)
   {
-    support.stiffness = per_direction(*foundation, "stiffness", kind::stiffness);
-    support.damping   = per_direction(*foundation, "damping", kind::damping);
-    if (support.stiffness == fem::Vector3{})
-      throw foundation->error("needs a stiffness such as \"420 kN/mm\"");
+    support.stiffness =
+        total_or_per_area(*foundation, "stiffness", kind::stiffness, kind::bedding, support.per_area[0]);
+    support.damping =
+        total_or_per_area(*foundation, "damping", kind::damping, kind::damping_per_area, support.per_area[1]);
+    if (support.stiffness == fem::Vector3{} && support.damping == fem::Vector3{})
+      throw foundation->error("needs a stiffness such as \"420 kN/mm\", a damping, or both");
+    if (foundation->has("axes"))
+    {
+      const Eigen::Matrix3d axes = read_axes(*foundation, "axes");
+      for (int d = 0; d < 3; ++d)
+        support.axes[d] = {axes(0, d), axes(1, d), axes(2, d)};
+    }
   }
   return support;
 }
@@ -119,14 +139,20 @@ fem::InterfaceSpecification read_interface(const SceneTable &table, const fem::F
 {
   check_thing_name(table);
   fem::InterfaceSpecification interface;
-  interface.name     = table.name();
-  interface.place    = table.place();
-  interface.surfaces = read_surface_names(table, frame);
-  interface.coupling = table.choice("coupling", {"rigid", "average"}, "rigid") == "rigid"
-                           ? fem::InterfaceCoupling::rigid
-                           : fem::InterfaceCoupling::average;
-  if (table.has("position"))
+  interface.name             = table.name();
+  interface.place            = table.place();
+  interface.surfaces         = read_surface_names(table, frame);
+  const std::string coupling = table.choice("coupling", {"rigid", "average", "point"}, "rigid");
+  interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
+                               : coupling == "average" ? fem::InterfaceCoupling::average
+                                                       : fem::InterfaceCoupling::point;
+  const bool point           = interface.coupling == fem::InterfaceCoupling::point;
+  if (point || table.has("position"))
     interface.position = table.vector("position", kind::length);
+  if (table.has("radius") && !point)
+    throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
+  if (point)
+    interface.radius = table.not_negative("radius", kind::length, 0.);
   return interface;
 }
 
@@ -178,9 +204,16 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
   std::map<std::string, std::string> owner;
   for (const auto &interface : specification.interfaces)
     for (const auto &surface : interface.surfaces)
-      if (const auto [first, is_new] = owner.emplace(surface, "interface '" + interface.name + "'"); !is_new)
+      if (interface.coupling == fem::InterfaceCoupling::point)
+        continue; // takes but a few triangles; that these are its own is checked on the mesh
+      else if (const auto [first, is_new] = owner.emplace(surface, "interface '" + interface.name + "'"); !is_new)
         throw std::invalid_argument(interface.place + ": surface '" + surface + "' belongs to " + first->second +
                                     " already; give each interface surfaces of its own");
+  for (const auto &mass : specification.masses)
+    for (const auto &surface : mass.surfaces)
+      if (const auto [first, is_new] = owner.emplace(surface, "mass '" + mass.name + "'"); !is_new)
+        throw std::invalid_argument(mass.place + ": surface '" + surface + "' belongs to " + first->second +
+                                    " already; put the mass on that interface, or give it surfaces of its own");
   for (const auto &support : specification.supports)
     if (support.kind == fem::SupportKind::clamped)
       for (const auto &surface : support.surfaces)
@@ -191,42 +224,38 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
     throw frame.error("has no interface; declare at least one [frame.interface.NAME] for the mechanism to act on");
 }
 
-/// The ratio of all modes, or Rayleigh's B = alpha M + beta C by the ratios at two frequencies:
-/// zeta = (alpha/omega + beta omega)/2.
-void read_damping(const SceneTable &damping, fem::FrameSpecification &specification)
+/// A motor or a counterweight, on an interface or on surfaces of its own.
+fem::AttachedMass read_mass(const SceneTable &table, const fem::FrameSpecification &frame)
 {
-  const auto ratio = [](const SceneTable &table)
+  check_thing_name(table);
+  fem::AttachedMass mass;
+  mass.name  = table.name();
+  mass.place = table.place();
+  mass.mass  = table.positive("mass", kind::mass);
+  if (table.has("inertia"))
+    mass.inertia = read_tensor(table);
+  if (table.has("position"))
+    mass.centre = table.vector("position", kind::length);
+  const bool surfaces = table.has("surface") || table.has("surfaces");
+  if (surfaces == table.has("on"))
+    throw table.error("needs either 'on', the interface that carries it, or 'surfaces' it is fastened to");
+  if (surfaces)
   {
-    const double zeta = table.not_negative("ratio", kind::number);
-    if (zeta >= 1.)
-      throw table.error("ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
-    return zeta;
-  };
-  if (!damping.has("rayleigh"))
-  {
-    specification.modal_damping_ratio = ratio(damping);
-    return;
+    mass.surfaces = read_surface_names(table, frame);
+    mass.coupling = table.choice("coupling", {"rigid", "average"}, "rigid") == "rigid"
+                        ? fem::InterfaceCoupling::rigid
+                        : fem::InterfaceCoupling::average;
+    return mass;
   }
-  if (damping.has("ratio"))
-    throw damping.error("rayleigh", "says how all modes are damped, as `ratio` does; leave out one of them");
-  const auto pairs = damping.table_array("rayleigh");
-  if (pairs.size() != 2)
-    throw damping.error("rayleigh", "has " + std::to_string(pairs.size()) +
-                                        " pairs; it needs two, [{ frequency = \"20 Hz\", ratio = 0.01 }, { ... }]");
-  double omega[2], zeta[2];
-  for (int i = 0; i < 2; ++i)
-  {
-    omega[i] = 2. * M_PI * pairs[i].positive("frequency", kind::frequency);
-    zeta[i]  = ratio(pairs[i]);
-  }
-  if (!(omega[1] > omega[0]))
-    throw pairs[1].error("frequency", "must lie above that of the first pair");
-  const double squares             = omega[1] * omega[1] - omega[0] * omega[0];
-  specification.rayleigh_stiffness = 2. * (zeta[1] * omega[1] - zeta[0] * omega[0]) / squares;
-  specification.rayleigh_mass      = 2. * omega[0] * omega[1] * (zeta[0] * omega[1] - zeta[1] * omega[0]) / squares;
-  if (specification.rayleigh_stiffness < 0. || specification.rayleigh_mass < 0.)
-    throw damping.error("rayleigh", "would feed some vibrations instead of damping them: the two ratios differ by more "
-                                    "than their frequencies do; bring them nearer to each other");
+  std::vector<std::string> known;
+  for (const auto &interface : frame.interfaces)
+    known.push_back(interface.name);
+  const std::string on = table.text("on");
+  mass.interface       = on.rfind("frame.", 0) == 0 ? on.substr(6) : on;
+  if (std::find(known.begin(), known.end(), mass.interface) == known.end())
+    throw table.error("on", "there is no [frame.interface." + written_key(mass.interface) + "]" +
+                                coupling::suggestion(mass.interface, known));
+  return mass;
 }
 
 } // namespace
@@ -242,10 +271,16 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh"};
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + coupling::listed(endings));
-  specification.unit     = frame.positive("unit", kind::length, 0.);
-  specification.material = read_material(frame, scene);
-  if (const auto damping = frame.optional_table("damping"))
-    read_damping(*damping, specification);
+  specification.unit      = frame.positive("unit", kind::length, 0.);
+  specification.material  = read_material(frame, scene);
+  specification.materials = read_solid_materials(frame, scene);
+  if (const auto table = frame.optional_table("damping"))
+  {
+    const FrameDamping damping        = read_damping(*table);
+    specification.modal_damping_ratio = damping.ratios;
+    specification.rayleigh_mass       = damping.alpha;
+    specification.rayleigh_stiffness  = damping.beta;
+  }
 
   for (const auto &table : frame.tables("surface"))
     specification.surfaces[table.name()] = read_surface(table);
@@ -253,6 +288,8 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
     specification.supports.push_back(read_support(table, specification));
   for (const auto &table : frame.tables("interface"))
     specification.interfaces.push_back(read_interface(table, specification));
+  for (const auto &table : frame.tables("mass"))
+    specification.masses.push_back(read_mass(table, specification));
   for (const auto &table : frame.tables("cut"))
     specification.cuts.push_back(read_cut(table));
   check_overlaps(frame, specification);

@@ -1,4 +1,5 @@
 #include "apps/scene/names.h"
+#include "apps/scene/read_damping.h"
 #include "apps/scene/read_frame.h"
 #include "coupling/matrix_market.h"
 #include "coupling/nearest_name.h"
@@ -191,12 +192,12 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
   const Eigen::Index n = matrices.M.rows();
   matrices.C           = read_square(frame, "stiffness", kind::stiffness_entry, n);
   matrices.B.resize(n, n);
-  if (const bool ratio = frame.is_table("damping"); ratio)
+  if (frame.is_table("damping"))
   {
-    const auto damping           = frame.table("damping");
-    matrices.modal_damping_ratio = damping.not_negative("ratio", kind::number);
-    if (matrices.modal_damping_ratio >= 1.)
-      throw damping.error("ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
+    const FrameDamping damping   = read_damping(frame.table("damping"));
+    matrices.modal_damping_ratio = damping.ratios;
+    if (damping.alpha > 0. || damping.beta > 0.)
+      matrices.B = damping.alpha * matrices.M + damping.beta * matrices.C;
   }
   else if (frame.has("damping"))
   {

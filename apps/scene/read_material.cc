@@ -1,11 +1,79 @@
 #include "apps/scene/read_material.h"
 
+#include <cmath>
 #include <map>
+#include <sstream>
 
 namespace gestell::apps
 {
 namespace
 {
+
+/// What solids have, and the units a number outside is usually meant in.
+struct Plausible
+{
+  const char *key, *unit;
+  double      least, most; ///< beyond these no solid is
+  double      low, high;   ///< beyond these hardly any structure is
+  const char *below, *above;
+  struct OtherUnit
+  {
+    const char *name;
+    double      factor;
+  };
+  std::vector<OtherUnit> others;
+};
+
+const Plausible &plausible_density()
+{
+  static const Plausible density{"rho",
+                                 "kg/m^3",
+                                 1.,
+                                 30000.,
+                                 50.,
+                                 23000.,
+                                 "lighter than any solid",
+                                 "heavier than any solid",
+                                 {{"t/mm^3", 1e12}, {"kg/mm^3", 1e9}, {"g/cm^3", 1e3}}};
+  return density;
+}
+
+const Plausible &plausible_modulus()
+{
+  static const Plausible modulus{
+      "E", "Pa", 1e6, 2e12, 1e8, 1.2e12, "softer than rubber", "stiffer than diamond", {{"GPa", 1e9}, {"MPa", 1e6}}};
+  return modulus;
+}
+
+/// The unit in which the number is that of a common structural material.
+std::string likely_unit(const Plausible &range, double value, double common_low, double common_high)
+{
+  for (const auto &[name, factor] : range.others)
+    if (factor * value >= common_low && factor * value <= common_high)
+    {
+      std::ostringstream text;
+      text << "; if " << value << " " << name << " was meant, write it with its unit or as " << factor * value << " "
+           << range.unit;
+      return text.str();
+    }
+  return {};
+}
+
+/// Plain numbers no solid has are refused as a mistaken unit; with a unit beside them they are meant, and only warned
+/// of.
+void check_plausible(const SceneTable &table, const Plausible &range, double value, double common_low,
+                     double common_high)
+{
+  if (value >= range.low && value <= range.high)
+    return;
+  std::ostringstream text;
+  text << "is " << value << " " << range.unit << ", " << (value < range.low ? range.below : range.above)
+       << likely_unit(range, value, common_low, common_high);
+  const bool impossible = value < range.least || value > range.most;
+  if (impossible && !table.is_text(range.key))
+    throw table.error(range.key, text.str() + "; numbers without unit are SI");
+  table.warn(range.key, text.str());
+}
 
 fem::Material material_from(const SceneTable &table)
 {
@@ -16,12 +84,12 @@ fem::Material material_from(const SceneTable &table)
   material.place = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
+  check_plausible(table, plausible_modulus(), material.E, 5e9, 5e11);
+  check_plausible(table, plausible_density(), material.rho, 400., 20000.);
   return material;
 }
 
-} // namespace
-
-fem::Material read_material(const SceneTable &table, const SceneTable &scene)
+std::map<std::string, fem::Material> known_materials(const SceneTable &scene)
 {
   // Handbook values at room temperature; own materials may redefine them.
   std::map<std::string, fem::Material> known = {{"steel", {210e9, 0.3, 7850., ""}},
@@ -29,14 +97,39 @@ fem::Material read_material(const SceneTable &table, const SceneTable &scene)
                                                 {"aluminium", {70e9, 0.33, 2700., ""}}};
   for (const auto &own : scene.tables("material"))
     known[own.name()] = material_from(own);
-  if (table.is_table("material"))
-    return material_from(table.table("material"));
+  for (auto &[name, material] : known)
+    material.name = name;
+  return known;
+}
+
+} // namespace
+
+fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key,
+                            const std::string &fallback)
+{
+  const auto known = known_materials(scene);
+  if (table.is_table(key))
+  {
+    fem::Material material = material_from(table.table(key));
+    material.name          = "own";
+    return material;
+  }
   std::vector<std::string> names;
   for (const auto &entry : known)
     names.push_back(entry.first);
-  fem::Material material = known.at(table.choice("material", names, "steel"));
-  material.place         = table.place("material");
+  fem::Material material = known.at(table.choice(key, names, fallback));
+  material.place         = table.place(key);
   return material;
+}
+
+std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,
+                                                                        const SceneTable &scene)
+{
+  std::vector<std::pair<std::string, fem::Material>> materials;
+  if (const auto table = frame.optional_table("materials"))
+    for (const std::string &solid : table->keys())
+      materials.emplace_back(solid, read_material(*table, scene, solid, ""));
+  return materials;
 }
 
 } // namespace gestell::apps

@@ -3,11 +3,23 @@
 #include "apps/scene/scene_table.h"
 #include "fem/frame_specification.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace gestell::apps
 {
 
-/// `material` of a frame or a body: a table { E, nu, rho }, the name of a [material.NAME] of the scene, or of a
-/// built-in one; steel if it is missing.
-fem::Material read_material(const SceneTable &table, const SceneTable &scene);
+/// A material of a frame or a body under `key`: a table { E, nu, rho }, the name of a [material.NAME] of the scene, or
+/// of a built-in one; `fallback` (empty: none) if it is missing.
+///
+/// A modulus or density no solid has is refused as a plain number, with the unit that was probably meant; written with
+/// its unit it is only warned of.
+fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key = "material",
+                            const std::string &fallback = "steel");
+
+/// `materials` of a frame, by name of the solid.
+std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,
+                                                                        const SceneTable &scene);
 
 } // namespace gestell::apps

@@ -65,7 +65,10 @@ std::invalid_argument SceneTable::error(const std::string &key, const std::strin
 
 void SceneTable::warn(const std::string &key, const std::string &what) const
 {
-  warnings_->push_back(place(key) + ": " + what);
+  // What several readers read is told once.
+  const std::string warning = place(key) + ": " + what;
+  if (std::find(warnings_->begin(), warnings_->end(), warning) == warnings_->end())
+    warnings_->push_back(warning);
 }
 
 // --- looking up

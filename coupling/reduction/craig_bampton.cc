@@ -2,6 +2,7 @@
 
 #include "coupling/reduction/enough_modes.h"
 #include "coupling/reduction/lowest_modes.h"
+#include "fem/rigid_motions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,11 +106,11 @@ StaticRemainder static_remainder(const HeldFrame &held, const ReductionBasis &ba
 }
 
 /// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
-void add_modal_damping(MatrixXd &B, const SupportedModes &refined, double zeta)
+void add_modal_damping(MatrixXd &B, const SupportedModes &refined, const fem::ModalRatios &zeta)
 {
   const auto n = B.rows(), p = std::min<Eigen::Index>(refined.omega.size(), n);
   const auto P = refined.P.topLeftCorner(n, p);
-  B += P * (2. * zeta * refined.omega.head(p)).asDiagonal() * P.transpose();
+  B += P * zeta.modal_dampers(refined.omega.head(p)).asDiagonal() * P.transpose();
 }
 
 void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionBasis &basis)
@@ -128,9 +129,11 @@ void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Redu
   reduced.triangles = frame.picture.triangles;
   if (frame.picture.displacement.rows() > 0)
     reduced.displacement = (frame.picture.displacement * basis.T).cast<float>();
-  reduced.n_full  = int(frame.M.rows());
-  reduced.n_cells = frame.n_cells;
-  reduced.mass    = frame.mass;
+  reduced.facts              = frame.facts;
+  reduced.facts.free_motions = fem::free_motions(frame, {});
+  reduced.n_full             = int(frame.M.rows());
+  reduced.n_cells            = frame.n_cells;
+  reduced.mass               = frame.mass;
 }
 
 } // namespace
@@ -175,7 +178,7 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
   reduced.frequency_limit_hz = highest_of_interest(options, refined) / two_pi;
-  if (frame.modal_damping_ratio > 0.)
+  if (frame.modal_damping_ratio.any())
     add_modal_damping(star.B, refined, frame.modal_damping_ratio);
 
   tell(progress, "reduced matrices");
@@ -214,7 +217,7 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   basis.MT.resize(n, 0);
   add_fixed_modes(basis, free_frame, frame, n_modes);
   frame.modal_damping.Z = basis.MT;
-  frame.modal_damping.d = 2. * frame.modal_damping_ratio * basis.omega0;
+  frame.modal_damping.d = frame.modal_damping_ratio.modal_dampers(basis.omega0);
 }
 
 } // namespace gestell::coupling

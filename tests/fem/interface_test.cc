@@ -5,12 +5,16 @@
 #include "fem/rigid_motions.h"
 #include "fem/surface_patch.h"
 #include "tests/fem/box_mesh.h"
+#include "tests/fem/lowest_modes.h"
 #include "tests/fem/statics.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <sstream>
 
 namespace gestell::test
 {
@@ -115,6 +119,123 @@ TEST_P(Coupling, MovesItsNodeAsARigidArmDoes)
   Eigen::MatrixXd       T   = Eigen::MatrixXd::Identity(6, 6);
   T.topRows(3)              = fem::rigid_motions_of_point(arm, Eigen::Vector3d(0.5, 0.4, 1.5));
   EXPECT_LT((H_0 - T * H_c * T.transpose()).cwiseAbs().maxCoeff(), 1e-9 * H_0.cwiseAbs().maxCoeff());
+}
+
+TEST(AverageCoupling, StaysRegularOnFewOrUnfavourablyPlacedNodes)
+{
+  // One triangle of six nodes; and a strip a hundred times longer than wide, which hardly tells its own twist.
+  fem::Mesh few = box_mesh({2, 2, 2}, {1., 0.8, 1.5}), narrow = box_mesh({12, 1, 2}, {1., 0.01, 0.3});
+  few.surfaces["z1"]    = {few.surfaces["z1"].front()};
+  const auto expect_six = [](const fem::Mesh &mesh)
+  {
+    auto specification           = block(average);
+    specification.supports       = {};
+    const auto            frame  = discretise(mesh, specification);
+    const Eigen::MatrixXd energy = frame.rigid_motions.transpose() * (frame.C * frame.rigid_motions);
+    const Eigen::MatrixXd terms =
+        frame.rigid_motions.cwiseAbs().transpose() * (frame.C.cwiseAbs() * frame.rigid_motions.cwiseAbs());
+    EXPECT_LT(energy.cwiseAbs().maxCoeff(), 1e-12 * terms.maxCoeff());
+    EXPECT_NEAR(frame.rigid_motions.col(0).dot(frame.M * frame.rigid_motions.col(0)), frame.mass, 1e-9 * frame.mass);
+  };
+  expect_six(few);
+  expect_six(narrow);
+
+  // and its flexibility is that of the same traction on the uncoupled surface, checked by reciprocity and definiteness
+  const Eigen::MatrixXd H = flexibility(discretise(narrow, block(average)));
+  EXPECT_LT((H - H.transpose()).norm(), 1e-8 * H.norm());
+  EXPECT_GT((Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (H + H.transpose())).eigenvalues()[0]), 0.);
+}
+
+/// A block with the point of its top nearest to a position.
+fem::FrameSpecification point_block(const fem::Vector3 &position, double radius = 0.)
+{
+  auto specification                 = block(InterfaceCoupling::point, position);
+  specification.interfaces[0].radius = radius;
+  return specification;
+}
+
+TEST(PointCoupling, StandsWhereTheSurfaceIsNearest)
+{
+  const auto at = [](const fem::Vector3 &position)
+  { return Eigen::Vector3d(discretise(block_mesh(), point_block(position)).interfaces[0].position.data()); };
+  EXPECT_LT((at({0.31, 0.22, 4.}) - Eigen::Vector3d(0.31, 0.22, 1.5)).norm(), 1e-12) << "above the face";
+  EXPECT_LT((at({-3., 0.22, 1.5}) - Eigen::Vector3d(0., 0.22, 1.5)).norm(), 1e-12) << "beside it";
+  EXPECT_LT((at({2., 3., 0.}) - Eigen::Vector3d(1., 0.8, 1.5)).norm(), 1e-12) << "beyond a corner";
+}
+
+TEST(PointCoupling, HasSixMotionsThatCostNoEnergyTogether)
+{
+  auto specification           = point_block({0.31, 0.22, 1.5});
+  specification.supports       = {};
+  const auto            frame  = discretise(block_mesh(), specification);
+  const Eigen::MatrixXd energy = frame.rigid_motions.transpose() * (frame.C * frame.rigid_motions);
+  const Eigen::MatrixXd terms =
+      frame.rigid_motions.cwiseAbs().transpose() * (frame.C.cwiseAbs() * frame.rigid_motions.cwiseAbs());
+  EXPECT_LT(energy.cwiseAbs().maxCoeff(), 1e-12 * terms.maxCoeff());
+}
+
+TEST(PointCoupling, WithARadiusThatHoldsTheWholeSurfaceIsItsAverage)
+{
+  const fem::Vector3    centre{0.5, 0.4, 1.5};
+  const Eigen::MatrixXd point = flexibility(discretise(block_mesh(), point_block(centre, 5.))),
+                        whole = flexibility(discretise(block_mesh(), block(average)));
+  EXPECT_LT((point - whole).norm(), 1e-9 * whole.norm());
+}
+
+TEST(PointCoupling, IsSofterTheSmallerItsSurface)
+{
+  const fem::Vector3 centre{0.5, 0.4, 1.5};
+  const auto         softness = [&](double radius, int n)
+  { return flexibility(discretise(block_mesh(n), point_block(centre, radius)))(fem::uz, fem::uz); };
+  EXPECT_GT(softness(0.2, 6), softness(0.4, 6));
+  EXPECT_GT(softness(0., 6), 1.1 * softness(0., 3)) << "without a radius it depends on the mesh";
+  const std::string message = refusal([] { discretise(block_mesh(), point_block({0.5, 0.4, 1.5}, 1e-3)); });
+  EXPECT_NE(message.find("interface \"top\": no triangle of its surface"), std::string::npos) << message;
+}
+
+TEST(Couplings, OfAPadOnAPlateAreRigidStiffestPointSoftest)
+{
+  // A plate of 400 x 300 x 20 mm, clamped at one edge, with a pad of 100 x 100 mm in its middle.  The rigid pad
+  // stiffens the plate itself, the others leave it its own frequency.  The figures stand in docs/scene.md.
+  fem::Mesh         mesh = box_mesh({8, 6, 1}, {0.4, 0.3, 0.02});
+  std::vector<int> &pad  = mesh.surfaces["pad"];
+  for (const int triangle : mesh.surfaces["z1"])
+  {
+    const auto &corners = mesh.skin[triangle];
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](int i)
+                    {
+                      const auto &x = mesh.points[i];
+                      return x[0] > 0.149 && x[0] < 0.251 && x[1] > 0.099 && x[1] < 0.201;
+                    }))
+      pad.push_back(triangle);
+  }
+  const auto with = [&](InterfaceCoupling coupling)
+  {
+    auto specification                   = block(coupling, fem::Vector3{0.2, 0.15, 0.02});
+    specification.supports               = {clamped("edge", {"x0"})};
+    specification.interfaces[0].surfaces = {"pad"};
+    return discretise(mesh, specification);
+  };
+  const fem::FrameMatrices frames[3] = {with(rigid), with(average), with(InterfaceCoupling::point)};
+  Eigen::MatrixXd          H[3];
+  double                   f[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    H[k] = flexibility(frames[k]);
+    f[k] = lowest_modes(frames[k], 1).frequency_hz[0];
+    std::ostringstream figures;
+    figures << "N/um " << 1e-6 / H[k](2, 2) << ", kN m/mrad " << 1e-6 / H[k](3, 3) << " " << 1e-6 / H[k](4, 4)
+            << ", Hz " << f[k];
+    RecordProperty("coupling_" + std::to_string(k), figures.str());
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_LT(H[0](i, i), H[1](i, i)) << i;
+    EXPECT_LT(H[1](i, i), H[2](i, i)) << i;
+  }
+  EXPECT_GT(f[0], 1.01 * f[1]);
+  EXPECT_NEAR(f[1], f[2], 1e-9 * f[1]) << "neither constrains the plate";
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Coupling, ::testing::Values(rigid, average),

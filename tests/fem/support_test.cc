@@ -91,6 +91,55 @@ TEST(Foundation, ResistsTiltByTheSecondMomentOfItsArea)
   EXPECT_NEAR(tilt.dot(frame.C * tilt), 4e8 * 0.3 * 0.3 / 12., 1e-4 * 4e8 * 0.3 * 0.3 / 12.);
 }
 
+TEST(Foundation, ByAreaIsTheSameAsByItsTotals)
+{
+  auto  totals = bar_on_springs(), by_area = bar_on_springs();
+  auto &support    = by_area.supports[0];
+  support.per_area = {true, true};
+  for (int d = 0; d < 3; ++d)
+  {
+    support.stiffness[d] /= 0.4 * 0.3;
+    support.damping[d] /= 0.4 * 0.3;
+  }
+  const auto a = discretise(bar_mesh(), totals), b = discretise(bar_mesh(), by_area);
+  EXPECT_LT((Eigen::MatrixXd(a.C) - Eigen::MatrixXd(b.C)).norm(), 1e-13 * a.C.norm());
+  EXPECT_LT((Eigen::MatrixXd(a.B) - Eigen::MatrixXd(b.B)).norm(), 1e-13 * a.B.norm());
+}
+
+TEST(Foundation, ActsAlongItsAxes)
+{
+  // Translations along the axes meet the three stiffnesses one by one; the reactions are the global components.
+  auto         specification = bar_on_springs();
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  specification.supports[0].axes = {{{c, s, 0.}, {-s, c, 0.}, {0., 0., 1.}}};
+  const auto            frame    = discretise(bar_mesh(), specification);
+  const Eigen::Vector3d u(c, s, 0.);
+  const Eigen::VectorXd q = frame.translations * u;
+  EXPECT_NEAR(q.dot(frame.C * q), 2e8, 1e-6 * 2e8);
+  EXPECT_NEAR(q.dot(frame.B * q), 2e3, 1e-10 * 2e3);
+  for (int d = 0; d < 3; ++d)
+    EXPECT_NEAR(output(frame, std::string("support.feet.") + "xyz"[d]).on_q.dot(q), -2e8 * u[d], 1e-6 * 2e8);
+  const Eigen::VectorXd across = frame.translations * Eigen::Vector3d(-s, c, 0.);
+  EXPECT_NEAR(q.dot(frame.C * across), 0., 1e-6 * 2e8);
+
+  specification.supports[0].axes[1] = {0., 1., 0.};
+  EXPECT_NE(refusal([&] { discretise(bar_mesh(), specification); }).find("at right angles"), std::string::npos);
+}
+
+TEST(Foundation, OfDampersAloneHoldsNothingAndDissipates)
+{
+  auto specification       = bar_on_springs();
+  specification.supports   = {clamped("feet", {"z0"}), foundation("damper", {"z1"}, {}, {{0., 0., 5e4}})};
+  specification.interfaces = {};
+  const auto with          = discretise(bar_mesh(), specification);
+  specification.supports.pop_back();
+  const auto without = discretise(bar_mesh(), specification);
+  EXPECT_EQ((Eigen::MatrixXd(with.C) - Eigen::MatrixXd(without.C)).norm(), 0.);
+  const Eigen::VectorXd up = with.translations.col(2);
+  EXPECT_NEAR(up.dot(with.B * up), 5e4, 1e-9 * 5e4);
+  EXPECT_NEAR(output(with, "support.damper.z").on_v.dot(up), -5e4, 1e-9 * 5e4);
+}
+
 TEST(ClampedSupport, AnswersEveryLoadWithItsReaction)
 {
   auto specification     = bar_on_springs();

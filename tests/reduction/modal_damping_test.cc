@@ -8,6 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace gestell
 {
 namespace
@@ -47,6 +51,40 @@ TEST(ModalDamping, GivesEveryModeOfTheFullFrameItsRatio)
   for (int j = 0; j < 15; ++j)
     EXPECT_NEAR(ratio(j), 0.03, 1e-10);
   EXPECT_NEAR(ratio(15), 0., 1e-10); // orthogonality: no mode above feels it
+}
+
+TEST(ModalDamping, ByModeOrByFrequencyGivesEachModeItsOwnRatio)
+{
+  auto             frame = without_dampers(Lattice());
+  const auto       modes = dense_modes(frame.C, frame.M);
+  fem::ModalRatios list, table;
+  list.by_mode     = {0.01, 0.03, 0.02};
+  const double low = modes.omega(2) / (2. * M_PI), high = modes.omega(8) / (2. * M_PI);
+  table.by_frequency = {{low, 0.01}, {high, 0.04}};
+  for (const auto &[ratios, by_list] : {std::pair(list, true), std::pair(table, false)})
+  {
+    frame.modal_damping_ratio = ratios;
+    coupling::add_modal_damping(frame, 15);
+    for (int j = 0; j < 15; ++j)
+    {
+      const VectorXd z     = frame.modal_damping.Z.transpose() * modes.V.col(j);
+      const double   hz    = modes.omega(j) / (2. * M_PI);
+      const double   share = std::clamp((hz - low) / (high - low), 0., 1.);
+      EXPECT_NEAR(z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j)),
+                  by_list ? list.by_mode[std::min(j, 2)] : 0.01 + 0.03 * share, 1e-9)
+          << "mode " << j;
+    }
+  }
+}
+
+TEST(ModalDamping, CountsTheModesOfAFloatingFrameFromTheFirstElasticOne)
+{
+  fem::ModalRatios ratios;
+  ratios.by_mode   = {0.1, 0.2};
+  const VectorXd d = ratios.modal_dampers((VectorXd(5) << 0., 0., 3., 5., 7.).finished());
+  EXPECT_LT((d - (VectorXd(5) << 0., 0., 0.6, 2., 2.8).finished()).norm(), 1e-15);
+  EXPECT_EQ(fem::ModalRatios(0.02).text(), "2 % of critical in every mode of the frame");
+  EXPECT_FALSE(fem::ModalRatios().any());
 }
 
 TEST(ModalDamping, ForTheSameModesIsTheSameOperatorInTheFullAndInTheReducedModel)

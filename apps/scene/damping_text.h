@@ -1,0 +1,13 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// How the frame of a scene is damped, for people; empty if there is no frame.
+std::string damping_text(const FrameRequest &frame);
+
+} // namespace gestell::apps

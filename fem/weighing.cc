@@ -1,0 +1,103 @@
+#include "fem/weighing.h"
+
+#include "fem/elasticity.h"
+#include "fem/rigid_motions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+Eigen::Map<const Eigen::Vector3d> point(const QuadraticMesh &mesh, int node)
+{
+  return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
+}
+
+} // namespace
+
+Eigen::VectorXd nodal_mass(const BlockMatrix &M)
+{
+  const BlockMatrix::Rows rows = M.rows();
+  Eigen::VectorXd         mass = Eigen::VectorXd::Zero(M.n_nodes());
+  for (int i = 0; i < M.n_nodes(); ++i)
+    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
+      mass[i] += rows.values[k];
+  return mass;
+}
+
+MassProperties weigh(const QuadraticMesh &mesh, const BlockMatrix &M)
+{
+  const Eigen::VectorXd nodal = nodal_mass(M);
+  MassProperties        whole;
+  whole.mass = nodal.sum();
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    whole.centre += nodal[i] / whole.mass * point(mesh, i);
+
+  const BlockMatrix::Rows rows = M.rows();
+  Eigen::Matrix3d         S    = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+  {
+    Eigen::Vector3d y = Eigen::Vector3d::Zero();
+    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
+      y += rows.values[k] * (point(mesh, rows.columns[k]) - whole.centre);
+    S += (point(mesh, i) - whole.centre) * y.transpose();
+  }
+  S             = 0.5 * (S + S.transpose()).eval();
+  whole.inertia = S.trace() * Eigen::Matrix3d::Identity() - S;
+  return whole;
+}
+
+Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinematics &kinematics)
+{
+  Eigen::MatrixXd result(kinematics.n_coordinates(), 3);
+  for (int d = 0; d < 3; ++d)
+  {
+    Eigen::VectorXd load                       = Eigen::VectorXd::Zero(3 * nodal_mass.size());
+    load(Eigen::seqN(d, nodal_mass.size(), 3)) = nodal_mass;
+    result.col(d)                              = kinematics.gather(load);
+  }
+  return result;
+}
+
+std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                           const CellMaterials &materials)
+{
+  std::vector<FrameFacts::Part> parts;
+  for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid)
+    parts.push_back({mesh.solids[solid], materials.materials[solid].name});
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    parts[materials.of_cell[cell]].mass += cell_mass(quadratic, static_cast<int>(cell), materials[cell]).sum();
+  return parts;
+}
+
+double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C)
+{
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    middle += point(mesh, i) / mesh.n_nodes();
+
+  using Motions                      = Eigen::Matrix<double, 3, 6>;
+  const BlockMatrix::Rows     rows   = C.rows();
+  Eigen::Matrix<double, 6, 1> energy = Eigen::Matrix<double, 6, 1>::Zero(), cancelling = energy;
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+  {
+    Motions force = Motions::Zero(), terms = Motions::Zero();
+    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
+    {
+      const Eigen::Map<const Eigen::Matrix3d> block(rows.values + 9 * k);
+      const Motions                           u = rigid_motions_of_point(mesh.points[rows.columns[k]], middle);
+      force += block * u;
+      terms += block.cwiseAbs() * u.cwiseAbs();
+    }
+    const Motions u = rigid_motions_of_point(mesh.points[i], middle);
+    energy += u.cwiseProduct(force).colwise().sum();
+    cancelling += u.cwiseAbs().cwiseProduct(terms).colwise().sum();
+  }
+  return (energy.array().abs() / cancelling.array()).maxCoeff();
+}
+
+} // namespace gestell::fem
