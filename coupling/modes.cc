@@ -148,14 +148,21 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
 namespace
 {
 
+/// What drives and controllers add to the structure.
+struct Drives
+{
+  bool             any = false;
+  std::vector<int> lags; ///< virtual coordinates whose elements act; those of others only fade with their own constants
+};
+
 /// Adds -dp/du and -dp/dv [n x n] of the drives, which are no structure, as they are at a motion.
-/// @return whether there are any
-bool add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
+Drives add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
 {
   const Eigen::VectorXd structure = acting_measures(machine, local.u, Acting::structure);
   const auto           &W         = machine.directions();
-  bool                  any       = false;
-  int                   first     = 0;
+  const auto           &lags      = machine.virtual_coordinates(); // ascending
+  Drives                found;
+  int                   first = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
     const mechanism::ForceElement &element = *placement.element;
@@ -174,11 +181,16 @@ bool add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd
       const Eigen::MatrixXd own = W.middleCols(first, k);
       K -= own * du * own.transpose();
       B -= own * dv * own.transpose();
-      any = any || !du.isZero(0.) || !dv.isZero(0.);
+      found.any = found.any || !du.isZero(0.) || !dv.isZero(0.);
     }
+    const bool acts = drives || !structure.segment(first, k).isZero(0.);
+    for (const Measure &u : placement.measures)
+      for (const auto &term : u)
+        if (acts && std::binary_search(lags.begin(), lags.end(), term.first))
+          found.lags.push_back(term.first);
     first += k;
   }
-  return any;
+  return found;
 }
 
 constexpr double slowest = 1.; ///< [rad/s] weight of motions without frequency in the state
@@ -206,14 +218,14 @@ Eigen::MatrixXd state_matrix(const Linear &linear, const DenseModes &modes, cons
 }
 
 /// The coordinate that a solution (y', x) moves most: by its kinetic energy, or without any the lag.
-std::string moved_most(const Machine &machine, const Eigen::MatrixXd &M, const Eigen::MatrixXd &V,
-                       const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
+std::string moved_most(const Machine &machine, const std::vector<int> &lags, const Eigen::MatrixXd &M,
+                       const Eigen::MatrixXd &V, const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
 {
   Eigen::Index most = 0;
   if (y_rate.norm() <= 1e-9 * x.norm())
   {
     x.cwiseAbs().maxCoeff(&most);
-    return machine.coordinate_name(machine.virtual_coordinates()[most]);
+    return machine.coordinate_name(lags[most]);
   }
   const Eigen::VectorXcd v = V * y_rate;
   v.conjugate().cwiseProduct(M * v).real().maxCoeff(&most);
@@ -241,12 +253,12 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   LocalState        local;
   local.resize(machine);
   machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
-  const auto      &lags = machine.virtual_coordinates();
-  const auto       m    = Eigen::Index(lags.size());
-  const auto      &Z    = linear.Z;
+  const auto      &Z = linear.Z;
   const DenseModes modes =
       dense_modes(Z.transpose() * linear.K * Z, Z.transpose() * linear.M * Z); // of the structure alone
-  if (!add_drives(machine, local, linear.K, linear.B) && m == 0)
+  const auto [any, lags] = add_drives(machine, local, linear.K, linear.B);
+  const auto m           = Eigen::Index(lags.size());
+  if (!any && m == 0)
     return poles;
   const Eigen::MatrixXd V = Z * modes.V;
   Eigen::MatrixXd       L = Eigen::MatrixXd::Zero(machine.size(), m);
@@ -261,7 +273,8 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   const double rest = 10. * std::sqrt(std::numeric_limits<double>::epsilon() * std::max(largest, slowest) * slowest);
   for (Eigen::Index k = 0; k < s.size(); ++k)
     if (std::abs(s[k]) > rest && s[k].imag() >= 0.)
-      poles.push_back({s[k], moved_most(machine, linear.M, V, vectors.col(k).segment(p, p), vectors.col(k).tail(m))});
+      poles.push_back(
+          {s[k], moved_most(machine, lags, linear.M, V, vectors.col(k).segment(p, p), vectors.col(k).tail(m))});
   std::sort(poles.begin(), poles.end(), [](const Pole &a, const Pole &b) { return std::abs(a.s) < std::abs(b.s); });
   return poles;
 }

@@ -69,8 +69,8 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
  *
  * in its undamped modes V and the virtual coordinates x of drives and controllers.  Structural elements are engaged as
  * in K; drives (elements whose work is input, and that are no structure) enter with dp/du and dp/dv at that motion,
- * tools and friction do not act.  Joints are taken as they stand.  Those at rest, s = 0, are left out; the slowest
- * comes first.  None if the machine has neither drives nor virtual coordinates: its modes tell all.
+ * tools and friction do not act, nor do virtual coordinates of theirs.  Joints are taken as they stand.  Those at rest,
+ * s = 0, are left out; the slowest comes first.  None if the machine has no drives: its modes tell all.
  *
  * Source: docs/theory/modes_along.md (6).
  */

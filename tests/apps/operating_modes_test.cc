@@ -90,6 +90,20 @@ TEST(OperatingModes, AMotorThatLagsVibratesAgainstItsRotor)
   EXPECT_NEAR(motor.poles[0].damping_ratio(), 1. / std::sqrt(200.), 1e-7);
 }
 
+// Bristles are friction, which does not act here; their lag is a scale of the computation (T = 1 ms), no motion.
+TEST(OperatingModes, TellNothingOfBristles)
+{
+  const std::string bristles = "[element.f]\ntype = \"lugre friction\"\nfrom = \"r\"\nkinetic_force = 10\n"
+                               "bristle_stiffness = 1e5\nbristle_damping = 100\n";
+  EXPECT_TRUE(Linearised(rotor + bristles + run).poles.empty());
+  const std::string drive = "[element.d]\ntype = \"speed drive\"\non = \"r\"\nspeed = 0\nproportional_gain = 4\n"
+                            "integral_gain = 200\n";
+  const auto        both  = Linearised(rotor + bristles + drive + run);
+  ASSERT_EQ(both.poles.size(), 1u); // as of the drive alone
+  EXPECT_NEAR(std::abs(both.poles[0].s), 10., 1e-6);
+  EXPECT_NEAR(both.poles[0].damping_ratio(), 0.1, 1e-7);
+}
+
 // Beyond its breakdown torque the characteristic falls with the speed: s = D/J > 0.
 TEST(OperatingModes, AMotorBeyondItsBreakdownGrows)
 {
