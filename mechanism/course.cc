@@ -37,6 +37,31 @@ void Course::start(double t, double *history) const
     history[mode] = rests;
 }
 
+void Course::resume(double t, double *history) const
+{
+  switch (mode_of(history))
+  {
+  case rests:
+    return;
+  case follows:
+    begin(t, history);
+    return;
+  case ramps:
+    break;
+  }
+  Pieces    pieces;
+  const int n    = ramp_pieces(history, pieces);
+  history[piece] = ramp_piece_at(t, pieces, n);
+}
+
+int Course::ramp_piece_at(double t, const Pieces &pieces, int n)
+{
+  int i = 0;
+  while (i + 1 < n && pieces[i + 1].begin <= t)
+    ++i;
+  return i;
+}
+
 int Course::ramp_pieces(const double *history, Pieces &pieces)
 {
   return Profile::pieces_of(history[from], {history[origin], history[to], history[rate], history[rate_of_rate]},
@@ -53,10 +78,7 @@ Course::Value Course::at(double t, bool by_history, const double *history) const
   {
     Pieces    pieces;
     const int n = ramp_pieces(history, pieces);
-    int       i = static_cast<int>(history[piece]);
-    if (!by_history)
-      for (i = 0; i + 1 < n && pieces[i + 1].begin <= t;)
-        ++i;
+    const int i = by_history ? static_cast<int>(history[piece]) : ramp_piece_at(t, pieces, n);
     return {pieces[i].value(t), pieces[i].rate(t)};
   }
   case follows:

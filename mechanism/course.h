@@ -33,6 +33,8 @@ public:
 
   int  n_history() const { return n_slots + (function_ ? function_->n_history() : 0); }
   void start(double t, double *history) const;
+  /// Nobody has taken its corners for a while: it goes on in the piece in which t lies.
+  void resume(double t, double *history) const;
 
   struct Value
   {
@@ -79,6 +81,7 @@ private:
 
   static Mode mode_of(const double *history) { return static_cast<Mode>(static_cast<int>(history[mode])); }
   static int  ramp_pieces(const double *history, Pieces &pieces);
+  static int  ramp_piece_at(double t, const Pieces &pieces, int n);
   bool        has_corner(const double *history, double &t) const;
   void        begin(double t, double *history) const; ///< the profile, from `origin` on
 

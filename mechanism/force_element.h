@@ -93,6 +93,8 @@ public:
 
   /// Sets the history for a motion that begins here.
   virtual void start(const LocalMotion &, double *history) const { (void)history; }
+  /// The same for an element that acts again after a time in which it did not: orders it has been given go on.
+  virtual void resume(const LocalMotion &motion, double *history) const { start(motion, history); }
 
   /// p [k] for the given motion.
   virtual void force(const LocalMotion &motion, const double *history, double *p) const = 0;

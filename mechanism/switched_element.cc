@@ -91,13 +91,17 @@ bool SwitchedElement::closure(const double *u, const double *v, double &g, doubl
 bool SwitchedElement::command(const Order &order, const LocalMotion &motion, double *history) const
 {
   if (order.name != "on" && order.name != "off")
+  {
+    if (!is_on(history)) // corners went by without it
+      law_->resume(motion, history + n_slots);
     return law_->command(order, motion, history + n_slots);
+  }
   if ((order.name == "on") == is_on(history))
     return true; // it is already
   history[changed] = 1. - history[changed];
   if (!is_on(history))
     return true;
-  law_->start(motion, history + n_slots);
+  law_->resume(motion, history + n_slots);
   history[brought] += law_->stored_energy(motion, history + n_slots);
   return true;
 }

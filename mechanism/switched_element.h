@@ -12,8 +12,8 @@ namespace gestell::mechanism
  *
  * Off: p = 0, it holds nothing and has no events; its virtual coordinates fade away.  What it had stored is dissipated
  * at that instant.  On: it begins anew, as it does at the start of a run; energy it brings along (of a spring that is
- * tight already) does not count, its store begins with zero.  All other orders are its own, and it obeys them while it
- * is off, too.
+ * tight already) does not count, its store begins with zero.  All other orders are its own: it obeys them while it is
+ * off, too, and those it was given go on when it acts again.
  *
  * Source: docs/theory/switches.md.
  */
@@ -40,7 +40,7 @@ public:
   void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                    double *dp_dv) const override;
   bool holds(const double *history, double &rate) const override;
-  /// As it begins.
+  /// As it begins, likewise closure() and penetration(): structure and start of a run are asked for, no later instant.
   void engaged(const double *u, double *K, double *D) const override;
   void stiffest(const double *u, double *K, double *D) const override { law_->stiffest(u, K, D); }
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;

@@ -100,6 +100,13 @@ void TransmittedElement::start(const LocalMotion &motion, double *history) const
   law_->start(seen.motion(motion), history);
 }
 
+void TransmittedElement::resume(const LocalMotion &motion, double *history) const
+{
+  function().start(motion.u, motion.v, history + law_->n_history());
+  const Seen seen = see(motion, history);
+  law_->resume(seen.motion(motion), history);
+}
+
 void TransmittedElement::force(const LocalMotion &motion, const double *history, double *p) const
 {
   const Seen seen = see(motion, history);

@@ -44,6 +44,7 @@ public:
   /// history: that of the law, then that of the position function.
   int  n_history() const override { return law_->n_history() + function().n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
+  void resume(const LocalMotion &motion, double *history) const override;
   void force(const LocalMotion &motion, const double *history, double *p) const override;
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;

@@ -32,6 +32,17 @@ void CoulombFriction::engaged(const double *, double *K, double *D) const
 void CoulombFriction::start(const LocalMotion &motion, double *history) const
 {
   parameters_.engagement.start(motion.t, history + 1);
+  find_branch(motion, history);
+}
+
+void CoulombFriction::resume(const LocalMotion &motion, double *history) const
+{
+  parameters_.engagement.resume(motion.t, history + 1);
+  find_branch(motion, history);
+}
+
+void CoulombFriction::find_branch(const LocalMotion &motion, double *history) const
+{
   history[0] = parameters_.engagement.is_zero(history + 1) ? released : branch_at(motion.v[0]);
 }
 

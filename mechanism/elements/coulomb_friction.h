@@ -75,6 +75,7 @@ public:
   /// history: active branch; that of the engagement.
   int  n_history() const override { return 1 + parameters_.engagement.n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
+  void resume(const LocalMotion &motion, double *history) const override;
   bool holds(const double *history, double &rate) const override;
   Work work() const override { return parameters_.belt_speed == 0. ? Work::dissipated : Work::input; }
 
@@ -114,6 +115,7 @@ private:
   {
     return parameters_.load ? parameters_.load->normal_force(lambda) : 1.;
   }
+  void find_branch(const LocalMotion &motion, double *history) const;       ///< of a motion that begins here
   void follow_engagement(const LocalMotion &motion, double *history) const; ///< released, or not any more
   int  n_own_guards(const double *history) const;                           ///< all but that of the engagement
 

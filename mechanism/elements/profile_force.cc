@@ -8,6 +8,11 @@ void ProfileForce::start(const LocalMotion &motion, double *history) const
   course_.start(motion.t, history);
 }
 
+void ProfileForce::resume(const LocalMotion &motion, double *history) const
+{
+  course_.resume(motion.t, history);
+}
+
 std::vector<Guard> ProfileForce::guards(const double *history) const
 {
   return course_.guards(history);

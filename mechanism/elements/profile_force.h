@@ -24,6 +24,7 @@ public:
 
   int                      n_history() const override { return course_.n_history(); }
   void                     start(const LocalMotion &motion, double *history) const override;
+  void                     resume(const LocalMotion &motion, double *history) const override;
   Work                     work() const override { return Work::input; }
   int                      n_guards(const double *history) const override { return course_.n_guards(history); }
   std::vector<Guard>       guards(const double *history) const override;

@@ -32,6 +32,12 @@ void SpeedDrive::start(const LocalMotion &motion, double *history) const
   history[0] = branch_at(wanted(motion, history));
 }
 
+void SpeedDrive::resume(const LocalMotion &motion, double *history) const
+{
+  parameters_.speed.resume(motion.t, history + 1);
+  history[0] = branch_at(wanted(motion, history));
+}
+
 int SpeedDrive::n_guards(const double *history) const
 {
   return parameters_.speed.n_guards(history + 1) + (!limited() ? 0 : branch_of(history) == 0 ? 2 : 1);

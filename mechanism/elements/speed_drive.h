@@ -52,6 +52,7 @@ public:
   /// history: -1, 1 at a limit, 0 within; that of the course.
   int                      n_history() const override { return 1 + parameters_.speed.n_history(); }
   void                     start(const LocalMotion &motion, double *history) const override;
+  void                     resume(const LocalMotion &motion, double *history) const override;
   Work                     work() const override { return Work::input; }
   int                      n_guards(const double *history) const override;
   std::vector<Guard>       guards(const double *history) const override;

@@ -1,6 +1,10 @@
 #include "mechanism/joints/constraint_element.h"
 
+#include "mechanism/slope_jump.h"
+
 #include <algorithm>
+#include <sstream>
+#include <stdexcept>
 
 namespace gestell::mechanism
 {
@@ -41,7 +45,19 @@ void ConstraintElement::transition(int i, const LocalMotion &motion, double *his
 
 bool ConstraintElement::command(const Order &order, const LocalMotion &motion, double *history) const
 {
-  return law_ && law_->command(order, motion.t, history);
+  if (!law_)
+    return false;
+  const double before = law_->at(motion.t, history).rate;
+  if (!law_->command(order, motion.t, history))
+    return false;
+  if (const double behind = law_->at(motion.t, history).rate; differ(before, behind))
+  {
+    std::ostringstream message;
+    message << "the order \"" << order.name << "\" makes the speed of the prescribed motion jump from " << before
+            << " to " << behind << ", a blow that an ideal joint cannot tell; order \"set\" with an acceleration first";
+    throw std::domain_error(message.str());
+  }
+  return true;
 }
 
 void ConstraintElement::check_order(const Order &order) const

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gestell::mechanism
 {
@@ -133,8 +134,11 @@ bool BrakedMotion::command(const Order &order, double t, double *history) const
 
 void BrakedMotion::check_order(const Order &order) const
 {
-  require(std::isinf(order.rate) && std::isinf(order.rate_of_rate), "braked motion", "acceleration of the order",
-          order.rate, "left out: its key 'brake' tells how it brakes");
+  if (std::isfinite(order.rate) || std::isfinite(order.rate_of_rate))
+    throw std::invalid_argument(
+        "braked motion: the order \"" + order.name +
+        "\" takes neither an acceleration nor a jerk, since the key 'brake' of the motion tells "
+        "how it brakes; leave them out, or that key");
 }
 
 // --- a profile of the speed
@@ -202,9 +206,9 @@ std::vector<std::string> ProfileMotion::commands() const
 
 void ProfileMotion::check_order(const Order &order) const
 {
-  if (order.name == "set" || order.name == "brake")
-    require(std::isfinite(order.rate), "prescribed motion", "acceleration of the order \"" + order.name + "\"",
-            order.rate, "given: no finite force makes masses jump");
+  if ((order.name == "set" || order.name == "brake") && !std::isfinite(order.rate))
+    throw std::invalid_argument("prescribed motion: the order \"" + order.name +
+                                "\" needs an 'acceleration', as no finite force makes masses jump");
 }
 
 } // namespace gestell::mechanism
