@@ -133,6 +133,10 @@ const std::vector<ElementPlacement> &Machine::elements() const
 {
   return parts_->elements;
 }
+const std::vector<Switch> &Machine::switches() const
+{
+  return parts_->switch_requests;
+}
 const ReducedFrame *Machine::reduced_frame() const
 {
   return parts_->reduced.get();
@@ -309,7 +313,7 @@ void Machine::start(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
     part.element->start(part.motion(state, parts_->by_history), parts_->history_of(part));
-  parts_->start_switches();
+  parts_->start_switches(&state);
   for (auto &part : parts_->placed)
     if (part.stop >= 0)
     {
@@ -344,6 +348,7 @@ void Machine::accept(const LocalState &state)
 {
   for (const auto &part : parts_->placed)
     part.element->accept(part.motion(state, parts_->by_history), parts_->history_of(part));
+  parts_->find_sides(state);
 }
 
 int Machine::n_guards() const

@@ -17,7 +17,8 @@ namespace gestell::coupling
 
 class LinearBase;
 
-/// A scalar the user asks for: scale * (on_q . q + on_v . q' + quantity of an element + load at the time + offset).
+/// A scalar the user asks for: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the time +
+/// offset).
 struct Signal
 {
   std::string name; ///< the user's, e.g. "F_P"
@@ -29,8 +30,11 @@ struct Signal
   double      offset   = 0.;
   int         load     = -1; ///< external load
   std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
-  int         measure = -1;  ///< of add_measure(), whose value (quantity 0) or rate (1) it is
+  int         measure = -1;  ///< of add_measure(), whose value (quantity 0), rate (1) or acceleration (2) it is
   double      on_t    = 0.;  ///< weight of the time
+  Measure     on_a{};
+
+  bool reads_acceleration() const { return !on_a.empty() || (measure >= 0 && quantity == 2); }
 };
 
 enum class BodyKind
@@ -102,7 +106,7 @@ struct Oscillation
   double omega, amplitude, phase;
 };
 
-/// A scalar of the motion of two points: signals "value" and "rate".
+/// A scalar of the motion of two points: signals "value", "rate" and "acceleration".
 struct NamedMeasure
 {
   std::string                name, unit; ///< of the value: "m", "rad"
@@ -111,6 +115,8 @@ struct NamedMeasure
 
   mechanism::RelativeMeasure::Value evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                              Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]
+  /// s'' = ds/dq . q'' + d(ds/dq)/dt . q'
+  double acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const;
 };
 
 /// What is told to which element or joint.
@@ -120,17 +126,24 @@ struct SwitchOrder
   mechanism::Order order;
 };
 
+enum class SwitchCrossing
+{
+  rising,
+  falling,
+  either ///< from the side on which the signal is when it begins to watch
+};
+
 /// When a signal crosses a level, elements are given orders: once, or every time.
 struct Switch
 {
   std::string              name, signal; ///< path of the signal; "t": the time
   double                   level    = 0.;
-  GuardCrossing            crossing = GuardCrossing::rising;
+  SwitchCrossing           crossing = SwitchCrossing::rising;
   std::vector<SwitchOrder> orders;
   double                   delay      = 0.; ///< [s] from the crossing to the orders
   std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
   bool                     repeat     = false;
-  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back
+  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back (either: gone away)
 };
 
 /// What the measures of an element are.
@@ -190,9 +203,11 @@ public:
   PlacedPoint place(const std::string &marker, const Vector3 &at) const;
   Vector3     position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
   void        add_measure(NamedMeasure measure);
-  /// Signals of a point: "tip.x" where it is, "tip.ux" its displacement, "tip.vx" its velocity, along x, y and z.
+  /// Signals of a point along x, y and z: "tip.x" where it is, "tip.ux" its displacement, "tip.vx" its velocity,
+  /// "tip.ax" its acceleration.
   void add_place(const std::string &name, const PlacedPoint &place);
-  /// @throws std::invalid_argument for an unknown signal, element or switch, or an order that the element does not know
+  /// @throws std::invalid_argument for an unknown signal, element or switch, an acceleration, which is not known where
+  /// events are looked for, or an order that the element does not know
   void add_switch(const Switch &request);
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
@@ -231,7 +246,8 @@ public:
   /// name.
   void attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures);
 
-  /// Signals that will be read: whether any tells the force of an ideal joint.
+  /// Signals that will be read: whether any tells the force of an ideal joint, or an acceleration, which follows from
+  /// these forces.
   void will_read(const std::vector<Signal> &signals);
 
   /// Ends building: assembles the base system and W.
@@ -241,8 +257,8 @@ public:
   const Marker &marker(const std::string &name) const; ///< "ground", "crank", "frame.crown"
   const Body   &body(const std::string &name) const;
   int           coordinate(const std::string &name) const; ///< of a body, or "frame.crown.uz"
-  /// "crank.angle", "crank.speed", "slide.displacement", "slide.velocity", "frame.crown.uz", "frame.crown.uz_rate",
-  /// "frame.cut.columns", "frame.support.feet", "rod.force" ...; a leading minus turns the sign.
+  /// "crank.angle", "crank.speed", "crank.acceleration", "slide.velocity", "frame.crown.uz", "frame.crown.uz_rate",
+  /// "frame.crown.uz_acceleration", "frame.cut.columns", "rod.force" ...; a leading minus turns the sign.
   Signal                               signal(const std::string &name, const std::string &path) const;
   std::vector<std::string>             signal_paths() const;
   const std::vector<Body>             &bodies() const;
@@ -250,6 +266,7 @@ public:
   const std::vector<DrawnBar>         &bars() const;
   const std::vector<DrawnPin>         &pins() const;
   const std::vector<ElementPlacement> &elements() const;
+  const std::vector<Switch>           &switches() const;
   const NamedMeasure                  &measure(const std::string &name) const;
   const ReducedFrame                  *reduced_frame() const; ///< null if there is none
   const fem::FrameMatrices            *full_frame() const;    ///< null if there is none
@@ -262,8 +279,18 @@ public:
 
   /// Contacts that are closed at a motion, in words: by how much they lie inside.
   std::vector<std::string> closed_contacts(const LocalState &state) const;
-  double                   evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
-                                    const LocalState &local) const;
+  /// Something that sticks is held by more than its limit: it slips at this instant, and what its force is told to be
+  /// never acts.
+  bool overloaded(const LocalState &state) const;
+  /// @param a  q'' [n]; only signals that reads_acceleration() look at it
+  double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
+                  const LocalState &local) const;
+  /// Of a signal that reads no acceleration.
+  double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                  const LocalState &local) const
+  {
+    return evaluate(signal, q, v, Eigen::VectorXd(), local);
+  }
   /// Geometric stiffness [n_u x n_u] of all elements and joints, block diagonal: mechanism::ForceElement::geometric().
   void geometric(const LocalState &state, Eigen::MatrixXd &K) const;
   /// u, v, a of all elements for q, q', q''.

@@ -271,6 +271,23 @@ void Machine::add_place(const std::string &name, const PlacedPoint &place)
   }
 }
 
+double NamedMeasure::acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const
+{
+  constexpr int most    = mechanism::CombinedMeasure::max_measures;
+  double        u[most] = {}, rate[most] = {}, gradient[most];
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    for (const auto &[coordinate, weight] : measures[i])
+    {
+      u[i] += weight * q[coordinate];
+      rate[i] += weight * v[coordinate];
+    }
+  double value = measure.evaluate(u, rate, gradient).bias;
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    for (const auto &[coordinate, weight] : measures[i])
+      value += gradient[i] * weight * a[coordinate];
+  return value;
+}
+
 mechanism::RelativeMeasure::Value NamedMeasure::evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                                          Eigen::VectorXd *on_q) const
 {

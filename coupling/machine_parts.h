@@ -88,7 +88,7 @@ struct Machine::Parts
     int              watched = -1; ///< element whose measures hold the motion of the signal; of the time there is none
     std::vector<int> targets;      ///< elements that get the orders
     int              after   = -1; ///< index of the switch it waits for
-    int              history = -1; ///< its phase; time [s] at which delayed orders are due
+    int              history = -1; ///< its phase; time [s] at which delayed orders are due; see watch()
   };
 
   struct PlacedGuard
@@ -170,9 +170,13 @@ struct Machine::Parts
   void          refresh_guards();
   void          find_stopped(const LocalState &state);
   bool          is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
+  Signal        watched_signal(const Switch &request) const;
   void          add_watches();
   void          place_switches();
-  void          start_switches();
+  void          start_switches(const LocalState *state);
+  void          watch(const PlacedSwitch &s, const LocalState *state);
+  void          find_sides(const LocalState &state);
+  bool          tells_found_force(const PlacedSwitch &s) const;
   SwitchPhase   phase(const PlacedSwitch &s) const;
   bool          is_active(const PlacedSwitch &s) const; ///< it has a guard
   GuardCrossing switch_crossing(const PlacedSwitch &s) const;
@@ -184,7 +188,7 @@ struct Machine::Parts
   std::string   coordinate_name(int i) const;
   double        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
-  Signal                        signal(const std::string &name, const std::string &path) const;
+  Signal                        signal(const std::string &path) const;
 
   double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }
   const double *history_of(const PlacedElement &part) const { return history.data() + part.first_history; }

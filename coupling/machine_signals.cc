@@ -54,16 +54,30 @@ std::map<std::string, Signal> Machine::Parts::signals() const
     signals[path]      = {path, unit, u, {}, -1, -1, 1., 0.};
     signals[rate_path] = {rate_path, unit + "/s", {}, u, -1, -1, 1., 0.};
   };
+  const auto add_acceleration = [&](const std::string &path, const std::string &unit, const Measure &u)
+  {
+    Signal &signal = signals[path];
+    signal.name    = path;
+    signal.unit    = unit + "/s^2";
+    signal.on_a    = u;
+  };
 
   for (const auto &[name, marker] : markers)
     if (name.rfind("frame.", 0) == 0)
       for (int i = 0; i < 6; ++i)
-        add_motion(name + "." + motions[i], name + "." + motions[i] + "_rate", motion_units[i],
-                   i < 3 ? marker.translation[i] : marker.rotation[i - 3]);
+      {
+        const Measure    &u    = i < 3 ? marker.translation[i] : marker.rotation[i - 3];
+        const std::string path = name + "." + motions[i];
+        add_motion(path, path + "_rate", motion_units[i], u);
+        add_acceleration(path + "_acceleration", motion_units[i], u);
+      }
 
   for (const Body &body : bodies)
     if (body.kind == BodyKind::rotor)
+    {
       add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate, 1.}});
+      add_acceleration(body.name + ".acceleration", "rad", {{body.coordinate, 1.}});
+    }
     else if (body.kind != BodyKind::slider)
     {
       for (int d = 0; d < 3; ++d)
@@ -71,15 +85,22 @@ std::map<std::string, Signal> Machine::Parts::signals() const
         {
           const std::string axis(1, "xyz"[d]), position = body.name + "." + axis;
           add_motion(body.name + ".u" + axis, body.name + ".v" + axis, "m", u);
+          add_acceleration(body.name + ".a" + axis, "m", u);
           signals[position]        = signals[body.name + ".u" + axis];
           signals[position].name   = position;
           signals[position].offset = body.centre[d];
         }
       if (body.kind == BodyKind::planar)
+      {
         add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate + 2, 1.}});
+        add_acceleration(body.name + ".acceleration", "rad", {{body.coordinate + 2, 1.}});
+      }
     }
     else
+    {
       add_motion(body.name + ".displacement", body.name + ".velocity", "m", {{body.coordinate, 1.}});
+      add_acceleration(body.name + ".acceleration", "m", {{body.coordinate, 1.}});
+    }
 
   if (reduced || full)
   {
@@ -113,13 +134,13 @@ std::map<std::string, Signal> Machine::Parts::signals() const
       signals[load.name + ".torque"] = force;
   }
 
-  const auto add_measure = [&](int i, int rate, const std::string &path, double offset)
+  const auto add_measure = [&](int i, int derivative, const std::string &path, double offset)
   {
     Signal signal;
     signal.name     = path;
-    signal.unit     = measures[i].unit + (rate ? "/s" : "");
+    signal.unit     = measures[i].unit + (derivative == 0 ? "" : derivative == 1 ? "/s" : "/s^2");
     signal.measure  = i;
-    signal.quantity = rate;
+    signal.quantity = derivative;
     signal.offset   = offset;
     for (const Measure &u : measures[i].measures) // so that whoever reads the signal provides their motion
       for (const auto &[coordinate, weight] : u)
@@ -136,12 +157,14 @@ std::map<std::string, Signal> Machine::Parts::signals() const
       add_measure(i, 0, place.name + "." + axis, 0.);
       add_measure(i, 0, place.name + ".u" + axis, -place.start[d]);
       add_measure(i, 1, place.name + ".v" + axis, 0.);
+      add_measure(i, 2, place.name + ".a" + axis, 0.);
     }
   for (std::size_t i = 0; i < measures.size(); ++i)
     if (!of_place[i])
     {
       add_measure(int(i), 0, measures[i].name + ".value", 0.);
       add_measure(int(i), 1, measures[i].name + ".rate", 0.);
+      add_measure(int(i), 2, measures[i].name + ".acceleration", 0.);
     }
 
   for (std::size_t e = 0; e < elements.size(); ++e)
@@ -172,7 +195,7 @@ std::vector<std::string> Machine::signal_paths() const
   return paths;
 }
 
-Signal Machine::Parts::signal(const std::string &name, const std::string &path) const
+Signal Machine::Parts::signal(const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
@@ -184,11 +207,9 @@ Signal Machine::Parts::signal(const std::string &name, const std::string &path) 
     std::vector<std::string> paths;
     for (const auto &entry : known)
       paths.push_back(entry.first);
-    throw std::invalid_argument("signal \"" + name + "\": there is no \"" + positive + "\"" +
-                                suggestion(positive, paths));
+    throw std::invalid_argument("there is no \"" + positive + "\"" + suggestion(positive, paths));
   }
   Signal signal = found->second;
-  signal.name   = name;
   if (minus)
     signal.scale = -1.;
   return signal;
@@ -196,7 +217,16 @@ Signal Machine::Parts::signal(const std::string &name, const std::string &path) 
 
 Signal Machine::signal(const std::string &name, const std::string &path) const
 {
-  return parts_->signal(name, path);
+  try
+  {
+    Signal signal = parts_->signal(path);
+    signal.name   = name;
+    return signal;
+  }
+  catch (const std::invalid_argument &unknown)
+  {
+    throw std::invalid_argument("signal \"" + name + "\": " + unknown.what());
+  }
 }
 
 int Machine::coordinate(const std::string &name) const
@@ -212,14 +242,18 @@ int Machine::coordinate(const std::string &name) const
 }
 
 double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
-                         const LocalState &local) const
+                         const Eigen::VectorXd &a, const LocalState &local) const
 {
   double value = signal.offset + signal.on_t * local.t;
   for (const auto &[i, weight] : signal.on_q)
     value += weight * q[i];
   for (const auto &[i, weight] : signal.on_v)
     value += weight * v[i];
-  if (signal.measure >= 0)
+  for (const auto &[i, weight] : signal.on_a)
+    value += weight * a[i];
+  if (signal.reads_acceleration() && signal.measure >= 0)
+    value += parts_->measures[signal.measure].acceleration(q, v, a);
+  else if (signal.measure >= 0)
   {
     const auto measured = parts_->measures[signal.measure].evaluate(q, v);
     value += signal.quantity == 0 ? measured.s : measured.rate;

@@ -2,6 +2,8 @@
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -35,9 +37,27 @@ private:
 
 } // namespace
 
+/// @throws std::invalid_argument with the nearest name, or for a signal that no event can be looked for in
+Signal Machine::Parts::watched_signal(const Switch &request) const
+{
+  try
+  {
+    const Signal watched = signal(request.signal);
+    if (watched.reads_acceleration())
+      throw std::invalid_argument("\"" + request.signal +
+                                  "\" is an acceleration, in which no event can be located; let a force or a velocity "
+                                  "throw it");
+    return watched;
+  }
+  catch (const std::invalid_argument &unfit)
+  {
+    throw std::invalid_argument(std::string("when: ") + unfit.what());
+  }
+}
+
 void Machine::add_switch(const Switch &request)
 {
-  signal(request.name, request.signal); // throws with the nearest name
+  parts_->watched_signal(request);
   std::vector<std::string> names;
   for (const ElementPlacement &element : parts_->elements)
     names.push_back(element.name);
@@ -64,7 +84,7 @@ void Machine::Parts::add_watches()
   {
     PlacedSwitch own;
     own.request = request;
-    own.signal  = signal(request.name, request.signal);
+    own.signal  = watched_signal(request);
     if (own.signal.element >= 0)
       own.watched = own.signal.element;
     else if (own.signal.on_t == 0.)
@@ -85,6 +105,7 @@ enum Slot
 {
   phase_slot,
   due_slot,
+  side_slot, ///< -1: the signal lies below the level, or is taken to, until it rises above; 1: above; 0: not known yet
   n_slots
 };
 } // namespace
@@ -108,16 +129,56 @@ void Machine::Parts::place_switches()
     own.history = static_cast<int>(history.size());
     history.conservativeResize(history.size() + n_slots);
   }
-  start_switches();
+  start_switches(nullptr);
 }
 
-void Machine::Parts::start_switches()
+void Machine::Parts::start_switches(const LocalState *state)
 {
   for (const PlacedSwitch &own : switches)
   {
-    history[own.history + phase_slot] = double(own.after >= 0 ? SwitchPhase::waits : SwitchPhase::watches);
-    history[own.history + due_slot]   = 0.;
+    history[own.history + due_slot] = 0.;
+    watch(own, state);
+    if (own.after >= 0)
+      history[own.history + phase_slot] = double(SwitchPhase::waits);
   }
+}
+
+/// Begins to watch.  A crossing in either direction is one from the side on which the signal is: where that is not
+/// known, or it stands at the level itself, the next accepted instant tells.
+/// @param state  null: not known
+void Machine::Parts::watch(const PlacedSwitch &own, const LocalState *state)
+{
+  history[own.history + phase_slot] = double(SwitchPhase::watches);
+  double &side                      = history[own.history + side_slot];
+  side                              = own.request.crossing == SwitchCrossing::rising    ? -1.
+                                      : own.request.crossing == SwitchCrossing::falling ? 1.
+                                                                                        : 0.;
+  if (side != 0. || !state || (own.signal.element >= 0 && tells_found_force(own)))
+    return;
+  const double past = watched_value(own, *state) - own.request.level;
+  side              = past < 0. ? -1. : past > 0. ? 1. : 0.;
+}
+
+/// The signal follows from forces that no law tells, but the equations of the step: at a start they are not known yet.
+bool Machine::Parts::tells_found_force(const PlacedSwitch &own) const
+{
+  double      rate = 0.;
+  const auto &part = placed[own.watched];
+  return part.tells_multipliers(own.signal.quantity) || part.element->holds(history_of(part), rate);
+}
+
+void Machine::Parts::find_sides(const LocalState &state)
+{
+  bool found = false;
+  for (const PlacedSwitch &own : switches)
+    if (phase(own) == SwitchPhase::watches && history[own.history + side_slot] == 0.)
+    {
+      const double past                = watched_value(own, state) - own.request.level;
+      history[own.history + side_slot] = past < 0. ? -1. : past > 0. ? 1. : 0.;
+      found                            = found || history[own.history + side_slot] != 0.;
+    }
+  if (found)
+    refresh_guards();
 }
 
 Machine::Parts::SwitchPhase Machine::Parts::phase(const PlacedSwitch &own) const
@@ -132,10 +193,10 @@ bool Machine::Parts::is_active(const PlacedSwitch &own) const
 
 GuardCrossing Machine::Parts::switch_crossing(const PlacedSwitch &own) const
 {
-  if (phase(own) == SwitchPhase::delays)
+  const bool either = own.request.crossing == SwitchCrossing::either, back = phase(own) == SwitchPhase::returns;
+  if (phase(own) == SwitchPhase::delays || (either && back))
     return GuardCrossing::rising;
-  const bool back = phase(own) == SwitchPhase::returns;
-  return (own.request.crossing == GuardCrossing::rising) != back ? GuardCrossing::rising : GuardCrossing::falling;
+  return (history[own.history + side_slot] <= 0.) != back ? GuardCrossing::rising : GuardCrossing::falling;
 }
 
 std::string Machine::Parts::switch_event(const PlacedSwitch &own) const
@@ -147,10 +208,15 @@ double Machine::Parts::switch_guard(const PlacedSwitch &own, const LocalState &s
 {
   if (phase(own) == SwitchPhase::delays)
     return state.t - history[own.history + due_slot];
+  const double side = history[own.history + side_slot];
+  if (phase(own) == SwitchPhase::watches && side == 0.)
+    return -1.; // not past what rises
   const double past = watched_value(own, state) - own.request.level;
   if (phase(own) == SwitchPhase::watches)
     return past;
-  return past + (own.request.crossing == GuardCrossing::rising ? 1. : -1.) * own.request.hysteresis;
+  if (own.request.crossing == SwitchCrossing::either)
+    return std::abs(past) - own.request.hysteresis;
+  return past - side * own.request.hysteresis;
 }
 
 /// Passes what it waited for: the crossing, the delay, the way back.
@@ -173,7 +239,7 @@ void Machine::Parts::throw_switch(int index, const LocalState &state)
     give_orders(index, state);
     return;
   case SwitchPhase::returns:
-    next = double(SwitchPhase::watches);
+    watch(own, &state);
     return;
   case SwitchPhase::waits:
   case SwitchPhase::rests:
@@ -183,16 +249,36 @@ void Machine::Parts::throw_switch(int index, const LocalState &state)
 
 void Machine::Parts::give_orders(int index, const LocalState &state)
 {
-  const PlacedSwitch &own           = switches[index];
-  history[own.history + phase_slot] = double(own.request.repeat ? SwitchPhase::returns : SwitchPhase::rests);
+  const PlacedSwitch &own  = switches[index];
+  double             &next = history[own.history + phase_slot], &side = history[own.history + side_slot];
+  const bool          at_level = phase(own) == SwitchPhase::watches;
+  next                         = double(own.request.repeat ? SwitchPhase::returns : SwitchPhase::rests);
+  if (own.request.repeat && own.request.crossing == SwitchCrossing::either && own.request.hysteresis == 0.)
+  {
+    if (at_level) // rounding must not tell on which side it is
+      next = double(SwitchPhase::watches), side = -side;
+    else
+      watch(own, &state);
+  }
   for (std::size_t i = 0; i < own.targets.size(); ++i)
   {
     const PlacedElement &target = placed[own.targets[i]];
-    target.element->command(own.request.orders[i].order, target.motion(state, by_history), history_of(target));
+    const SwitchOrder   &told   = own.request.orders[i];
+    try
+    {
+      target.element->command(told.order, target.motion(state, by_history), history_of(target));
+    }
+    catch (const std::domain_error &beyond) // it has no law that goes on so
+    {
+      std::ostringstream message;
+      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << told.element
+              << "\": " << beyond.what();
+      throw ConvergenceFailure(message.str());
+    }
   }
   for (const PlacedSwitch &other : switches)
     if (other.after == index && phase(other) == SwitchPhase::waits)
-      history[other.history + phase_slot] = double(SwitchPhase::watches);
+      watch(other, &state);
 }
 
 double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &state) const
@@ -231,7 +317,10 @@ bool Machine::wants_multipliers() const
 void Machine::will_read(const std::vector<Signal> &signals)
 {
   const auto reads_joint = [&](const Signal &signal)
-  { return signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity); };
+  {
+    return (signal.reads_acceleration() && !parts_->joints.empty()) ||
+           (signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity));
+  };
   parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
 }
 

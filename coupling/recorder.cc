@@ -62,11 +62,19 @@ std::vector<int> coordinates_of(const std::vector<Signal> &signals)
   return {coordinates.begin(), coordinates.end()};
 }
 
+std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system)
+{
+  for (const Signal &signal : signals)
+    if (signal.reads_acceleration())
+      return Accelerations(system);
+  return {};
+}
+
 Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                    const std::vector<Signal> &signals, int samples, RunResult &result)
     : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
-      energy_(machine), coordinates_(coordinates_of(signals)), row_step_(output_step(options)),
-      picture_step_(options.picture_step)
+      energy_(machine), coordinates_(coordinates_of(signals)), accelerations_(accelerations_for(signals, machine)),
+      row_step_(output_step(options)), picture_step_(options.picture_step)
 {
   between_.q.setZero(machine.size());
   between_.v.setZero(machine.size());
@@ -75,6 +83,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   earlier_ = probe_;
   samples_.assign(samples + 1, probe_);
   watched_.assign(signals.size(), true);
+  anew_.assign(signals.size(), true);
 
   result.columns = {"t"};
   result.units   = {"s"};
@@ -101,29 +110,46 @@ void Recorder::evaluate(double t, Sample &sample)
   const bool at_end = t == integrator_.time();
   if (!at_end)
     integrator_.interpolate(t, between_.local);
-  if (!coordinates_.empty())
-    integrator_.motion_at(t, coordinates_, between_.q, between_.v);
   const LocalState &local = at_end ? integrator_.local() : between_.local;
-  sample.t                = t;
+  if (accelerations_)
+    a_ = accelerations_->at(t, integrator_, local, between_.q, between_.v);
+  else if (!coordinates_.empty())
+    integrator_.motion_at(t, coordinates_, between_.q, between_.v);
+  sample.t = t;
   for (std::size_t i = 0; i < signals_.size(); ++i)
-    sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, local);
+    sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, a_, local);
 }
 
 void Recorder::begin()
 {
-  evaluate(integrator_.time(), samples_.back());
   for (std::size_t i = 0; i < signals_.size(); ++i)
-  {
     watched_[i] = signals_[i].from.empty();
-    look_anew(i);
-  }
   if (options_.energy)
   {
     energy_.begin(integrator_.instant());
     guard_ = EnergyGuard(energy_.at_begin());
   }
-  rows();
+  pending_ = true;
+  if (!machine_.overloaded(integrator_.local()))
+    settle(integrator_.time());
   pictures();
+}
+
+/// The motion at t, behind the last event.
+void Recorder::settle(double t)
+{
+  pending_       = false;
+  earlier_known_ = false;
+  evaluate(t, samples_.back());
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    if (anew_[i])
+    {
+      look_anew(i);
+      anew_[i] = false;
+    }
+  extremes(samples_.back());
+  if (t == integrator_.time())
+    rows();
 }
 
 void Recorder::step()
@@ -131,6 +157,8 @@ void Recorder::step()
   const double begin = integrator_.step_begin(), end = integrator_.time();
   if (!(end > begin))
     return;
+  if (pending_)
+    settle(begin);
   const auto n = static_cast<int>(samples_.size()) - 1;
   if (n == 1)
     std::swap(earlier_, samples_[0]);
@@ -162,22 +190,19 @@ void Recorder::look_anew(std::size_t signal)
 {
   SignalSummary &summary = result_.signals[signal];
   summary.min = summary.max = samples_.back().values[signal];
-  summary.t_min = summary.t_max = integrator_.time();
+  summary.t_min = summary.t_max = samples_.back().t;
 }
 
 void Recorder::jump(const std::string &event)
 {
-  evaluate(integrator_.time(), samples_.back());
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (!watched_[i] && signals_[i].from == event)
-    {
-      watched_[i] = true;
-      look_anew(i);
-    }
-  extremes(samples_.back());
-  earlier_known_ = false;
+      watched_[i] = anew_[i] = true;
   if (options_.energy)
     energy_.jump(integrator_.instant());
+  pending_ = true;
+  if (!machine_.overloaded(integrator_.local()))
+    settle(integrator_.time());
 }
 
 void Recorder::extremes(const Sample &sample)
@@ -308,6 +333,8 @@ void Recorder::balance()
 
 void Recorder::finish()
 {
+  if (pending_)
+    settle(integrator_.time());
   const Sample &last = samples_.back();
   if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
     row(integrator_.time(), last);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "coupling/accelerations.h"
 #include "coupling/energy_guard.h"
 #include "coupling/simulation.h"
 
+#include <optional>
 #include <vector>
 
 namespace gestell::coupling
@@ -11,6 +13,10 @@ namespace gestell::coupling
 /// Coordinates that signals read by their positions or rates, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
 
+/// What tells the accelerations that signals read; nothing if none does.
+/// @throws std::invalid_argument as Accelerations
+std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system);
+
 /**
  * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
  *
@@ -18,6 +24,9 @@ std::vector<int> coordinates_of(const std::vector<Signal> &signals);
  * every step, before and after every event, at every row, and between: where a parabola through three samples turns
  * beyond what was seen, the dense output itself is evaluated and the parabola drawn closer.  Samples are the ends of
  * the steps, or, where steps are long against the motion, several in each.
+ *
+ * Of several events at one instant only the motion behind the last one is told: what sticks under more than its limit
+ * slips at once, and the force that would hold it never acts.
  */
 class Recorder
 {
@@ -40,6 +49,7 @@ private:
   };
 
   void evaluate(double t, Sample &sample);
+  void settle(double t);
   void look_anew(std::size_t signal);
   void extremes(const Sample &sample);
   void extreme(std::size_t signal, double t, double value);
@@ -50,21 +60,25 @@ private:
   void pictures();
   void balance();
 
-  const Machine             &machine_;
-  const TimeIntegrator      &integrator_;
-  const RunOptions          &options_;
-  const std::vector<Signal> &signals_;
-  RunResult                 &result_;
-  EnergyBalance              energy_;
-  EnergyGuard                guard_;
-  std::vector<int>           coordinates_; ///< that signals read
-  Instant                    between_;
-  std::vector<Sample>        samples_;               ///< of the last step, both ends included
-  Sample                     earlier_, probe_;       ///< end of the step before the last one; scratch
-  std::vector<char>          watched_;               ///< signals whose extremes count already
-  bool                       earlier_known_ = false; ///< and nothing jumped since
-  double                     row_step_ = 0., picture_step_ = 0.;
-  long                       next_row_ = 0, next_picture_ = 0; ///< on their grids
+  const Machine               &machine_;
+  const TimeIntegrator        &integrator_;
+  const RunOptions            &options_;
+  const std::vector<Signal>   &signals_;
+  RunResult                   &result_;
+  EnergyBalance                energy_;
+  EnergyGuard                  guard_;
+  std::vector<int>             coordinates_; ///< that signals read
+  Instant                      between_;
+  Eigen::VectorXd              a_;
+  std::optional<Accelerations> accelerations_;         ///< if a signal reads any
+  std::vector<Sample>          samples_;               ///< of the last step, both ends included
+  Sample                       earlier_, probe_;       ///< end of the step before the last one; scratch
+  std::vector<char>            watched_;               ///< signals whose extremes count already
+  std::vector<char>            anew_;                  ///< those that count from the instant that is pending on
+  bool                         pending_       = false; ///< the motion behind an event has not been told yet
+  bool                         earlier_known_ = false; ///< and nothing jumped since
+  double                       row_step_ = 0., picture_step_ = 0.;
+  long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
 };
 
 } // namespace gestell::coupling

@@ -170,13 +170,21 @@ bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
                      [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
 }
 
+/// The time from which the run begins tells a switch to act at the start, as meant.
+bool at_the_start(const Switch &own, double begin)
+{
+  return own.signal == "t" && own.level == begin;
+}
+
 /// Switches that never act, or act before anything has moved, are seldom meant.
 void warn_of_switches(const Machine &machine, double begin, RunResult &result)
 {
   for (const Event &event : result.events)
-    if (event.kind == "switch" && event.t == begin)
+    if (event.kind == "switch" && event.t == begin &&
+        std::none_of(machine.switches().begin(), machine.switches().end(),
+                     [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
       result.warnings.push_back("switch " + event.name +
-                                " was thrown at the start: its signal lay beyond the value already");
+                                " was thrown at the start: its signal lay at the value or beyond it already");
   if (!result.failure.empty() || result.interrupted)
     return;
   for (int i = 0; i < machine.n_guards(); ++i)

@@ -23,6 +23,7 @@ class Sampler
 public:
   Sampler(const WorkProblem &problem, const coupling::TimeIntegrator &integrator)
       : problem_(problem), integrator_(integrator), coordinates_(coupling::coordinates_of(problem.signals)),
+        accelerations_(coupling::accelerations_for(problem.signals, problem.machine)),
         q_(Eigen::VectorXd::Zero(problem.machine.size())), v_(q_),
         values_(problem.signals.size(), problem.samples.size())
   {
@@ -38,11 +39,13 @@ public:
       const bool   at_end = t == now;
       if (!at_end)
         integrator_.interpolate(t, local_);
-      if (!coordinates_.empty())
+      const coupling::LocalState &local = at_end ? integrator_.local() : local_;
+      if (accelerations_)
+        a_ = accelerations_->at(t, integrator_, local, q_, v_);
+      else if (!coordinates_.empty())
         integrator_.motion_at(t, coordinates_, q_, v_);
       for (std::size_t i = 0; i < problem_.signals.size(); ++i)
-        values_(i, next_) =
-            problem_.machine.evaluate(problem_.signals[i], q_, v_, at_end ? integrator_.local() : local_);
+        values_(i, next_) = problem_.machine.evaluate(problem_.signals[i], q_, v_, a_, local);
     }
   }
 
@@ -50,13 +53,14 @@ public:
   SignalSamples values() const { return values_; }
 
 private:
-  const WorkProblem              &problem_;
-  const coupling::TimeIntegrator &integrator_;
-  std::vector<int>                coordinates_;
-  Eigen::VectorXd                 q_, v_;
-  coupling::LocalState            local_;
-  SignalSamples                   values_;
-  std::size_t                     next_ = 0;
+  const WorkProblem                     &problem_;
+  const coupling::TimeIntegrator        &integrator_;
+  std::vector<int>                       coordinates_;
+  std::optional<coupling::Accelerations> accelerations_;
+  Eigen::VectorXd                        q_, v_, a_;
+  coupling::LocalState                   local_;
+  SignalSamples                          values_;
+  std::size_t                            next_ = 0;
 };
 
 /// Steps to the end; why it did not get there, or nothing.
@@ -144,6 +148,8 @@ SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &re
   const Eigen::VectorXd kept    = machine.save_history();
   coupling::LocalState  local;
   SignalSamples         values(problem.signals.size(), result.samples.size());
+  auto                  accelerations = coupling::accelerations_for(problem.signals, machine);
+  Eigen::VectorXd       a;
   local.resize(machine);
   machine.follow_history(events);
   for (std::size_t k = 0; k < result.samples.size(); ++k)
@@ -154,8 +160,10 @@ SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &re
     local.u = W.transpose() * sample.q;
     local.v = W.transpose() * sample.v;
     local.p = sample.p;
+    if (accelerations)
+      a = accelerations->at(sample.q, sample.v, local);
     for (std::size_t i = 0; i < problem.signals.size(); ++i)
-      values(i, k) = machine.evaluate(problem.signals[i], sample.q, sample.v, local);
+      values(i, k) = machine.evaluate(problem.signals[i], sample.q, sample.v, a, local);
   }
   machine.restore_history(kept);
   return values;

@@ -228,10 +228,10 @@ void attach_between(coupling::Machine &machine, const ElementRequest &element)
 
 void add_switch(coupling::Machine &machine, const SwitchRequest &request)
 {
+  machine.add_switch(request.request); // refuses a signal that there is not, in words of its own
   check_level(machine, request, request.level, "level");
   if (request.hysteresis)
     check_level(machine, request, *request.hysteresis, "hysteresis");
-  machine.add_switch(request.request);
 }
 
 } // namespace gestell::apps

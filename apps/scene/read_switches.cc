@@ -8,6 +8,7 @@
 #include "mechanism/switched_element.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -101,6 +102,40 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
                                      "\"spring-damper\" instead");
 }
 
+/// What has no element of its name is a joint whose motion obeys orders.
+void check_joint(const SceneTable &table, const std::string &name, const std::string &order, const Scene &scene)
+{
+  std::vector<std::string> obeying;
+  const auto knows = [&](const auto &known) { return std::find(known.begin(), known.end(), order) != known.end(); };
+  for (const JointRequest &joint : scene.joints)
+  {
+    if (joint.name == name && !joint.law)
+      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which obeys no orders");
+    if (joint.name == name && !knows(joint.law->commands()))
+      throw table.error("order",
+                        "the motion of '" + name + "' knows no order '" + order +
+                            (joint.law->commands().empty() ? "'; it obeys none, only motions at a 'speed' do"
+                                                           : "'; it obeys " + coupling::listed(joint.law->commands())));
+    if (joint.name == name)
+      return;
+    if (joint.law && knows(joint.law->commands()))
+      obeying.push_back(joint.name);
+  }
+  const bool switching = order == "on" || order == "off";
+  for (const ElementRequest &element : scene.elements)
+    if (switching ? !element.fixed : knows(element.element->commands()))
+      obeying.push_back(element.name);
+  for (const LoadRequest &load : scene.loads)
+    if (switching || knows(mechanism::Course::commands()))
+      obeying.push_back(load.name);
+  for (const LinearRequest &spring : scene.linear)
+    if (switching)
+      obeying.push_back(spring.name);
+  throw table.error(
+      "tell", "there is no element or joint '" + name + "'" +
+                  (obeying.empty() ? ", and nothing that obeys '" + order + "'" : coupling::suggestion(name, obeying)));
+}
+
 std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)
 {
   std::vector<coupling::SwitchOrder> orders;
@@ -129,10 +164,37 @@ std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &sc
     }
     for (const ElementRequest *element : elements)
       orders.push_back({element->name, order});
-    if (elements.empty()) // a joint, or a name that the machine does not know
+    if (elements.empty())
+    {
+      check_joint(table, name, order.name, scene);
       orders.push_back({name, order});
+    }
   }
   return orders;
+}
+
+/// The value, and the way on which the signal comes to it.
+void read_crossing(const SceneTable &table, SwitchRequest &own)
+{
+  using coupling::SwitchCrossing;
+  const std::pair<std::string, SwitchCrossing> ways[] = {
+      {"above", SwitchCrossing::rising}, {"below", SwitchCrossing::falling}, {"crosses", SwitchCrossing::either}};
+  std::string given;
+  for (const auto &[key, crossing] : ways)
+    if (table.has(key))
+    {
+      if (!given.empty())
+        throw table.error(key, "stands beside '" + given +
+                                   "', but a switch has one value: give 'above' where the signal shall rise over it, "
+                                   "'below' where it shall fall under it, or 'crosses' for both ways; two values need "
+                                   "two switches");
+      given                = key;
+      own.request.crossing = crossing;
+    }
+  if (given.empty())
+    throw table.error("needs 'above', 'below' or 'crosses', the value at which it is thrown");
+  own.level         = table.quantity(given);
+  own.request.level = own.level.value;
 }
 
 SwitchRequest read_switch(const SceneTable &table, Scene &scene)
@@ -141,15 +203,10 @@ SwitchRequest read_switch(const SceneTable &table, Scene &scene)
   own.place          = table.place();
   own.request.name   = table.name();
   own.request.signal = table.text("when");
-  const bool above   = table.has("above");
-  if (above == table.has("below"))
-    throw table.error("needs 'above' or 'below', the value at which it is thrown");
-  own.request.crossing = above ? coupling::GuardCrossing::rising : coupling::GuardCrossing::falling;
-  own.level            = table.quantity(above ? "above" : "below");
-  own.request.level    = own.level.value;
-  own.request.delay    = table.not_negative("delay", kind::time, 0.);
-  own.request.after    = table.text("after", "");
-  own.request.repeat   = table.boolean("repeat", false);
+  read_crossing(table, own);
+  own.request.delay  = table.not_negative("delay", kind::time, 0.);
+  own.request.after  = table.text("after", "");
+  own.request.repeat = table.boolean("repeat", false);
   if (own.request.repeat && own.request.signal == "t")
     throw table.error("repeat", "the time passes its value only once; leave it out");
   if (table.has("hysteresis"))

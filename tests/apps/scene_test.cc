@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[element.spring]", "[element.\"a.b\"]", "element.\"a.b\"", "dots"},
         Mistake{"[body.slide]", "[body.frame]", "body.frame", "a meaning of its own"},
         Mistake{"\"rod.force\"", "\"rod.forse\"", "output.signals.F_P", "rod.force"},
-        Mistake{"\"rod.force\"", "\"-\"", "output.signals.F_P", "there is no \"-\"; valid: 'crank.angle'"},
+        Mistake{"\"rod.force\"", "\"-\"", "output.signals.F_P", "there is no \"-\"; valid: 'crank.acceleration'"},
         Mistake{"\"rod.force\"", "\"- \"", "output.signals.F_P", "there is no \"- \""},
         Mistake{"crank = \"120 deg\"", "crnk = \"120 deg\"", "start.q.crnk", "did you mean 'crank'"},
         Mistake{"\"frame.crown.uz\" =", "\"frame.crown.ux\" =", "start.q.\"frame.crown.ux\"", "is held"},

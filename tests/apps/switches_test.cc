@@ -209,6 +209,92 @@ TEST(Switches, WaitForEachOther)
   EXPECT_NEAR(motion.signal("v").final, 2.5, 1e-6);
 }
 
+// x = 10 mm cos(20 t) crosses 5 mm downwards first, then upwards, by the same switch.
+TEST_P(Switches, CrossEitherWay)
+{
+  const std::string scene =
+      slider(2., "0.6 s") + spring + "[start]\nq = { slide = \"10 mm\" }\n" + push + "initially = \"off\"\n";
+  const auto way = [](const std::string &more)
+  {
+    return switched("s",
+                    "when = \"slide.displacement\"\ncrosses = \"5 mm\"\ntell = \"push\"\norder = \"off\"\n" + more);
+  };
+  const auto once = run(scene + way(""), GetParam()), often = run(scene + way("repeat = true\n"), GetParam()),
+             apart   = run(scene + way("repeat = true\nhysteresis = \"7 mm\"\n"), GetParam());
+  const double first = std::acos(0.5) / 20., period = 2. * M_PI / 20.;
+  EXPECT_EQ(count(once, "switch"), 1);
+  EXPECT_NEAR(time_of(once, "switch"), first, 1e-7);
+  ASSERT_EQ(count(often, "switch"), 4);
+  for (int n = 0; n < 4; ++n)
+    EXPECT_NEAR(time_of(often, "switch", n), n % 2 == 0 ? first + n / 2 * period : (n + 1) / 2 * period - first, 1e-6);
+  // 7 mm off the level it comes only below, where it is ready for the way up; the way down is past then.
+  ASSERT_EQ(count(apart, "switch"), 3);
+  EXPECT_NEAR(time_of(apart, "ready"), std::acos(-0.2) / 20., 1e-6);
+  EXPECT_NEAR(time_of(apart, "switch", 1), period - first, 1e-6);
+}
+
+// One that begins at the value itself has not crossed it.
+TEST_P(Switches, CrossNothingWhereTheyBegin)
+{
+  const auto motion =
+      run(slider(2., "0.1 s") + push +
+              switched("s", "when = \"slide.displacement\"\ncrosses = \"0 m\"\ntell = \"push\"\norder = \"off\"\n"),
+          GetParam());
+  EXPECT_EQ(count(motion, "switch"), 0);
+  ASSERT_EQ(motion.result.warnings.size(), 1u);
+  EXPECT_NE(motion.result.warnings[0].find("never thrown"), std::string::npos);
+}
+
+TEST(Switches, OfTheTimeOfTheStartAreMeant)
+{
+  const auto motion =
+      run(slider(2., "0.1 s") + push + switched("s", "when = \"t\"\nabove = 0\ntell = \"push\"\norder = \"off\"\n"));
+  EXPECT_EQ(time_of(motion, "switch"), 0.);
+  EXPECT_TRUE(motion.result.warnings.empty());
+  EXPECT_NEAR(motion.signal("x").final, 0., 1e-15);
+}
+
+// Set to 40 N within 0.2 s while it is off, from 0.3 s on; on at 0.4 s, half way up: 25 N, and at 0.5 s 40 N.
+TEST_P(Switches, GiveOrdersToWhatIsOff)
+{
+  const auto motion =
+      run(slider(2., "1 s") + "F = \"push.force\"\n" + push + "initially = \"off\"\n" +
+              switched("level", "when = \"t\"\nabove = \"0.3 s\"\ntell = \"push\"\norder = \"set\"\nto = \"40 N\"\n"
+                                "rate = \"150 N/s\"\n") +
+              switched("on", "when = \"t\"\nabove = \"0.4 s\"\ntell = \"push\"\norder = \"on\"\n"),
+          GetParam());
+  EXPECT_NEAR(time_of(motion, "next_segment"), 0.5, 1e-9);
+  EXPECT_NEAR(motion.signal("F").max, 40., 1e-9);
+  EXPECT_NEAR(motion.signal("v").final, (0.5 * (25. + 40.) * 0.1 + 40. * 0.5) / 2., 1e-5);
+}
+
+// Off and on again it keeps the level it was told, although its profile says 10 N.
+TEST(Switches, LeaveOrdersStandingThatCameBefore)
+{
+  const auto motion =
+      run(slider(2., "1 s") + "F = \"push.force\"\n" + push +
+          switched("level", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"push\"\norder = \"set\"\nto = \"30 N\"\n") +
+          switched("off", "when = \"t\"\nabove = \"0.2 s\"\ntell = \"push\"\norder = \"off\"\n") +
+          switched("on", "when = \"t\"\nabove = \"0.7 s\"\ntell = \"push\"\norder = \"on\"\n"));
+  EXPECT_EQ(motion.signal("F").final, 30.);
+  EXPECT_NEAR(motion.signal("v").final, (10. * 0.1 + 30. * 0.1 + 30. * 0.3) / 2., 1e-6);
+}
+
+// "start" once more brings the profile back to its begin, at rest: a moving body would have to jump.
+TEST(Switches, EndARunInWhichASecondStartWouldMakeTheSpeedJump)
+{
+  const std::string feed =
+      "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = [{ at = 0, to = "
+      "\"0.5 m/s\", acceleration = \"2 m/s^2\" }], waits = true }\n";
+  const auto motion = run("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n" + feed +
+                          "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
+                          switched("go", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"feed\"\norder = \"start\"\n") +
+                          switched("again", "when = \"t\"\nabove = \"0.6 s\"\ntell = \"feed\"\norder = \"start\"\n"));
+  for (const std::string words : {"at t = 0.6 s, switch \"again\" tells \"feed\"", "jump from 0.5 to 0"})
+    EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
+  EXPECT_NEAR(motion.signal("x").final, 0.5 * 0.5 - 0.5 * 0.25 * 0.5, 1e-6); // saved until then
+}
+
 // --- units and aliases
 
 TEST(Signals, OfAnglesAreTorques)
@@ -299,7 +385,8 @@ TEST(Switches, RefuseWhatCannotBe)
   refuses(at_time + "tell = \"push\"\norder = \"of\"\n", "knows no order 'of'; it obeys");
   refuses(at_time + "tell = \"spring\"\norder = \"brake\"\n", "knows no order 'brake'; it obeys 'on', 'off'");
   refuses(at_time + "tell = \"mass\"\norder = \"off\"\n", "is a mass");
-  refuses(at_time + "tell = \"pusch\"\norder = \"off\"\n", "there is no element \"pusch\"");
+  refuses(at_time + "tell = \"pusch\"\norder = \"off\"\n",
+          "there is no element or joint 'pusch'; did you mean 'push'?");
   refuses(at_time + "tell = \"push\"\norder = \"set\"\n", "the key 'to' is missing; it needs a force");
   refuses(at_time + "tell = \"push\"\norder = \"set\"\nto = \"2 m\"\n", "switch.s.to");
   refuses(at_time + "tell = \"push\"\norder = \"off\"\nto = \"2 N\"\n", "unknown key 'to'");
@@ -309,6 +396,10 @@ TEST(Switches, RefuseWhatCannotBe)
   refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"u\"\n", "there is no switch 'u'");
   refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"s\"\n", "in a circle");
   refuses(at_time + "orders = []\n", "orders");
+  refuses(at_time + "below = \"2 s\"\ntell = \"push\"\norder = \"off\"\n", "stands beside 'above'");
+  refuses("when = \"t\"\ntell = \"push\"\norder = \"off\"\n", "needs 'above', 'below' or 'crosses'");
+  refuses("when = \"slide.velocty\"\nabove = 1\ntell = \"push\"\norder = \"off\"\n",
+          "when: there is no \"slide.velocty\"; did you mean 'slide.velocity'?");
   refuses("when = \"t\"\nabove = \"1 m\"\ntell = \"push\"\norder = \"off\"\n", "told in s, but the level is");
   refuses("when = \"slide.velocity\"\nabove = \"1 m/s\"\nrepeat = true\nhysteresis = \"1 m\"\ntell = \"push\"\n"
           "order = \"off\"\n",
@@ -333,6 +424,16 @@ TEST(Switches, RefuseWhatElementsCannotObey)
                    "is a compliant joint");
   expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\n"),
                    "no finite force makes masses jump");
+  const std::string braked = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\n"
+                             "motion = { speed = 1, brake = { family = \"linear\", duration = \"0.1 s\" } }\n";
+  expect_complaint(slider(2., "1 s") + braked +
+                       switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\njerk = 5\n"),
+                   "takes neither an acceleration nor a jerk");
+  expect_complaint(slider(2., "1 s") + braked + switched("s", at_time + "tell = \"feed\"\norder = \"hold\"\n"),
+                   "knows no order 'hold'; it obeys 'brake'");
+  // A name that is missing is mistaken for nothing that could not obey: a joint is never off.
+  expect_complaint(slider(2., "1 s") + feed + push + switched("s", at_time + "tell = \"feet\"\norder = \"off\"\n"),
+                   "there is no element or joint 'feet'; valid: 'push'");
   const std::string jumps =
       "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = 1, waits = true }\n";
   expect_complaint(slider(2., "1 s") + jumps, "jump of the speed at its start");
