@@ -102,7 +102,7 @@ DenseModes subspace_modes(const SparseMatrix &C, const SparseMatrix &M, int coun
 {
   const auto n = C.rows(), k = std::min<Eigen::Index>(n, std::max(2 * count, count + 8));
   if (count == 0)
-    return {VectorXd(0), MatrixXd(n, 0)};
+    return {VectorXd(0), MatrixXd(n, 0), {}};
   Shifted            shifted   = first_shift(C, M);
   MatrixXd           X         = irregular(n, k);
   const SparseMatrix magnitude = C.cwiseAbs();
@@ -119,7 +119,7 @@ DenseModes subspace_modes(const SparseMatrix &C, const SparseMatrix &M, int coun
     const bool     settled = iteration > 2 && previous.size() == found &&
                          ((omega - previous).cwiseAbs().array() <= tolerance * omega.array()).all();
     if (settled || k == n)
-      return {omega, X.leftCols(found)};
+      return {omega, X.leftCols(found), {}};
     previous            = omega;
     const double wanted = wanted_share * lowest_elastic_square(omega);
     if (wanted > 0. && shifted.s > 10. * wanted)
