@@ -38,7 +38,10 @@ double TransmittedElement::size_of_terms() const
 {
   double size = law_->size_of_terms();
   for (const CombinedMeasure &measure : measures_)
-    size = std::max(size, measure.size());
+  {
+    const PlacedMeasure *plain = measure.plain();
+    size                       = std::max(size, plain ? plain->first.size() + plain->second.size() : measure.size());
+  }
   return size;
 }
 

@@ -310,7 +310,7 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
   energy(to.q, nullptr, sums_);
   energy(to.v, nullptr, sums_v_);
   energy(to.v, &from.v, changes_);
-  moved_ = noise_of_groups_;
+  std::fill(moved_.begin(), moved_.end(), 0.);
   for (int j = 0; j < ends_.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
@@ -320,14 +320,14 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
   for (int g = 0; g < n_groups_; ++g)
     invert(std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
            std::max(scale_.v[g], group_floor * fastest), std::sqrt(changes_[g]),
-           std::max(std::sqrt(sums_[g]), moved_[g]), std::max(std::sqrt(sums_v_[g]), moved_[g] / h), inverse_q_[g],
-           inverse_v_[g]);
+           std::max({std::sqrt(sums_[g]), moved_[g], noise_of_groups_[g]}),
+           std::max(std::sqrt(sums_v_[g]), moved_[g] / h), inverse_q_[g], inverse_v_[g]);
 
   for (int j = 0; j < ends_.outerSize(); ++j)
   {
     double way = 0., speed = 0.;
     double size = std::max({std::abs(to.u[j]), std::abs(moved[j]), noise_[j]});
-    double rate = std::max({std::abs(to.u_rate[j]), std::abs(moved[j]) / h, noise_[j] / h});
+    double rate = std::max(std::abs(to.u_rate[j]), std::abs(moved[j]) / h);
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
     {
       way += it.value() * bounded(scale_.end_q[it.row()], scale_.end_v[it.row()]);

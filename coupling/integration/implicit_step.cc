@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr double rounding         = 8. * std::numeric_limits<double>::epsilon();
-constexpr double sum_rounding     = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double joint_rounding   = 8.;   ///< times that of one number: several terms, enlarged by levers
 constexpr double share_of_joints  = 1e-3; ///< of the tolerance
 constexpr double most_left        = 1e-7; ///< of the excursion of a measure, however large the local error is
 constexpr double finest_tolerance = 1e-13;
@@ -96,10 +96,6 @@ void ImplicitStep::begin(const Eigen::VectorXd &u)
 {
   u_begin_ = u;
   scale_.setZero();
-  // At rest nothing but rounding moves a measure: that of the numbers whose difference a force depends on.
-  for (const ForceBlock &block : force_blocks_)
-    scale_.segment(block.first_measure, block.n_measures)
-        .setConstant(sum_rounding * rounding / options_.tolerance * block.size);
   levers_age_ = 0;
   forget_contraction();
 }
@@ -188,12 +184,12 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, boo
     const auto             G     = static_cast<const ConstraintJacobian &>(G_)[b];
     const double           least = weak_lever * G.cwiseAbs().maxCoeff();
     if (least > 0.)
-      of_joints = std::max(of_joints, sum_rounding * left * block.size * weak_lever / least);
+      of_joints = std::max(of_joints, joint_rounding * left * block.size * weak_lever / least);
     for (int k = 0; least > 0. && k < block.n_measures; ++k)
     {
       const double lever = std::max(least, G.col(k).cwiseAbs().maxCoeff());
       double      &scale = scale_[block.first_measure + k];
-      scale              = std::max(scale, sum_rounding * left * block.size / lever);
+      scale              = std::max(scale, joint_rounding * left * block.size / lever);
     }
   }
   scale_ = scale_.cwiseMax(of_joints);

@@ -144,6 +144,7 @@ dissipation = "20 s/m"
 friction = { coefficient = 0.3, speed = "0.1 mm/s" }
 [start]
 q = { "box.uz" = "-14.715 um" }
+v = { "box.ux" = "1 m/s" }
 [run]
 end = "1 s"
 [output]
@@ -151,15 +152,16 @@ picture_step = 0
 signals = { N = "left.normal_force", x = "box.ux" }
 )toml";
 
-TEST(ControlledContact, ABodyAtRestNeedsFewSteps)
+// It slides at first, and stops: Coulomb's law, v^2/(2 mu g), up to the last millimetre a second.
+TEST(ControlledContact, ABodyThatComesToRestNeedsFewSteps)
 {
   for (const double tol : {1e-3, 1e-4, 1e-6})
   {
     const SceneRun motion = run(box, {"run.tolerance=" + std::to_string(tol)});
     ASSERT_EQ(motion.result.failure, "") << tol;
-    EXPECT_NEAR(motion.signal("N").final, 0.5 * 3. * 9.81, 1e-9) << tol;
-    EXPECT_NEAR(motion.signal("x").final, 0., 1e-12) << tol;
-    EXPECT_LT(motion.result.work.steps, 500) << tol;
+    EXPECT_NEAR(motion.signal("N").final, 0.5 * 3. * 9.81, 1e-5) << tol;
+    EXPECT_NEAR(motion.signal("x").final, 0.5 / (0.3 * 9.81), 1e-4) << tol; // it dips and tips by 15 um
+    EXPECT_LT(motion.result.work.steps, 5000) << tol;
   }
 }
 
