@@ -59,8 +59,10 @@ int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
   progress.done();
 
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
-            << report.volume << " m^3, " << report.mass << " kg in steel\n"
-            << "mesh: " << report.n_points << " points, " << report.n_cells << " tetrahedra, about "
+            << report.volume << " m^3, " << report.mass << " kg in steel\n";
+  for (const std::string &solid : report.solids)
+    std::cout << "  solid \"" << solid << "\"\n";
+  std::cout << "mesh: " << report.n_points << " points, " << report.n_cells << " tetrahedra, about "
             << report.n_coordinates << " coordinates, worst quality " << report.worst_quality << "\nsurfaces:\n";
   for (const coupling::SurfaceReport &surface : report.surfaces)
   {

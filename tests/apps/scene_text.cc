@@ -123,4 +123,48 @@ std::string complaint(const std::string &text, const std::vector<std::string> &o
   return "";
 }
 
+std::string cad_scene(const std::string &piece, const std::string &replacement)
+{
+  std::string text  = R"([frame]
+cad      = "frame.step"
+mesh     = { size = "60 mm", "bearing *" = "30 mm" }
+material = "steel"
+damping  = { ratio = 0.02 }
+[frame.surface."bearing left"]
+cylinder = { axis = [0, 1, 0], through = [0, 0, "2.4 m"], radius = "120 mm" }
+[frame.surface."bearing right"]
+cylinder = { axis = [0, 1, 0], through = [0, 0, "2.4 m"], radius = "120 mm" }
+[frame.surface.feet]
+plane = { normal = [0, 0, -2], through = [0, 0, 0] }
+faces = "any"
+[frame.support.feet]
+surface    = "feet"
+foundation = { stiffness = "420 kN/mm", damping = [1, 2, 3] }
+[frame.interface.crown]
+surfaces = ["bearing left", "bearing right"]
+[frame.cut.columns]
+plane = { normal = [0, 0, 1], through = [0, 0, "1.4 m"] }
+)";
+  const auto  found = text.find(piece);
+  if (found == std::string::npos)
+    throw std::logic_error("the scene has no \"" + piece + "\"");
+  return text.replace(found, piece.size(), replacement);
+}
+
+std::string cad_complaint(const std::string &piece, const std::string &replacement)
+{
+  const SceneFolder folder;
+  folder.write("frame.step", "ISO-10303-21;");
+  const auto path = folder.write("scene.toml", cad_scene(piece, replacement));
+  try
+  {
+    apps::check_scene(apps::read_scene(path));
+  }
+  catch (const std::invalid_argument &e)
+  {
+    return e.what();
+  }
+  return "";
+}
+
 } // namespace gestell::test

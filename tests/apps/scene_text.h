@@ -34,4 +34,10 @@ std::string small_scene(const std::string &piece, const std::string &replacement
 /// left out of the message.
 std::string complaint(const std::string &text, const std::vector<std::string> &overrides = {});
 
+/// A frame from CAD with one of everything, to be written beside a file "frame.step"; one piece of its text replaced.
+std::string cad_scene(const std::string &piece = "", const std::string &replacement = "");
+
+/// What read_scene() and check_scene() say against cad_scene() in a file "scene.toml"; "" if nothing.
+std::string cad_complaint(const std::string &piece, const std::string &replacement);
+
 } // namespace gestell::test
