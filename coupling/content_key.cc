@@ -141,6 +141,8 @@ std::string canonical(const fem::FrameSpecification &frame)
     add(to, interface);
   for (const auto &mass : frame.masses)
     add(to, mass);
+  if (frame.stress)
+    to.add("stress", true);
   for (const auto &cut : frame.cuts)
     to.add("cut", cut.name).add("through", cut.through).add("normal", cut.normal);
   return to.text();

@@ -73,7 +73,8 @@ std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signal
 Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                    const std::vector<Signal> &signals, int samples, RunResult &result)
     : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
-      energy_(machine), coordinates_(coordinates_of(signals)), accelerations_(accelerations_for(signals, machine)),
+      keeper_(integrator, options.states, options.begin, result.signals, result.states), energy_(machine),
+      coordinates_(coordinates_of(signals)), accelerations_(accelerations_for(signals, machine)),
       row_step_(output_step(options)), picture_step_(options.picture_step)
 {
   between_.q.setZero(machine.size());
@@ -133,6 +134,7 @@ void Recorder::begin()
   if (!machine_.overloaded(integrator_.local()))
     settle(integrator_.time());
   pictures();
+  keeper_.follow();
 }
 
 /// The motion at t, behind the last event.
@@ -183,6 +185,7 @@ void Recorder::step()
     balance();
   rows();
   pictures();
+  keeper_.follow();
 }
 
 /// Extremes of a signal count from here.
@@ -203,6 +206,7 @@ void Recorder::jump(const std::string &event)
   pending_ = true;
   if (!machine_.overloaded(integrator_.local()))
     settle(integrator_.time());
+  keeper_.follow();
 }
 
 void Recorder::extremes(const Sample &sample)

@@ -65,6 +65,7 @@ private:
   const RunOptions            &options_;
   const std::vector<Signal>   &signals_;
   RunResult                   &result_;
+  StateKeeper                  keeper_;
   EnergyBalance                energy_;
   EnergyGuard                  guard_;
   std::vector<int>             coordinates_; ///< that signals read

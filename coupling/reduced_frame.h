@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/reduced_stress.h"
 #include "fem/frame_matrices.h"
 
 #include <Eigen/Core>
@@ -34,6 +35,7 @@ struct ReducedFrame
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<int, 3>>    triangles;
   Eigen::MatrixXf                    displacement; // [3 points x (n1+m)]
+  ReducedStress                      stress;
 
   // what is known about the model
   int                      n_full  = 0; ///< coordinates of the unreduced frame

@@ -1,6 +1,7 @@
 #include "coupling/reduced_frame_file.h"
 
 #include "coupling/hdf5_file.h"
+#include "coupling/reduced_stress_file.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -150,6 +151,7 @@ void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key
   write_facts(file, frame.facts);
   for (std::size_t i = 0; i < frame.notes.size(); ++i)
     file.write("notes/" + std::to_string(i), frame.notes[i]);
+  write_stress(file, frame.stress);
 }
 
 ReducedFrame read_all(const Hdf5File &file)
@@ -187,6 +189,7 @@ ReducedFrame read_all(const Hdf5File &file)
   frame.facts = read_facts(file);
   for (int i = 0; file.has("notes") && file.has("notes/" + std::to_string(i)); ++i)
     frame.notes.push_back(file.read_text("notes/" + std::to_string(i)));
+  frame.stress = read_stress(file, int(frame.points.size()), int(frame.M.rows()));
   return frame;
 }
 

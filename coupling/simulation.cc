@@ -93,8 +93,15 @@ void check_size(const Machine &machine, const RunOptions &options, std::size_t n
     refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
            options.picture_step, " s, or say output.allow_large = true if that is what you want");
   const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.);
-  const double history  = 8. * columns * (length / output_step(options) + 1.),
-               pictures = options.picture_step > 0. ? 8. * machine.size() * (length / options.picture_step + 1.) : 0.;
+  const double history      = 8. * columns * (length / output_step(options) + 1.),
+               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
+               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.,
+               pictures     = 8. * machine.size() * (length * picture_rate + 1.),
+               states       = 8. * machine.size() * (length * state_rate + 1.);
+  if (!options.allow_large && states > most_bytes)
+    refuse("the run would keep ", states / 1e9,
+           " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
+           options.states.step, " s, or say output.allow_large = true");
   if (options.allow_large || history + pictures <= most_bytes)
     return;
   refuse("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,

@@ -4,6 +4,7 @@
 #include "coupling/integration/method.h"
 #include "coupling/machine.h"
 #include "coupling/stability_guard.h"
+#include "coupling/state_keeper.h"
 #include "coupling/steady_start.h"
 
 #include <atomic>
@@ -20,6 +21,7 @@ struct RunOptions
   double        begin = 0., end = 0.;   ///< [s]
   double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
   double        picture_step   = 0.;    ///< [s] between saved states for pictures; 0: none
+  StateRequest  states         = {};    ///< kept besides
   bool          events         = true;  ///< located and restarted at; false: gone over, and told afterwards
   bool          force_unstable = false; ///< runs although the method is unstable with this step
   bool          energy         = true;
@@ -68,6 +70,7 @@ struct RunResult
   EnergySummary                energy;
   std::vector<double>          picture_times;
   std::vector<Eigen::VectorXd> picture_states; ///< q
+  KeptStates                   states;         ///< those asked for
   std::vector<std::string>     warnings;
   double                       wall_s = 0.;
   std::string                  failure; ///< not empty: why it stopped early

@@ -7,6 +7,7 @@
 #include "fem/interfaces.h"
 #include "fem/rigid_motions.h"
 #include "fem/skin.h"
+#include "fem/skin_stress.h"
 #include "fem/supports.h"
 #include "fem/weighing.h"
 
@@ -69,6 +70,19 @@ Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatc
   return constraints;
 }
 
+/// Surfaces that cannot deform, and points that take forces.
+RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::vector<CoupledPatch> &coupled)
+{
+  RigidNodes rigid;
+  for (const SupportedPatch &support : supports)
+    if (support.support.kind == SupportKind::clamped)
+      rigid.emplace_back("support " + support.support.name, support.patch.nodes);
+  for (const CoupledPatch &interface : coupled)
+    if (interface.specification.coupling != InterfaceCoupling::average)
+      rigid.emplace_back("interface " + interface.specification.name, interface.patch.nodes);
+  return rigid;
+}
+
 } // namespace
 
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
@@ -116,6 +130,10 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
   frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
   frame.picture       = skin_picture(quadratic, kinematics);
+  if (specification.stress)
+    frame.stress = skin_stress(
+        quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
+        rigid_nodes(supports, coupled));
   return frame;
 }
 

@@ -13,9 +13,10 @@ namespace gestell::fem
 /// Integrals over the reference tetrahedron (volume 1/6) and triangle (area 1/2) of quadratic shape functions N_a.
 struct ReferenceIntegrals
 {
-  Eigen::Matrix<double, 10, 10> mass;              ///< int N_a N_b dV
-  Eigen::Matrix3d               gradients[10][10]; ///< int (dN_a/dxi) (dN_b/dxi)^T dV
-  Eigen::Matrix<double, 6, 6>   triangle_mass;     ///< int N_a N_b dA
+  Eigen::Matrix<double, 10, 10> mass;                ///< int N_a N_b dV
+  Eigen::Matrix3d               gradients[10][10];   ///< int (dN_a/dxi) (dN_b/dxi)^T dV
+  Eigen::Matrix<double, 6, 6>   triangle_mass;       ///< int N_a N_b dA
+  Eigen::Matrix<double, 10, 3>  corner_gradients[4]; ///< dN_a/dxi at the corners
 };
 
 /// Made once by the finite elements and quadratures of deal.II, exact for these polynomials (degree 4).

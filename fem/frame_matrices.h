@@ -2,6 +2,7 @@
 
 #include "fem/mass_properties.h"
 #include "fem/modal_ratios.h"
+#include "fem/stress_recovery.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -97,7 +98,8 @@ struct FrameMatrices
   std::vector<FrameOutput> outputs;
   Picture                  picture;
   FrameFacts               facts;
-  double                   mass    = 0.; ///< of the frame with what is attached [kg]
+  double                   mass = 0.; ///< of the frame with what is attached [kg]
+  StressRecovery           stress;    ///< empty unless it was asked for
   int                      n_cells = 0;
 
   /// Coordinates q1 of all interfaces, ascending.

@@ -140,7 +140,8 @@ struct FrameSpecification
   std::vector<InterfaceSpecification>    interfaces;
   std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
-  std::string                            place; ///< "press.toml:12: frame"
+  bool                                   stress = false; ///< to be recovered
+  std::string                            place;          ///< "press.toml:12: frame"
 };
 
 } // namespace gestell::fem

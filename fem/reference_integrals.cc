@@ -36,6 +36,12 @@ ReferenceIntegrals integrate()
                 volume.weight(p) * tetrahedron.shape_grad(a, x)[i] * tetrahedron.shape_grad(b, x)[j];
       }
 
+  const auto &corners = tetrahedron.get_unit_support_points(); // the first four
+  for (int k = 0; k < 4; ++k)
+    for (int a = 0; a < 10; ++a)
+      for (int i = 0; i < 3; ++i)
+        result.corner_gradients[k](a, i) = tetrahedron.shape_grad(a, corners[k])[i];
+
   const dealii::FE_SimplexP<2>              triangle(2);
   const dealii::QWitherdenVincentSimplex<2> area(rule);
   for (unsigned int p = 0; p < area.size(); ++p)

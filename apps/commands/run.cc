@@ -2,6 +2,7 @@
 #include "apps/commands/interruption.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
+#include "apps/commands/stress_answer.h"
 #include "apps/output/result_folder.h"
 #include "coupling/simulation.h"
 
@@ -72,7 +73,8 @@ int run_command(const CommonOptions &options)
 
   ProgressLine    progress(options.quiet);
   PreparedMachine prepared = prepare_machine(scene, progress);
-  const auto      signals  = scene_signals(scene, prepared.machine);
+  require_stress(scene, prepared.machine.reduced_frame());
+  const auto signals = scene_signals(scene, prepared.machine);
   progress.show("start");
   const coupling::InitialState initial = prepare_start(scene, prepared);
   progress.show("modes");
@@ -92,6 +94,8 @@ int run_command(const CommonOptions &options)
   }
   progress.show("results");
   states_for_pictures(prepared, *result.run);
+  if (scene.stress.given)
+    result.stress = stress_answer(scene, *prepared.machine.reduced_frame(), *result.run, result.warnings);
   prepare_folder(folder);
   progress.done();
   result.wall_s = progress.wall_seconds();

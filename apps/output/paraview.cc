@@ -65,6 +65,19 @@ struct Surface
     poly->SetPolys(cells);
   }
 
+  /// A value of several components at every point.
+  template <typename Columns>
+  void add_field(const char *name, const Columns &values)
+  {
+    vtkNew<vtkFloatArray> field;
+    field->SetName(name);
+    field->SetNumberOfComponents(static_cast<int>(values.rows()));
+    field->SetNumberOfTuples(values.cols());
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      field->SetValue(i, static_cast<float>(values(i % values.rows(), i / values.rows())));
+    poly->GetPointData()->AddArray(field);
+  }
+
   void set_vertices()
   {
     vtkNew<vtkCellArray> cells;
@@ -251,6 +264,38 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
   names.push_back("motion.pvd");
 }
 
+void write_stress(const fs::path &folder, const StressResult &stress, std::vector<std::string> &names)
+{
+  fs::create_directories(folder / "stress");
+  Collection collection;
+  for (std::size_t k = 0; k < stress.instants.size(); ++k)
+  {
+    const StressAt  &at = stress.instants[k];
+    Eigen::Matrix3Xd principal(3, at.field.von_mises.size()), first(principal);
+    for (Eigen::Index i = 0; i < principal.cols(); ++i)
+    {
+      const auto values = coupling::principal_stresses(at.field.at(static_cast<int>(i)));
+      principal.col(i)  = values.values;
+      first.col(i)      = values.first;
+    }
+    Surface surface;
+    surface.set_points(stress.points);
+    surface.set_triangles(stress.triangles);
+    for (Eigen::Index i = 0; i < at.displacement.size(); ++i)
+      surface.displacement->SetValue(i, static_cast<float>(at.displacement(i % 3, i / 3)));
+    surface.add_field("von Mises stress [Pa]", at.field.von_mises.transpose());
+    surface.add_field("principal stresses [Pa]", principal);
+    surface.add_field("first principal direction", first);
+    surface.add_field("stress xx yy zz xy yz xz [Pa]", at.field.components);
+    const std::string file = numbered("stress/stress_", k + 1);
+    surface.write(folder / file);
+    names.push_back(file);
+    collection.add(at.t, 0, file);
+  }
+  write_file(folder / "stress.pvd", collection.document());
+  names.push_back("stress.pvd");
+}
+
 } // namespace
 
 std::vector<std::string> write_paraview(const fs::path &folder, const Result &result, std::vector<std::string> &names)
@@ -258,6 +303,8 @@ std::vector<std::string> write_paraview(const fs::path &folder, const Result &re
   write_frame_modes(folder, result, names);
   if (result.run && !result.run->picture_states.empty())
     write_motion(folder, result, names);
+  if (result.stress && !result.stress->instants.empty())
+    write_stress(folder, *result.stress, names);
   return {};
 }
 

@@ -6,9 +6,9 @@ namespace gestell::apps
 
 std::vector<std::string> write_paraview(const std::filesystem::path &, const Result &, std::vector<std::string> &)
 {
-  return {
-      "This build has no VTK: motion.pvd and frame_modes.pvd were left out. Install libvtk9-dev and configure again "
-      "to have them."};
+  return {"This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were left out. Install libvtk9-dev and "
+          "configure again "
+          "to have them."};
 }
 
 } // namespace gestell::apps

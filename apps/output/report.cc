@@ -8,6 +8,7 @@
 #include "apps/output/report_style.h"
 #include "apps/output/signal_charts.h"
 #include "apps/output/skin_picture.h"
+#include "apps/output/stress_report.h"
 #include "apps/output/svg.h"
 
 #include <algorithm>
@@ -317,9 +318,9 @@ std::string contents(const std::string &body)
 {
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("peaks", "Answer"),
-
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
+                                 {"stress", "Stress"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"along", "Frequencies along"},
@@ -342,7 +343,7 @@ Report make_report(const Result &full)
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body = answer_section(result, report) +
+  const std::string body = answer_section(result, report) + stress_section(result, report) +
                            chart_section(charts, ChartTopic::force, "forces", "Forces") +
                            chart_section(charts, ChartTopic::motion, "motion", "Motion") +
                            chart_section(charts, ChartTopic::other, "signals", "Other signals") +

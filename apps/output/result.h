@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/scenery.h"
+#include "apps/output/stress_result.h"
 #include "coupling/excitation_orders.h"
 #include "coupling/modes.h"
 #include "coupling/simulation.h"
@@ -61,6 +62,7 @@ struct Result
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
+  std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people

@@ -78,6 +78,45 @@ std::vector<Vector3d> moved_points(const Skin &skin, double enlargement)
   return points;
 }
 
+/// The field on so few points that a picture stays small.
+SkinField light_field(const SkinField &field)
+{
+  if (field.skin.triangles.size() <= most_triangles)
+    return field;
+  double     edge   = field.skin.size() / 100.;
+  CoarseMesh coarse = coarse_mesh(field.skin, edge);
+  while (coarse.triangles.size() > most_triangles)
+    coarse = coarse_mesh(field.skin, edge *= 1.4);
+  SkinField light = field;
+  light.skin      = {{}, {}, coarse.triangles};
+  light.values.clear();
+  for (const int i : coarse.points)
+  {
+    light.skin.points.push_back(field.skin.points[i]);
+    light.skin.displacement.push_back(field.skin.displacement[i]);
+    light.values.push_back(field.values[i]);
+  }
+  return light;
+}
+
+/// The colours from bottom to top with numbers beside them, `height` units high.
+std::string colour_bar(double top, const DisplayUnit &unit, double height)
+{
+  constexpr int steps = 16, ticks = 4;
+  std::string   svg = "<g class=\"faces\">";
+  for (int i = 0; i < steps; ++i)
+  {
+    svg += "<path color=\"" + hex(scale_colour((i + 0.5) / steps), 1.) + "\" d=\"M0 ";
+    append_coordinate(svg, height * (1. - double(i) / steps));
+    append_coordinate(svg += "h12v", -height / steps);
+    svg += "h-12z\"/>";
+  }
+  svg += "</g>";
+  for (int i = 0; i <= ticks; ++i)
+    svg += svg_text(18., height * (1. - double(i) / ticks) + 4., short_text(top * i / ticks * unit.factor, 3), "tick");
+  return svg;
+}
+
 } // namespace
 
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
@@ -147,6 +186,49 @@ std::string mode_picture_svg(const Skin &skin, const std::string &title, const s
                  "<path class=\"outline\" d=\"" + edge_path(skin, 0., view, nullptr) + "\"/>\n<g class=\"faces\">" +
                      facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
                      edge_path(skin, enlargement, view, &raster) + "\"/>\n") +
+         "</svg>\n";
+}
+
+std::string field_picture_svg(const SkinField &full, const std::string &title, const std::string &subtitle)
+{
+  const SkinField field       = light_field(full);
+  const Skin     &skin        = field.skin;
+  const double    largest     = skin.largest_displacement();
+  const double    enlargement = largest > 0. ? shown_size * skin.size() / largest : 0.;
+
+  const std::vector<Vector3d> deformed = moved_points(skin, enlargement);
+  const View                  view(deformed, picture_size);
+
+  const auto colour = [&](const std::array<int, 3> &t)
+  {
+    const double mean = (field.values[t[0]] + field.values[t[1]] + field.values[t[2]]) / 3.;
+    return scale_colour(field.top > 0. ? mean / field.top : 0.);
+  };
+  const std::vector<Facet> facets = facets_of(skin, enlargement, view, colour);
+  const DepthRaster        raster(facets, view);
+
+  std::string ring;
+  if (field.mark)
+  {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < skin.points.size(); ++i)
+      if ((skin.points[i] - *field.mark).norm() < (skin.points[nearest] - *field.mark).norm())
+        nearest = i;
+    const Vector3d at     = view(deformed[nearest]);
+    const bool     hidden = !raster.sees(at, 2.5);
+    append_coordinate(ring += "<circle class=\"mark\" r=\"9\" cx=\"", at[0]);
+    append_coordinate(ring += "\" cy=\"", at[1]);
+    ring += hidden ? "\" stroke-dasharray=\"3 3\"/>" : "\"/>";
+  }
+  const double bar   = std::min(view.height(), 200.);
+  const double width = view.width() + 100., height = view.height() + 62.;
+  return svg_head(width, height, title) + face_style +
+         "<style>.gst .mark{fill:none;stroke:#d02030;stroke-width:2}</style>\n" + svg_text(12., 19., title, "title") +
+         svg_text(12., 35., subtitle, "small") +
+         shifted(12., 48.,
+                 "<g class=\"faces\">" + facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
+                     edge_path(skin, enlargement, view, &raster) + "\"/>\n" + ring) +
+         shifted(view.width() + 30., 48. + 0.5 * (view.height() - bar), colour_bar(field.top, field.unit, bar)) +
          "</svg>\n";
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "apps/output/mechanism_shapes.h"
+#include "apps/output/number_text.h"
 #include "apps/output/scenery.h"
 #include "apps/output/skin.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -18,6 +21,19 @@ Scenery for_pictures(const Scenery &scenery);
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
 /// undeformed edges.  Seen in parallel projection from front right and above.
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle);
+
+/// A field over the points of a skin.
+struct SkinField
+{
+  Skin                           skin;
+  std::vector<double>            values;   ///< [points] in SI, >= 0
+  double                         top = 0.; ///< where the scale of colours ends
+  DisplayUnit                    unit;     ///< of its bar
+  std::optional<Eigen::Vector3d> mark;     ///< [m] a place that is ringed
+};
+
+/// A picture of a field on the skin deformed as of a mode, with the bar of its colours.
+std::string field_picture_svg(const SkinField &field, const std::string &title, const std::string &subtitle);
 
 /// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass; faint, the
 /// edges of the bodies at another time.

@@ -222,6 +222,47 @@ void write_along(JsonWriter &json, const AlongResult &along)
   json.end_object();
 }
 
+void write_stress_place(JsonWriter &json, const std::string &name, const StressPlace &place)
+{
+  const auto three = [&](const char *member, const Eigen::Vector3d &x)
+  {
+    json.begin_array(member);
+    for (const double value : x)
+      json.number("", value);
+    json.end_array();
+  };
+  json.begin_object(name);
+  json.number("von_mises", place.von_mises);
+  three("at", place.at);
+  three("principal", place.principal.values);
+  three("first_direction", place.principal.first);
+  json.number("disagreement", place.disagreement);
+  json.text("beside", place.beside);
+  json.end_object();
+}
+
+void write_stress(JsonWriter &json, const StressResult &stress)
+{
+  json.begin_object("stress");
+  json.integer("points", static_cast<long long>(stress.points.size()));
+  json.integer("states", stress.n_states);
+  json.number("step", stress.step);
+  json.begin_array("instants");
+  for (const StressAt &at : stress.instants)
+  {
+    json.begin_object();
+    json.text("label", at.label);
+    json.number("t", at.t);
+    if (at.peak)
+      write_stress_place(json, "largest", *at.peak);
+    if (at.beside_rigid)
+      write_stress_place(json, "beside_rigid", *at.beside_rigid);
+    json.end_object();
+  }
+  json.end_array();
+  json.end_object();
+}
+
 void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
 {
   int number = 0;
@@ -279,6 +320,8 @@ std::string summary_json(const Result &result)
   write_poles(json, result.poles);
   if (result.along)
     write_along(json, *result.along);
+  if (result.stress)
+    write_stress(json, *result.stress);
   write_signals(json, run.signals);
   write_events(json, run.events);
   json.text("method", run.method);

@@ -1,5 +1,6 @@
 #include "apps/scene/read_run.h"
 
+#include "apps/scene/read_stress.h"
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
@@ -205,6 +206,7 @@ void read_output(const SceneTable &scene, Scene &result)
       const auto watched = signals->table(name);
       result.signals.push_back({name, watched.text("signal"), signals->place(name), watched.text("from")});
     }
+  read_stress(*table, result);
 }
 
 } // namespace gestell::apps

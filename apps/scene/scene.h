@@ -277,6 +277,27 @@ struct SignalRequest
   std::string from; ///< event from which on its extremes count
 };
 
+/// An instant of the run at which stresses are told.
+struct StressInstant
+{
+  enum When
+  {
+    time,              ///< coupling::StateRequest::at
+    extreme_of_signal, ///< coupling::StateRequest::extremes
+    largest_stress
+  };
+  std::string label; ///< for people; empty: the time tells
+  When        when  = largest_stress;
+  int         index = 0;
+};
+
+struct StressRequest
+{
+  bool                       given = false; ///< there is an [output.stress]
+  std::vector<StressInstant> instants;
+  std::string                place;
+};
+
 struct ModesRequest
 {
   std::vector<NamedValue>  at;   ///< configuration of the bodies; zero for the rest
@@ -313,6 +334,7 @@ struct Scene
   RunRequest                         run;
   ModesRequest                       modes;
   std::vector<SignalRequest>         signals;
+  StressRequest                      stress;
   std::vector<std::string>           warnings; ///< of what is allowed and probably not meant
 };
 

@@ -105,6 +105,27 @@ StaticRemainder static_remainder(const HeldFrame &held, const ReductionBasis &ba
   return remainder;
 }
 
+/// One column at a time: the stresses of the whole basis in double precision would be the largest thing in memory.
+void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const MatrixXd &T, const MatrixXd &remainder)
+{
+  if (stress.empty())
+    return;
+  reduced.point     = stress.point;
+  reduced.triangles = stress.triangles;
+  reduced.rigid     = stress.rigid;
+  reduced.beside    = stress.beside;
+  const auto add    = [&](fem::StressOf which, Eigen::MatrixXf &to)
+  {
+    to.setZero(fem::stress_components * Eigen::Index(stress.point.size()), T.cols() + 3);
+    for (Eigen::Index j = 0; j < T.cols(); ++j)
+      to.col(j) = fem::stresses(stress, T.col(j), which).cast<float>();
+    for (Eigen::Index j = 0; j < remainder.cols(); ++j)
+      to.col(T.cols() + j) = fem::stresses(stress, remainder.col(j), which).cast<float>();
+  };
+  add(fem::StressOf::mean, reduced.mean);
+  add(fem::StressOf::deviation, reduced.deviation);
+}
+
 /// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
 void add_modal_damping(MatrixXd &B, const SupportedModes &refined, const fem::ModalRatios &zeta)
 {
@@ -185,6 +206,7 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
   reduced.M = star.M;
   reduced.B = star.B;
   reduced.C = star.C;
+  MatrixXd static_beyond_modes;
   if (frame.translations.rows() > 0)
   {
     const MatrixXd load       = acceleration_load(frame);
@@ -196,10 +218,12 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
     for (std::size_t i = 0; i < frame.outputs.size(); ++i)
       reduced.outputs_under_acceleration.row(Eigen::Index(i)) =
           frame.outputs[i].on_q.transpose() * remainder.deflection;
+    static_beyond_modes = remainder.deflection;
   }
   else
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   describe(reduced, frame, basis);
+  add_stress(reduced.stress, frame.stress, basis.T, static_beyond_modes);
   return reduced;
 }
 

@@ -117,4 +117,34 @@ Result example_result(int n_rows)
   return result;
 }
 
+Result with_stress(Result result)
+{
+  const auto   n = static_cast<Eigen::Index>(result.scenery.points.size());
+  StressResult stress;
+  for (const auto &x : result.scenery.points)
+    stress.points.emplace_back(x[0], x[1], x[2]);
+  stress.triangles = result.scenery.triangles;
+  stress.n_states  = 4500;
+  stress.step      = 1e-4;
+
+  StressAt at;
+  at.label        = "largest F_P";
+  at.t            = 0.2341;
+  at.displacement = Eigen::Matrix3Xd::Zero(3, n);
+  at.displacement.row(0).setConstant(1e-4);
+  at.field.components.setZero(6, n);
+  at.field.von_mises         = 10e6 * Eigen::VectorXd::LinSpaced(n, 1., double(n));
+  at.field.components.row(2) = at.field.von_mises.transpose();
+  const auto place           = [&](Eigen::Index i, double disagreement, const std::string &beside)
+  {
+    return StressPlace{stress.points[i], at.field.von_mises[i],
+                       coupling::principal_stresses(at.field.at(static_cast<int>(i))), disagreement, beside};
+  };
+  at.peak         = place(n - 1, 0.2, "");
+  at.beside_rigid = place(0, 0.5, "support feet");
+  stress.instants = {at};
+  result.stress   = stress;
+  return result;
+}
+
 } // namespace gestell::apps

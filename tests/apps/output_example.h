@@ -9,4 +9,8 @@ namespace gestell::apps
 /// slide, n rows of history with one shock, events, modes.
 Result example_result(int n_rows = 1000);
 
+/// The same with stresses at 0.2341 s: corner i of the box is pulled along z by 10 (i + 1) MPa; point 0 is told as
+/// beside the feet, with neighbours that disagree by a fifth.
+Result with_stress(Result result);
+
 } // namespace gestell::apps

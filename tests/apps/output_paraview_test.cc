@@ -108,3 +108,21 @@ TEST_F(ParaviewFiles, AFrameWithoutSkinShowsItsInterfacesAsPoints)
   EXPECT_EQ(frame->GetNumberOfVerts(), 1);
   EXPECT_FLOAT_EQ(frame->GetPointData()->GetArray("displacement [m]")->GetComponent(0, 0), 1e-4f);
 }
+
+TEST_F(ParaviewFiles, StressHoldsInvariantsAndComponentsAtEveryPoint)
+{
+  write_paraview(folder, with_stress(example_result()), names);
+  const auto sets = data_sets("stress.pvd");
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(std::get<0>(sets[0]), 0.2341);
+  vtkPolyData *skin  = read(std::get<2>(sets[0]));
+  auto        *field = skin->GetPointData();
+  ASSERT_EQ(skin->GetNumberOfPoints(), 8);
+  EXPECT_FLOAT_EQ(field->GetArray("von Mises stress [Pa]")->GetTuple1(7), 80e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("principal stresses [Pa]")->GetComponent(3, 0), 40e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("principal stresses [Pa]")->GetComponent(3, 2), 0.f);
+  EXPECT_FLOAT_EQ(field->GetArray("first principal direction")->GetComponent(3, 2), 1.f);
+  EXPECT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetNumberOfComponents(), 6);
+  EXPECT_FLOAT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetComponent(3, 2), 40e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("displacement [m]")->GetComponent(5, 0), 1e-4f);
+}

@@ -63,7 +63,7 @@ private:
   IntegrationWork work_;
 };
 
-RunResult recorded(double step, int samples, double end, double output_step = 0.)
+RunResult recorded(double step, int samples, double end, double output_step = 0., const StateRequest &states = {})
 {
   const Machine             machine = slider();
   const std::vector<Signal> signals = {machine.signal("x", "x.displacement"), machine.signal("v", "x.velocity")};
@@ -73,6 +73,7 @@ RunResult recorded(double step, int samples, double end, double output_step = 0.
   options.end          = end;
   options.output_step  = output_step;
   options.picture_step = output_step;
+  options.states       = states;
   RunResult result;
   Recorder  recorder(machine, sine, options, signals, samples, result);
   sine.begin(0., {}, {});
@@ -137,6 +138,39 @@ TEST(Recorder, RowsDoNotDependOnTheStep)
   ASSERT_EQ(fine.rows.size(), coarse.rows.size());
   for (std::size_t i = 0; i < fine.rows.size(); ++i)
     EXPECT_NEAR(fine.rows[i], coarse.rows[i], 1e-11);
+}
+
+TEST(Recorder, KeepsStatesOnAGridAtInstantsAndWhereSignalsAreExtreme)
+{
+  StateRequest states;
+  states.step          = 0.03;
+  states.at            = {0., 0.1234, 2.};
+  states.extremes      = {{0, true}, {1, false}};
+  const RunResult kept = recorded(0.05, 1, 2., 0., states);
+
+  ASSERT_EQ(kept.states.grid.size(), 67u); // 0, 0.03, ..., 1.98
+  for (std::size_t k = 0; k < kept.states.grid.size(); ++k)
+  {
+    EXPECT_NEAR(kept.states.grid[k].t, 0.03 * double(k), 1e-14);
+    EXPECT_NEAR(kept.states.grid[k].q[0], std::sin(omega * 0.03 * double(k)), 1e-12);
+  }
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(kept.states.at[i].q[0], std::sin(omega * states.at[i]), 1e-12) << states.at[i];
+  EXPECT_EQ(kept.states.extremes[0].t, kept.signals[0].t_max);
+  EXPECT_NEAR(kept.states.extremes[0].q[0], kept.signals[0].max, 1e-12)
+      << "the state belongs to the peak between steps";
+  EXPECT_EQ(kept.states.extremes[1].t, kept.signals[1].t_min);
+  EXPECT_NEAR(kept.states.extremes[1].q[0], std::sin(omega * kept.signals[1].t_min), 1e-12);
+}
+
+TEST(Recorder, LeavesInstantsEmptyThatWereNotReached)
+{
+  StateRequest states;
+  states.at            = {0.5, 3.};
+  const RunResult kept = recorded(0.05, 1, 2., 0., states);
+  EXPECT_EQ(kept.states.at[0].q.size(), 1);
+  EXPECT_EQ(kept.states.at[1].q.size(), 0);
+  EXPECT_TRUE(recorded(0.05, 1, 2.).states.grid.empty());
 }
 
 } // namespace

@@ -44,6 +44,12 @@ ReducedFrame some_frame()
   frame.frequency_error   = VectorXd::Random(5) / 7.;
   frame.static_residual   = 0.1;
   frame.notes             = {"a note", ""};
+  frame.stress.point      = {0, 1, 2, 1};
+  frame.stress.triangles  = {{0, 1, 2}, {0, 3, 2}};
+  frame.stress.rigid      = {"support feet", "interface crown"};
+  frame.stress.beside     = {-1, 0, 1, -1};
+  frame.stress.mean       = Eigen::MatrixXf::Random(24, 8);
+  frame.stress.deviation  = Eigen::MatrixXf::Random(24, 8);
   return frame;
 }
 
@@ -95,6 +101,12 @@ TEST_F(ReducedFrameFile, ComesBackBitByBit)
   EXPECT_EQ(back.points, frame.points);
   EXPECT_EQ(back.triangles, frame.triangles);
   EXPECT_EQ(back.displacement, frame.displacement);
+  EXPECT_EQ(back.stress.point, frame.stress.point);
+  EXPECT_EQ(back.stress.triangles, frame.stress.triangles);
+  EXPECT_EQ(back.stress.rigid, frame.stress.rigid);
+  EXPECT_EQ(back.stress.beside, frame.stress.beside);
+  EXPECT_EQ(back.stress.mean, frame.stress.mean);
+  EXPECT_EQ(back.stress.deviation, frame.stress.deviation);
   EXPECT_EQ(back.n_full, frame.n_full);
   EXPECT_EQ(back.n_cells, frame.n_cells);
   EXPECT_EQ(back.mass, frame.mass);

@@ -1,0 +1,216 @@
+#include "fem/skin_stress.h"
+
+#include "fem/elasticity.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Lame     = std::array<double, 2>;
+using PointKey = std::tuple<int, double, double>; // node of the skin and material
+using Triple   = std::array<int, 3>;
+
+Lame lame(const Material &material)
+{
+  return {material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu)),
+          material.E / (2. * (1. + material.nu))};
+}
+
+/// The triangles of the skin and the cells they belong to.
+std::map<Triple, int> owners(const QuadraticMesh &mesh)
+{
+  const auto sorted = [](Triple corners)
+  {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::vector<char>     on_skin(mesh.n_nodes(), 0);
+  std::map<Triple, int> owner;
+  for (const auto &face : mesh.skin)
+  {
+    owner[sorted({face[0], face[1], face[2]})] = -1;
+    for (int k = 0; k < 3; ++k)
+      on_skin[face[k]] = 1;
+  }
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (int opposite = 0; opposite < 4; ++opposite)
+    {
+      Triple corners{};
+      int    n = 0;
+      for (int k = 0; k < 4; ++k)
+        if (k != opposite && on_skin[mesh.cells[cell][k]])
+          corners[n++] = mesh.cells[cell][k];
+      if (n < 3)
+        continue;
+      if (const auto found = owner.find(sorted(corners)); found != owner.end())
+        found->second = static_cast<int>(cell);
+    }
+  std::map<Triple, int> in_order; // as the skin names its corners
+  for (const auto &face : mesh.skin)
+    in_order[{face[0], face[1], face[2]}] = owner.at(sorted({face[0], face[1], face[2]}));
+  return in_order;
+}
+
+/// Gathers the rows of a StressRecovery cell by cell.
+class Gatherer
+{
+public:
+  Gatherer(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of)
+      : mesh_(mesh), material_of_(material_of), column_of_(mesh.n_nodes(), -1)
+  {
+    place_points();
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      add(static_cast<int>(cell));
+  }
+
+  StressRecovery recovery(const Kinematics &kinematics, const RigidNodes &rigid)
+  {
+    const auto n_points = static_cast<Eigen::Index>(result_.point.size());
+    for (auto &entry : mean_)
+      entry = {entry.row(), entry.col(), entry.value() / volume_[entry.row()]};
+    result_.mean.resize(n_points, 3 * static_cast<Eigen::Index>(nodes_.size()));
+    result_.mean.setFromTriplets(mean_.begin(), mean_.end());
+    result_.of_one.resize(n_points, result_.mean.cols());
+    result_.of_one.setFromTriplets(of_one_.begin(), of_one_.end());
+
+    std::vector<Eigen::Triplet<double>> rows;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      for (int d = 0; d < 3; ++d)
+        for (const auto &[coordinate, weight] : kinematics.row(3 * nodes_[i] + d))
+          rows.emplace_back(3 * i + d, coordinate, weight);
+    result_.u.resize(result_.mean.cols(), kinematics.n_coordinates());
+    result_.u.setFromTriplets(rows.begin(), rows.end());
+    mark(rigid);
+    return std::move(result_);
+  }
+
+private:
+  /// Numbers them in the order of the skin's triangles, as the picture numbers its points.
+  void place_points()
+  {
+    std::vector<int> picture_point(mesh_.n_nodes(), -1);
+    int              n_picture = 0;
+    const auto       owner     = owners(mesh_);
+    for (const auto &face : mesh_.skin)
+    {
+      const int cell = owner.at({face[0], face[1], face[2]});
+      if (cell < 0)
+        throw std::invalid_argument("skin_stress: a triangle of the skin is no face of a tetrahedron");
+      const Lame         moduli = lame(material_of_(cell));
+      std::array<int, 3> triangle{};
+      for (int k = 0; k < 3; ++k)
+      {
+        if (picture_point[face[k]] < 0)
+          picture_point[face[k]] = n_picture++;
+        const auto [found, is_new] =
+            point_of_.emplace(PointKey{face[k], moduli[0], moduli[1]}, static_cast<int>(result_.point.size()));
+        triangle[k] = found->second;
+        if (!is_new)
+          continue;
+        result_.point.push_back(picture_point[face[k]]);
+        result_.lame.push_back(moduli);
+        owner_of_.push_back(cell);
+      }
+      result_.triangles.push_back(triangle);
+    }
+    volume_.assign(result_.point.size(), 0.);
+    on_skin_.assign(mesh_.n_nodes(), 0);
+    for (const auto &entry : point_of_)
+      on_skin_[std::get<0>(entry.first)] = 1;
+  }
+
+  void add(int cell)
+  {
+    const auto &nodes = mesh_.cells[cell];
+    if (std::none_of(nodes.begin(), nodes.begin() + 4, [&](int node) { return on_skin_[node]; }))
+      return;
+    Eigen::Matrix3d J;
+    for (int k = 0; k < 3; ++k)
+      for (int d = 0; d < 3; ++d)
+        J(d, k) = mesh_.points[nodes[k + 1]][d] - mesh_.points[nodes[0]][d];
+    const Eigen::Matrix3d inverse = J.inverse();
+    const double          volume  = std::abs(J.determinant()) / 6.;
+    const Lame            moduli  = lame(material_of_(cell));
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const auto point = point_of_.find({nodes[corner], moduli[0], moduli[1]});
+      if (point == point_of_.end())
+        continue;
+      const int  i       = point->second;
+      const auto weights = (reference_integrals().corner_gradients[corner] * inverse).eval(); // [10 x 3] dN_a/dx
+      volume_[i] += volume;
+      for (int a = 0; a < 10; ++a)
+        for (int l = 0; l < 3; ++l)
+          if (weights(a, l) != 0.)
+          {
+            const int column = 3 * column_of(nodes[a]) + l;
+            mean_.emplace_back(i, column, volume * weights(a, l));
+            if (owner_of_[i] == cell)
+              of_one_.emplace_back(i, column, weights(a, l));
+          }
+    }
+  }
+
+  int column_of(int node)
+  {
+    if (column_of_[node] < 0)
+    {
+      column_of_[node] = static_cast<int>(nodes_.size());
+      nodes_.push_back(node);
+    }
+    return column_of_[node];
+  }
+
+  void mark(const RigidNodes &rigid)
+  {
+    result_.beside.assign(result_.point.size(), -1);
+    for (std::size_t r = 0; r < rigid.size(); ++r)
+    {
+      result_.rigid.push_back(rigid[r].first);
+      std::vector<char> held(mesh_.n_nodes(), 0);
+      for (const int node : rigid[r].second)
+        held[node] = 1;
+      for (std::size_t cell = 0; cell < mesh_.cells.size(); ++cell)
+      {
+        const auto &nodes = mesh_.cells[cell];
+        if (std::none_of(nodes.begin(), nodes.end(), [&](int node) { return held[node]; }))
+          continue;
+        const Lame moduli = lame(material_of_(static_cast<int>(cell)));
+        for (int k = 0; k < 4; ++k)
+          if (const auto point = point_of_.find({nodes[k], moduli[0], moduli[1]});
+              point != point_of_.end() && result_.beside[point->second] < 0)
+            result_.beside[point->second] = static_cast<int>(r);
+      }
+    }
+  }
+
+  const QuadraticMesh                        &mesh_;
+  const std::function<const Material &(int)> &material_of_;
+  std::map<PointKey, int>                     point_of_;
+  std::vector<char>                           on_skin_;
+  std::vector<int>                            owner_of_;  // [points] cell of of_one
+  std::vector<int>                            column_of_; // [nodes of the mesh]
+  std::vector<int>                            nodes_;     // near the skin
+  std::vector<double>                         volume_;    // [points] of all cells that are averaged
+  std::vector<Eigen::Triplet<double>>         mean_, of_one_;
+  StressRecovery                              result_;
+};
+
+} // namespace
+
+StressRecovery skin_stress(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of,
+                           const Kinematics &kinematics, const RigidNodes &rigid)
+{
+  return Gatherer(mesh, material_of).recovery(kinematics, rigid);
+}
+
+} // namespace gestell::fem
