@@ -104,6 +104,25 @@ CLI::App *add_modes(CLI::App &program, CommonOptions &options, ModesCommandOptio
   return command;
 }
 
+/// The scene may be left out with --list and --prune.
+CLI::App *add_reduce(CLI::App &program, CommonOptions &options, ReduceCommandOptions &reduce)
+{
+  CLI::App *command = add_command(program, "reduce", "build (or reuse) the reduced frame and report its error estimate",
+                                  "gestell reduce apps/scenes/press.toml --set reduction.modes=40\n"
+                                  "  gestell reduce --explain apps/scenes/press.toml\n"
+                                  "  gestell reduce --prune --older-than '30 d' --list",
+                                  "SCENE", options);
+  command->get_option("SCENE")->required(false);
+  command->add_option("--export", reduce.export_format, "write the reduced matrices, too: matrix-market or petsc");
+  command->add_flag("--list", reduce.list, "the frames in the cache instead");
+  command->add_flag("--explain", reduce.explain, "why the scene's frame is in the cache or not, instead");
+  command->add_flag("--prune", reduce.prune, "remove what cannot be used from the cache, and what these name:");
+  command->add_option("--older-than", reduce.older_than, "frames not used for so long, such as \"30 d\"");
+  command->add_option("--larger-than", reduce.larger_than, "frames of more than, such as \"100 MB\"");
+  command->add_flag("--all", reduce.all, "all frames");
+  return command;
+}
+
 /// The scene may be left out.
 CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityCommandOptions &stability)
 {
@@ -126,20 +145,20 @@ int main(int argc, char **argv)
   program.set_version_flag("--version", std::string("gestell ") + version);
   program.require_subcommand(1);
 
-  CommonOptions       options;
-  MeshCommandOptions  mesh;
-  ModesCommandOptions modes_options;
-  ChartCommandOptions chart_options;
-  CLI::App           *run   = add_command(program, "run", "simulate a scene in time",
-                                          "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
-  CLI::App           *modes = add_modes(program, options, modes_options);
-  CLI::App *reduce = add_command(program, "reduce", "build (or reuse) the reduced frame and report its error estimate",
-                                 "gestell reduce apps/scenes/press.toml --set reduction.modes=40", "SCENE", options);
-  CLI::App *check  = add_command(program, "check", "validate a scene without computing",
-                                 "gestell check apps/scenes/press.toml", "SCENE", options);
-  CLI::App *chart  = add_chart(program, options, chart_options);
-  CLI::App *mesher = add_command(program, "mesh", "mesh a CAD file; report its quality, surfaces and solids",
-                                 "gestell mesh meshes/press_frame.step --size '80 mm'", "CAD", options);
+  CommonOptions        options;
+  MeshCommandOptions   mesh;
+  ModesCommandOptions  modes_options;
+  ReduceCommandOptions reduce_options;
+  ChartCommandOptions  chart_options;
+  CLI::App            *run    = add_command(program, "run", "simulate a scene in time",
+                                            "gestell run apps/scenes/press.toml -o results/press", "SCENE", options);
+  CLI::App            *modes  = add_modes(program, options, modes_options);
+  CLI::App            *reduce = add_reduce(program, options, reduce_options);
+  CLI::App            *check  = add_command(program, "check", "validate a scene without computing",
+                                            "gestell check apps/scenes/press.toml", "SCENE", options);
+  CLI::App            *chart  = add_chart(program, options, chart_options);
+  CLI::App            *mesher = add_command(program, "mesh", "mesh a CAD file; report its quality, surfaces and solids",
+                                            "gestell mesh meshes/press_frame.step --size '80 mm'", "CAD", options);
   mesher->add_option("--size", mesh.size, "element size, such as \"80 mm\"");
   mesher->add_option("--unit", mesh.unit, "length unit of a file without one, such as \"1 mm\"");
   mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(above_zero());
@@ -165,7 +184,7 @@ int main(int argc, char **argv)
     if (modes->parsed())
       return modes_command(options, modes_options);
     if (reduce->parsed())
-      return reduce_command(options);
+      return reduce_command(options, reduce_options);
     if (chart->parsed())
       return chart_command(options, chart_options);
     if (check->parsed())

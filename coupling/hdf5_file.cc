@@ -55,13 +55,24 @@ constexpr hsize_t most_values = hsize_t(1) << 31;
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::string &file, Mode mode) : file_(file)
+Hdf5File::Hdf5File() : file_("HDF5 in memory")
 {
   const QuietErrors quiet;
-  handle_ = mode == Mode::create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                                 : H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const Handle      access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, 1 << 20, false);
+  handle_ = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (handle_ < 0)
-    fail(file, mode == Mode::create ? "cannot be written" : "cannot be opened as HDF5");
+    fail(file_, "cannot be made");
+}
+
+Hdf5File::Hdf5File(const std::string &file) : file_(file)
+{
+  const QuietErrors quiet;
+  const Handle      access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access, false, true);
+  handle_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
+  if (handle_ < 0)
+    fail(file, "cannot be opened as HDF5");
 }
 
 Hdf5File::~Hdf5File()
@@ -71,13 +82,14 @@ Hdf5File::~Hdf5File()
     H5Fclose(handle_);
 }
 
-void Hdf5File::close()
+std::string Hdf5File::image() const
 {
   const QuietErrors quiet;
-  const bool        good = H5Fflush(handle_, H5F_SCOPE_GLOBAL) >= 0 && H5Fclose(handle_) >= 0;
-  handle_                = -1;
-  if (!good)
-    fail(file_, "could not be written completely; is the disk full?");
+  const ssize_t     size = H5Fflush(handle_, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(handle_, nullptr, 0) : -1;
+  std::string       bytes(size > 0 ? std::size_t(size) : 0, '\0');
+  if (size <= 0 || H5Fget_file_image(handle_, bytes.data(), bytes.size()) != size)
+    fail(file_, "cannot be brought together");
+  return bytes;
 }
 
 bool Hdf5File::has(const std::string &name) const
@@ -98,7 +110,7 @@ void Hdf5File::write_array(const std::string &name, const Matrix &A, std::int64_
   H5Pset_obj_track_times(creation, false); // equal input, equal file
   const Handle array(H5Dcreate2(handle_, name.c_str(), type, space, groups, creation, H5P_DEFAULT), H5Dclose);
   if (array < 0 || (A.size() > 0 && H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, A.data()) < 0))
-    fail(file_, "array '" + name + "' could not be written; is the disk full?");
+    fail(file_, "array '" + name + "' could not be written");
 }
 
 template <typename Matrix>

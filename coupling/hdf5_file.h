@@ -10,7 +10,11 @@ namespace gestell::coupling
 {
 
 /**
- * A small HDF5 file of named arrays and texts, open for writing or for reading; names may be paths ("outputs/0/on_q").
+ * A small HDF5 file of named arrays and texts: a new one, in memory until its image() is written somewhere, or one to
+ * be read; names may be paths ("outputs/0/on_q").
+ *
+ * HDF5 itself never writes to a disk: it does not survive one that is full.  Nor does it lock what it reads, which some
+ * network drives do not know; whoever writes a file does so under a name of its own.
  *
  * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names
  * the file and the array.
@@ -18,18 +22,14 @@ namespace gestell::coupling
 class Hdf5File
 {
 public:
-  enum class Mode
-  {
-    create,
-    read
-  };
-  Hdf5File(const std::string &file, Mode mode);
+  Hdf5File();                                 ///< new, in memory
+  explicit Hdf5File(const std::string &file); ///< for reading
   ~Hdf5File();
   Hdf5File(const Hdf5File &)            = delete;
   Hdf5File &operator=(const Hdf5File &) = delete;
 
-  /// Writes everything out; a file that is only destroyed may be incomplete.
-  void close();
+  /// The bytes of a new file.
+  std::string image() const;
 
   bool has(const std::string &name) const;
 

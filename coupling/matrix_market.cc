@@ -56,7 +56,7 @@ public:
     ++number_;
     if (!line_.empty() && line_.back() == '\r')
       line_.pop_back();
-    rest_ = line_.c_str();
+    rest_ = line_.data();
     return true;
   }
 
@@ -64,7 +64,7 @@ public:
   bool next_entry()
   {
     while (next())
-      if (line_.find_first_not_of(" \t") != std::string::npos && line_[0] != '%')
+      if (const auto first = line_.find_first_not_of(" \t"); first != std::string::npos && line_[first] != '%')
         return true;
     return false;
   }
@@ -83,8 +83,13 @@ public:
 
   double real(const char *expected)
   {
-    char        *end;
-    const double value = std::strtod(rest_, &end);
+    char  *end;
+    double value = std::strtod(rest_, &end);
+    if (*end == 'D' || *end == 'd') // an exponent of Fortran, 1.5D+03
+    {
+      *end  = 'e';
+      value = std::strtod(rest_, &end);
+    }
     if (end == rest_ || !std::isfinite(value))
       fail(expected);
     rest_ = end;
@@ -102,7 +107,7 @@ private:
   std::string   name_;
   std::ifstream file_;
   std::string   line_;
-  const char   *rest_   = nullptr;
+  char         *rest_   = nullptr;
   long          number_ = 0;
 };
 
@@ -121,10 +126,12 @@ Header read_header(Reader &reader)
   std::array<std::string, 5> word;
   for (auto &w : word)
     words >> w;
-  for (std::size_t i = 1; i < word.size(); ++i)
-    word[i] = lower_case(word[i]);
-  if (word[0] != "%%MatrixMarket" || word[1] != "matrix" || (word[2] != "coordinate" && word[2] != "array"))
+  for (auto &w : word)
+    w = lower_case(w);
+  if (word[0] != "%%matrixmarket" || word[1] != "matrix" || (word[2] != "coordinate" && word[2] != "array"))
     reader.fail(expected);
+  if (word[3] == "pattern")
+    reader.fail("a pattern says where entries are and holds none; write the matrix itself as real");
   if (word[3] != "real" && word[3] != "integer")
     reader.fail("only real and integer matrices are read, not '" + word[3] + "'");
   if (word[4] != "general" && word[4] != "symmetric")
@@ -202,6 +209,41 @@ Matrix read_matrix_market(const std::string &file)
   return A;
 }
 
+namespace
+{
+
+/// A file with its head line and remark; ends with what it could not write.
+class Output
+{
+public:
+  Output(const std::string &file, const char *kind, const std::string &remark) : name_(file), out_(file)
+  {
+    out_ << "%%MatrixMarket matrix " << kind << '\n';
+    std::istringstream lines(remark);
+    for (std::string line; std::getline(lines, line);)
+      out_ << "% " << line << '\n';
+  }
+  std::ostream &stream() { return out_; }
+  const char   *digits(double value)
+  {
+    std::snprintf(digits_, sizeof digits_, "%.17g", value);
+    return digits_;
+  }
+  void close()
+  {
+    out_.close();
+    if (!out_)
+      throw std::runtime_error(name_ + ": cannot be written; check the folder, its permissions and the space left");
+  }
+
+private:
+  std::string   name_;
+  std::ofstream out_;
+  char          digits_[40];
+};
+
+} // namespace
+
 void write_matrix_market(const std::string &file, const Matrix &A, Symmetry symmetry, const std::string &remark)
 {
   const bool lower = symmetry == Symmetry::symmetric;
@@ -210,23 +252,23 @@ void write_matrix_market(const std::string &file, const Matrix &A, Symmetry symm
     for (Matrix::InnerIterator a(A, j); a; ++a)
       count += !lower || a.row() >= j;
 
-  std::ofstream out(file);
-  out << "%%MatrixMarket matrix coordinate real " << (lower ? "symmetric" : "general") << '\n';
-  std::istringstream lines(remark);
-  for (std::string line; std::getline(lines, line);)
-    out << "% " << line << '\n';
-  out << A.rows() << ' ' << A.cols() << ' ' << count << '\n';
-  char digits[40];
+  Output out(file, lower ? "coordinate real symmetric" : "coordinate real general", remark);
+  out.stream() << A.rows() << ' ' << A.cols() << ' ' << count << '\n';
   for (int j = 0; j < A.outerSize(); ++j)
     for (Matrix::InnerIterator a(A, j); a; ++a)
       if (!lower || a.row() >= j)
-      {
-        std::snprintf(digits, sizeof digits, "%.17g", a.value());
-        out << a.row() + 1 << ' ' << j + 1 << ' ' << digits << '\n';
-      }
+        out.stream() << a.row() + 1 << ' ' << j + 1 << ' ' << out.digits(a.value()) << '\n';
   out.close();
-  if (!out)
-    throw std::runtime_error(file + ": cannot be written; check the folder, its permissions and the space left");
+}
+
+void write_matrix_market(const std::string &file, const Eigen::MatrixXd &A, const std::string &remark)
+{
+  Output out(file, "array real general", remark);
+  out.stream() << A.rows() << ' ' << A.cols() << '\n';
+  for (Eigen::Index j = 0; j < A.cols(); ++j)
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+      out.stream() << out.digits(A(i, j)) << '\n';
+  out.close();
 }
 
 } // namespace gestell::coupling

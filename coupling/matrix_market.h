@@ -9,7 +9,8 @@ namespace gestell::coupling
 
 /**
  * Reads a matrix in the exchange format MatrixMarket: coordinate or array, real or integer, general or symmetric.  A
- * symmetric file holds one triangle; both come back.  Entries named twice are added.
+ * symmetric file holds one triangle; both come back.  Entries named twice are added.  Exponents may be those of Fortran
+ * (D).
  *
  * @throws std::invalid_argument with file and line, the offending text and what was expected.
  */
@@ -25,5 +26,8 @@ enum class Symmetry
 /// @throws std::runtime_error if the file cannot be written.
 void write_matrix_market(const std::string &file, const Eigen::SparseMatrix<double> &A, Symmetry symmetry,
                          const std::string &remark = {});
+
+/// Writes a dense matrix in array form, with all digits.
+void write_matrix_market(const std::string &file, const Eigen::MatrixXd &A, const std::string &remark = {});
 
 } // namespace gestell::coupling

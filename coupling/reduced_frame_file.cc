@@ -2,10 +2,13 @@
 
 #include "coupling/hdf5_file.h"
 #include "coupling/reduced_stress_file.h"
+#include "coupling/sealed_file.h"
 
-#include <cstdlib>
+#include <array>
 #include <filesystem>
+#include <random>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include <unistd.h>
@@ -19,13 +22,10 @@ namespace
 namespace fs = std::filesystem;
 using Eigen::MatrixXd;
 
-constexpr const char *format  = "Gestell reduced frame";
-constexpr int         version = 4;
+template <typename T, typename Archive>
+void each(const std::string &at, T &value, Archive &archive);
 
-MatrixXd number(double x)
-{
-  return MatrixXd::Constant(1, 1, x);
-}
+constexpr const char *title = "Gestell reduced frame 5"; // raise the number with the format
 
 template <typename Matrix, typename Points>
 Matrix columns(const Points &points)
@@ -47,150 +47,188 @@ std::vector<Point> points(const Matrix &A)
   return result;
 }
 
-void write_interface(Hdf5File &file, const std::string &at, const fem::Interface &interface)
+/// Writes values under their names.
+class Writer
 {
-  file.write(at + "name", interface.name);
-  file.write(at + "position", MatrixXd(Eigen::Vector3d(interface.position.data())));
-  file.write(at + "coordinate",
-             Eigen::MatrixXi(Eigen::Map<const Eigen::Matrix<int, 6, 1>>(interface.coordinate.data())));
-  file.write(at + "sign", MatrixXd(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(interface.sign.data())));
-}
+public:
+  explicit Writer(Hdf5File &file) : file_(file) {}
 
-fem::Interface read_interface(const Hdf5File &file, const std::string &at)
-{
-  fem::Interface interface;
-  interface.name        = file.read_text(at + "name");
-  const auto position   = file.read_vector(at + "position");
-  const auto coordinate = file.read_integers(at + "coordinate");
-  const auto sign       = file.read_vector(at + "sign");
-  if (position.size() != 3 || coordinate.size() != 6 || sign.size() != 6)
-    throw std::runtime_error("interface '" + interface.name + "' is incomplete");
-  for (int d = 0; d < 6; ++d)
+  void operator()(const std::string &name, const std::string &text) { file_.write(name, text); }
+  void operator()(const std::string &name, double x) { file_.write(name, MatrixXd(MatrixXd::Constant(1, 1, x))); }
+  void operator()(const std::string &name, int x) { (*this)(name, double(x)); }
+  template <typename Number, int rows, int columns>
+  void operator()(const std::string &name, const Eigen::Matrix<Number, rows, columns> &A)
   {
-    interface.coordinate[d] = coordinate(d);
-    interface.sign[d]       = sign(d);
-    if (d < 3)
-      interface.position[d] = position(d);
+    file_.write(name, Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>(A));
   }
-  return interface;
-}
-
-void write_facts(Hdf5File &file, const fem::FrameFacts &facts)
-{
-  for (std::size_t i = 0; i < facts.parts.size(); ++i)
+  template <typename Number, std::size_t n>
+  void operator()(const std::string &name, const std::array<Number, n> &a)
   {
-    const std::string at = "facts/parts/" + std::to_string(i) + "/";
-    file.write(at + "name", facts.parts[i].name);
-    file.write(at + "material", facts.parts[i].material);
-    file.write(at + "mass", number(facts.parts[i].mass));
+    (*this)(name, Eigen::Matrix<Number, int(n), 1>(a.data()));
   }
-  file.write("facts/mass", number(facts.whole.mass));
-  file.write("facts/centre", MatrixXd(facts.whole.centre));
-  file.write("facts/inertia", MatrixXd(facts.whole.inertia));
-  file.write("facts/rigid_energy", number(facts.rigid_energy));
-  for (std::size_t i = 0; i < facts.free_motions.size(); ++i)
-    file.write("facts/free_motions/" + std::to_string(i), facts.free_motions[i]);
-}
-
-fem::FrameFacts read_facts(const Hdf5File &file)
-{
-  fem::FrameFacts facts;
-  const auto      each = [&](const std::string &group, const auto &read)
+  void operator()(const std::string &name, const std::vector<std::array<double, 3>> &points)
   {
-    for (int i = 0; file.has(group) && file.has(group + "/" + std::to_string(i)); ++i)
-      read(group + "/" + std::to_string(i));
-  };
-  each("facts/parts",
-       [&](const std::string &at)
-       {
-         facts.parts.push_back(
-             {file.read_text(at + "/name"), file.read_text(at + "/material"), file.read_number(at + "/mass")});
-       });
-  each("facts/free_motions", [&](const std::string &at) { facts.free_motions.push_back(file.read_text(at)); });
-  const MatrixXd centre = file.read_matrix("facts/centre"), inertia = file.read_matrix("facts/inertia");
-  if (centre.size() != 3 || inertia.rows() != 3 || inertia.cols() != 3)
-    throw std::runtime_error("the mass properties are incomplete");
-  facts.whole        = {file.read_number("facts/mass"), centre.reshaped(), inertia};
-  facts.rigid_energy = file.read_number("facts/rigid_energy");
-  return facts;
-}
-
-void write_all(Hdf5File &file, const ReducedFrame &frame, const std::string &key)
-{
-  file.write("format", std::string(format));
-  file.write("version", number(version));
-  file.write("key", key);
-  file.write("M", frame.M);
-  file.write("B", frame.B);
-  file.write("C", frame.C);
-  file.write("n_interface", number(frame.n_interface));
-  file.write("omega0", MatrixXd(frame.omega0));
-  file.write("translations_load", frame.translations_load);
-  file.write("total_mass", MatrixXd(frame.total_mass));
-  file.write("n_full", number(frame.n_full));
-  file.write("n_cells", number(frame.n_cells));
-  file.write("mass", number(frame.mass));
-  file.write("frequencies_hz", MatrixXd(frame.frequencies_hz));
-  file.write("frequency_limit_hz", number(frame.frequency_limit_hz));
-  file.write("frequency_error", MatrixXd(frame.frequency_error));
-  file.write("outputs_under_acceleration", frame.outputs_under_acceleration);
-  file.write("static_residual", number(frame.static_residual));
-  file.write("points", columns<MatrixXd>(frame.points));
-  file.write("triangles", columns<Eigen::MatrixXi>(frame.triangles));
-  file.write("displacement", frame.displacement);
-  for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
-    write_interface(file, "interfaces/" + std::to_string(i) + "/", frame.interfaces[i]);
-  for (std::size_t i = 0; i < frame.outputs.size(); ++i)
-  {
-    const std::string at = "outputs/" + std::to_string(i) + "/";
-    file.write(at + "name", frame.outputs[i].name);
-    file.write(at + "unit", frame.outputs[i].unit);
-    file.write(at + "on_q", MatrixXd(frame.outputs[i].on_q));
-    file.write(at + "on_v", MatrixXd(frame.outputs[i].on_v));
+    file_.write(name, columns<MatrixXd>(points));
   }
-  write_facts(file, frame.facts);
-  for (std::size_t i = 0; i < frame.notes.size(); ++i)
-    file.write("notes/" + std::to_string(i), frame.notes[i]);
-  write_stress(file, frame.stress);
+  void operator()(const std::string &name, const std::vector<std::array<int, 3>> &triangles)
+  {
+    file_.write(name, columns<Eigen::MatrixXi>(triangles));
+  }
+  template <typename T>
+  void operator()(const std::string &name, const std::vector<T> &list)
+  {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      each(name + "/" + std::to_string(i), list[i], *this);
+  }
+
+private:
+  Hdf5File &file_;
+};
+
+/// Reads them back.
+class Reader
+{
+public:
+  explicit Reader(const Hdf5File &file) : file_(file) {}
+
+  void operator()(const std::string &name, std::string &text) { text = file_.read_text(name); }
+  void operator()(const std::string &name, double &x) { x = file_.read_number(name); }
+  void operator()(const std::string &name, int &x) { x = int(file_.read_number(name)); }
+  void operator()(const std::string &name, Eigen::MatrixXf &A) { A = file_.read_floats(name); }
+  template <int rows, int columns>
+  void operator()(const std::string &name, Eigen::Matrix<double, rows, columns> &A)
+  {
+    A = sized<rows, columns>(name, file_.read_matrix(name));
+  }
+  template <std::size_t n>
+  void operator()(const std::string &name, std::array<double, n> &a)
+  {
+    Eigen::Map<Eigen::Matrix<double, int(n), 1>>(a.data()) = sized<int(n), 1>(name, file_.read_matrix(name));
+  }
+  template <std::size_t n>
+  void operator()(const std::string &name, std::array<int, n> &a)
+  {
+    Eigen::Map<Eigen::Matrix<int, int(n), 1>>(a.data()) = sized<int(n), 1>(name, file_.read_integers(name));
+  }
+  void operator()(const std::string &name, std::vector<std::array<double, 3>> &list)
+  {
+    list = points<std::array<double, 3>>(file_.read_matrix(name));
+  }
+  void operator()(const std::string &name, std::vector<std::array<int, 3>> &list)
+  {
+    list = points<std::array<int, 3>>(file_.read_integers(name));
+  }
+  template <typename T>
+  void operator()(const std::string &name, std::vector<T> &list)
+  {
+    const auto at = [&] { return name + "/" + std::to_string(list.size()); };
+    for (bool some = file_.has(name); some && file_.has(at());)
+    {
+      T value;
+      each(at(), value, *this);
+      list.push_back(std::move(value));
+    }
+  }
+
+private:
+  template <int rows, int columns, typename Matrix>
+  static Matrix sized(const std::string &name, const Matrix &A)
+  {
+    if ((rows != Eigen::Dynamic && A.rows() != rows) || (columns != Eigen::Dynamic && A.cols() != columns))
+      throw std::runtime_error("'" + name + "' has a wrong size");
+    return A;
+  }
+
+  const Hdf5File &file_;
+};
+
+// Each value is taken apart by a structured binding that names all its members: one that is added later does not
+// compile until it is stored, too.
+
+template <typename Archive, typename Interface>
+void each_interface(const std::string &at, Interface &interface, Archive &archive)
+{
+  auto &[name, position, coordinate, sign] = interface;
+  archive(at + "/name", name);
+  archive(at + "/position", position);
+  archive(at + "/coordinate", coordinate);
+  archive(at + "/sign", sign);
 }
 
-ReducedFrame read_all(const Hdf5File &file)
+template <typename Archive, typename Output>
+void each_output(const std::string &at, Output &output, Archive &archive)
 {
-  ReducedFrame frame;
-  frame.M                 = file.read_matrix("M");
-  frame.B                 = file.read_matrix("B");
-  frame.C                 = file.read_matrix("C");
-  frame.n_interface       = int(file.read_number("n_interface"));
-  frame.omega0            = file.read_vector("omega0");
-  frame.translations_load = file.read_matrix("translations_load");
-  const MatrixXd mass     = file.read_matrix("total_mass");
-  if (mass.rows() != 3 || mass.cols() != 3)
-    throw std::runtime_error("'total_mass' must be 3 x 3");
-  frame.total_mass                 = mass;
-  frame.n_full                     = int(file.read_number("n_full"));
-  frame.n_cells                    = int(file.read_number("n_cells"));
-  frame.mass                       = file.read_number("mass");
-  frame.frequencies_hz             = file.read_vector("frequencies_hz");
-  frame.frequency_limit_hz         = file.read_number("frequency_limit_hz");
-  frame.frequency_error            = file.read_vector("frequency_error");
-  frame.outputs_under_acceleration = file.read_matrix("outputs_under_acceleration");
-  frame.static_residual            = file.read_number("static_residual");
-  frame.points                     = points<std::array<double, 3>>(file.read_matrix("points"));
-  frame.triangles                  = points<std::array<int, 3>>(file.read_integers("triangles"));
-  frame.displacement               = file.read_floats("displacement");
-  for (int i = 0; file.has("interfaces") && file.has("interfaces/" + std::to_string(i)); ++i)
-    frame.interfaces.push_back(read_interface(file, "interfaces/" + std::to_string(i) + "/"));
-  for (int i = 0; file.has("outputs") && file.has("outputs/" + std::to_string(i)); ++i)
-  {
-    const std::string at = "outputs/" + std::to_string(i) + "/";
-    frame.outputs.push_back({file.read_text(at + "name"), file.read_text(at + "unit"), file.read_vector(at + "on_q"),
-                             file.read_vector(at + "on_v")});
-  }
-  frame.facts = read_facts(file);
-  for (int i = 0; file.has("notes") && file.has("notes/" + std::to_string(i)); ++i)
-    frame.notes.push_back(file.read_text("notes/" + std::to_string(i)));
-  frame.stress = read_stress(file, int(frame.points.size()), int(frame.M.rows()));
-  return frame;
+  auto &[name, unit, on_q, on_v] = output;
+  archive(at + "/name", name);
+  archive(at + "/unit", unit);
+  archive(at + "/on_q", on_q);
+  archive(at + "/on_v", on_v);
+}
+
+template <typename Archive, typename Part>
+void each_part_of_facts(const std::string &at, Part &part, Archive &archive)
+{
+  auto &[name, material, mass] = part;
+  archive(at + "/name", name);
+  archive(at + "/material", material);
+  archive(at + "/mass", mass);
+}
+
+template <typename Archive, typename Facts>
+void each_fact(const std::string &at, Facts &facts, Archive &archive)
+{
+  auto &[parts, whole, rigid_energy, free_motions] = facts;
+  auto &[mass, centre, inertia]                    = whole;
+  archive(at + "/parts", parts);
+  archive(at + "/mass", mass);
+  archive(at + "/centre", centre);
+  archive(at + "/inertia", inertia);
+  archive(at + "/rigid_energy", rigid_energy);
+  archive(at + "/free_motions", free_motions);
+}
+
+template <typename T, typename Archive>
+void each(const std::string &at, T &value, Archive &archive)
+{
+  using Value = std::remove_const_t<T>;
+  if constexpr (std::is_same_v<Value, fem::Interface>)
+    each_interface(at, value, archive);
+  else if constexpr (std::is_same_v<Value, fem::FrameOutput>)
+    each_output(at, value, archive);
+  else if constexpr (std::is_same_v<Value, fem::FrameFacts::Part>)
+    each_part_of_facts(at, value, archive);
+  else
+    archive(at, value);
+}
+
+template <typename Archive, typename Frame>
+void each_part(Frame &frame, Archive &&archive)
+{
+  auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, total_mass, outputs,
+         outputs_under_acceleration, points, triangles, displacement, stress, n_full, n_cells, mass, facts,
+         frequencies_hz, frequency_limit_hz, frequency_error, static_residual, notes] = frame;
+  archive("M", M);
+  archive("B", B);
+  archive("C", C);
+  archive("n_interface", n_interface); // files hold modal frames only
+  archive("omega0", omega0);
+  archive("interfaces", interfaces);
+  archive("translations_load", translations_load);
+  archive("total_mass", total_mass);
+  archive("outputs", outputs);
+  archive("outputs_under_acceleration", outputs_under_acceleration);
+  archive("points", points);
+  archive("triangles", triangles);
+  archive("displacement", displacement);
+  archive("n_full", n_full);
+  archive("n_cells", n_cells);
+  archive("mass", mass);
+  each_fact("facts", facts, archive);
+  archive("frequencies_hz", frequencies_hz);
+  archive("frequency_limit_hz", frequency_limit_hz);
+  archive("frequency_error", frequency_error);
+  archive("static_residual", static_residual);
+  archive("notes", notes);
 }
 
 /// The parts must fit each other, whatever the file says.
@@ -220,40 +258,38 @@ void require_consistent(const ReducedFrame &frame)
       require(i >= 0 && i < int(frame.points.size()), "a triangle of the picture");
 }
 
-/// Reads and checks; the key is compared if one is given.
-ReducedFrame read_checked(const std::string &name, const std::string *key)
+/// A name beside `file` that no other process uses, here or on another machine.
+std::string name_beside(const std::string &file)
 {
-  const Hdf5File file(name, Hdf5File::Mode::read);
-  if (!file.has("format") || file.read_text("format") != format)
-    throw std::runtime_error(name + ": holds no reduced frame of Gestell");
-  const int found = int(file.read_number("version"));
-  if (found != version)
-    throw std::runtime_error(name + ": has version " + std::to_string(found) + " of the format; this program reads " +
-                             std::to_string(version));
-  if (key && file.read_text("key") != *key)
-    throw std::runtime_error(name + ": was made from something else than its name says");
-  ReducedFrame frame = read_all(file);
-  require_consistent(frame);
-  return frame;
+  std::random_device random;
+  const fs::path     path(file);
+  return (path.parent_path() / (unfinished + std::to_string(getpid()) + "-" + std::to_string(random()))).string();
 }
 
 } // namespace
 
-void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const std::string &key)
+const char *const unfinished = "unfinished-";
+
+void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const FrameOrigin &origin)
 {
   if (!frame.modal)
     throw std::invalid_argument(name + ": a frame in physical coordinates is not reduced; files hold reduced frames");
-  const fs::path  path(name), beside = path.string() + ".part" + std::to_string(getpid());
-  std::error_code error;
+  const fs::path    path(name);
+  const std::string beside = name_beside(name);
+  std::error_code   error;
   if (path.has_parent_path())
     fs::create_directories(path.parent_path(), error);
   if (error)
     throw std::runtime_error(name + ": its folder cannot be made: " + error.message());
   try
   {
-    Hdf5File file(beside.string(), Hdf5File::Mode::create);
-    write_all(file, frame, key);
-    file.close();
+    Hdf5File file;
+    file.write("made_from", text_of(origin.recipe));
+    file.write("scene", origin.scene);
+    file.write("source", origin.source);
+    each_part(frame, Writer(file));
+    write_stress(file, frame.stress);
+    write_sealed(beside, title, file.image());
     fs::rename(beside, path);
   }
   catch (const std::exception &failure)
@@ -263,6 +299,19 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
   }
 }
 
+StoredFrame read_stored_frame(const std::string &name)
+{
+  if (const std::string defect = seal_defect(name, title); !defect.empty())
+    throw std::runtime_error(defect);
+  const Hdf5File file(name);
+  StoredFrame    stored;
+  stored.origin = {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source")};
+  each_part(stored.frame, Reader(file));
+  stored.frame.stress = read_stress(file, int(stored.frame.points.size()), int(stored.frame.M.rows()));
+  require_consistent(stored.frame);
+  return stored;
+}
+
 ReducedFrame read_reduced_frame(const std::string &file)
 {
   std::error_code error;
@@ -270,62 +319,12 @@ ReducedFrame read_reduced_frame(const std::string &file)
     throw std::invalid_argument(file + ": no such file; make it with `gestell reduce`");
   try
   {
-    return read_checked(file, nullptr);
+    return read_stored_frame(file).frame;
   }
   catch (const std::runtime_error &failure)
   {
     throw std::invalid_argument(file + ": not a whole reduced frame (" + failure.what() +
                                 "); make it anew with `gestell reduce`");
-  }
-}
-
-std::string cache_folder()
-{
-  const auto variable = [](const char *name)
-  {
-    const char *value = std::getenv(name);
-    return std::string(value ? value : "");
-  };
-  if (const auto own = variable("GESTELL_CACHE"); !own.empty())
-    return own;
-  if (const auto xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
-    return (fs::path(xdg) / "gestell").string();
-  const auto home = variable("HOME");
-  return (home.empty() ? fs::temp_directory_path() / "gestell" : fs::path(home) / ".cache" / "gestell").string();
-}
-
-std::string cache_file(const std::string &key)
-{
-  return (fs::path(cache_folder()) / (key + ".h5")).string();
-}
-
-std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note)
-{
-  const std::string file = cache_file(key);
-  std::error_code   error;
-  if (!fs::exists(file, error))
-    return {};
-  try
-  {
-    return read_checked(file, &key);
-  }
-  catch (const std::runtime_error &failure)
-  {
-    note += "cache: " + std::string(failure.what()) + "; the frame is reduced anew";
-    return {};
-  }
-}
-
-std::string keep_in_cache(const std::string &key, const ReducedFrame &frame)
-{
-  try
-  {
-    write_reduced_frame(cache_file(key), frame, key);
-    return {};
-  }
-  catch (const std::exception &failure)
-  {
-    return "cache: the reduced frame is not kept for the next run: " + std::string(failure.what());
   }
 }
 

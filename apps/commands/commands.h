@@ -64,6 +64,15 @@ struct ModesCommandOptions
   std::string              band   = "5 %";                ///< how near an order comes to count
 };
 
+/// `gestell reduce`: a scene's frame, or the cache of frames.
+struct ReduceCommandOptions
+{
+  bool        list = false, explain = false, prune = false;
+  bool        all = false;             ///< prune every frame
+  std::string older_than, larger_than; ///< prune frames not used for "30 d", frames above "100 MB"
+  std::string export_format;           ///< "matrix-market" or "petsc"; empty: none
+};
+
 struct StabilityCommandOptions
 {
   std::vector<double> zetas = {0., 0.01, 0.05}; ///< damping ratios of the maps
@@ -74,7 +83,8 @@ struct StabilityCommandOptions
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.
 int run_command(const CommonOptions &options);
 int modes_command(const CommonOptions &options, const ModesCommandOptions &modes);
-int reduce_command(const CommonOptions &options);
+/// options.input may be empty with list and prune.
+int reduce_command(const CommonOptions &options, const ReduceCommandOptions &reduce);
 int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh);
 int check_command(const CommonOptions &options);
 /// options.input may be empty: maps alone.

@@ -3,14 +3,14 @@
 #include "apps/scene/carried_bodies.h"
 #include "apps/scene/damping_text.h"
 #include "apps/version.h"
-#include "coupling/content_key.h"
+#include "coupling/frame_cache.h"
 #include "coupling/frame_service_loader.h"
 #include "coupling/modes.h"
-#include "coupling/reduced_frame_file.h"
 #include "coupling/static_expansion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace gestell::apps
 {
@@ -34,29 +34,32 @@ fem::FrameMatrices frame_matrices(const Scene &scene, ProgressLine &progress)
 }
 } // namespace
 
+coupling::FrameOrigin frame_origin(const Scene &scene)
+{
+  const bool                        geometry = scene.frame.source == FrameSource::geometry;
+  const coupling::ReductionOptions &options  = scene.reduction.options;
+  coupling::FrameOrigin             origin;
+  origin.recipe = geometry ? coupling::recipe_of(scene.frame.geometry, options)
+                           : coupling::recipe_of(scene.frame.matrices, options);
+  origin.scene  = std::filesystem::absolute(scene.file).lexically_normal().string();
+  origin.source = geometry ? scene.frame.geometry.cad : "matrices";
+  return origin;
+}
+
 coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache)
 {
-  from_cache                                = false;
-  const coupling::ReductionOptions &options = scene.reduction.options;
-  // Frames given by matrices are reduced in less time than their content is compared.
-  const bool        cached = scene.frame.source == FrameSource::geometry;
-  const std::string key    = cached ? coupling::content_key(scene.frame.geometry, options) : std::string();
-  std::string       note;
-  if (cached)
-    if (auto known = coupling::find_in_cache(key, note))
-    {
-      from_cache = true;
-      return std::move(*known);
-    }
+  const coupling::FrameOrigin origin = frame_origin(scene);
+  std::string                 note;
+  auto                        known = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
+  from_cache                        = known.has_value();
+  if (known)
+    return std::move(*known);
   coupling::ReducedFrame frame =
-      coupling::frame_service().reduce(frame_matrices(scene, progress), options, progress_of(progress));
-  if (cached)
-  {
-    const std::string kept = coupling::keep_in_cache(key, frame);
-    for (const std::string &text : {note, kept})
-      if (!text.empty())
-        frame.notes.push_back(text);
-  }
+      coupling::frame_service().reduce(frame_matrices(scene, progress), scene.reduction.options, progress_of(progress));
+  const std::string kept = coupling::keep_in_cache(frame, origin);
+  for (const std::string &text : {note, kept})
+    if (!text.empty())
+      frame.notes.push_back(text);
   return frame;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/commands/progress.h"
 #include "apps/output/result.h"
 #include "apps/scene/build_machine.h"
+#include "coupling/reduced_frame_file.h"
 
 #include <optional>
 
@@ -30,6 +31,9 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress);
 
 /// Its initial state, that of an unreduced frame expanded from the companion's.
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared);
+
+/// What the reduced frame of such a scene is made from.
+coupling::FrameOrigin frame_origin(const Scene &scene);
 
 /// The reduced frame of a scene with geometry or large matrices; from_cache tells whether it was there already.
 coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache);

@@ -1,37 +1,77 @@
+#include "apps/commands/cache_commands.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/export_frame.h"
 #include "apps/commands/prepared_machine.h"
+#include "apps/commands/results_path.h"
 #include "apps/output/frame_lines.h"
 #include "apps/output/result_folder.h"
 #include "apps/scene/damping_text.h"
-#include "coupling/reduced_frame_file.h"
+#include "apps/version.h"
+#include "coupling/frame_cache.h"
 
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 
 namespace gestell::apps
 {
 
-int reduce_command(const CommonOptions &options)
+namespace
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+
+Scene scene_to_reduce(const CommonOptions &options)
+{
+  if (options.input.empty())
+    throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
+  Scene scene = read_scene(options.input, options.overrides);
   check_scene(scene);
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
                                              "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
-  if (!options.folder.empty())
-    require_writable(options.folder);
+  return scene;
+}
+
+} // namespace
+
+int reduce_command(const CommonOptions &options, const ReduceCommandOptions &reduce)
+{
+  if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
+    throw std::invalid_argument(
+        "gestell reduce: --all, --older-than and --larger-than say what --prune removes; add it");
+  if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
+    throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
+                                options.input);
+  if (reduce.prune)
+    prune_cache(reduce);
+  if (reduce.list)
+    list_cache();
+  if (reduce.explain)
+    explain_cache(scene_to_reduce(options));
+  if (reduce.prune || reduce.list || reduce.explain)
+    return exit_done;
+
+  const Scene       scene   = scene_to_reduce(options);
+  const bool        exports = !reduce.export_format.empty();
+  const auto        format  = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string folder  = exports ? results_path(options, scene).string() : options.folder;
+  if (!folder.empty())
+    require_writable(folder);
   ProgressLine                 progress(options.quiet);
   bool                         from_cache = false;
   const coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
   progress.done();
 
-  if (!options.folder.empty())
+  if (!folder.empty())
   {
-    const std::filesystem::path file = std::filesystem::path(options.folder) / "reduced_frame.h5";
-    std::filesystem::create_directories(options.folder);
+    const std::filesystem::path file = std::filesystem::path(folder) / "reduced_frame.h5";
+    std::filesystem::create_directories(folder);
     coupling::write_reduced_frame(file.string(), frame);
     std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
   }
+  if (exports)
+    for (const std::string &file : export_frame(
+             folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
+      std::cout << "written: " << file << '\n';
   std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
             << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
             << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual

@@ -1,7 +1,9 @@
+#include "apps/scene/matrix_units.h"
 #include "apps/scene/names.h"
 #include "apps/scene/read_damping.h"
 #include "apps/scene/read_frame.h"
-#include "coupling/matrix_market.h"
+#include "apps/scene/read_node_table.h"
+#include "coupling/matrix_file.h"
 #include "coupling/nearest_name.h"
 
 #include <Eigen/SparseCholesky>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -36,7 +39,7 @@ std::string shape(Eigen::Index rows, Eigen::Index columns)
   return std::to_string(rows) + " x " + std::to_string(columns);
 }
 
-/// Inline rows, or a MatrixMarket file.
+/// Inline rows, or a file.
 Sparse read_any(const SceneTable &frame, const std::string &key, const Kind &kind)
 {
   if (!frame.is_text(key))
@@ -44,7 +47,7 @@ Sparse read_any(const SceneTable &frame, const std::string &key, const Kind &kin
   const std::string path = frame.file(key);
   try
   {
-    return coupling::read_matrix_market(path);
+    return coupling::read_matrix_file(path);
   }
   catch (const std::invalid_argument &e)
   {
@@ -52,9 +55,27 @@ Sparse read_any(const SceneTable &frame, const std::string &key, const Kind &kin
   }
 }
 
+std::string number_text(double x)
+{
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+bool has_one_triangle_only(const Sparse &A)
+{
+  bool below = false, above = false;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Sparse::InnerIterator a(A, j); a; ++a)
+      if (a.value() != 0. && a.row() != j)
+        (a.row() > j ? below : above) = true;
+  return below != above;
+}
+
 void check_symmetry(const SceneTable &frame, const std::string &key, const Sparse &A)
 {
   double size = 0., skew = 0.;
+  int    row = 0, column = 0;
   for (int j = 0; j < A.outerSize(); ++j)
     for (Sparse::InnerIterator a(A, j); a; ++a)
     {
@@ -65,10 +86,22 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
   const Sparse difference = A - Sparse(A.transpose());
   for (int j = 0; j < difference.outerSize(); ++j)
     for (Sparse::InnerIterator a(difference, j); a; ++a)
-      skew = std::max(skew, std::abs(a.value()));
-  if (skew > symmetry_tolerance * size)
-    throw frame.error(key, "is not symmetric; across the diagonal entries differ by up to " +
-                               std::to_string(skew / size) + " of the largest one");
+      if (std::abs(a.value()) > skew)
+      {
+        skew   = std::abs(a.value());
+        row    = int(a.row());
+        column = j;
+      }
+  if (skew <= symmetry_tolerance * size)
+    return;
+  if (has_one_triangle_only(A))
+    throw frame.error(key, "holds one triangle of a symmetric matrix only; write both, or a MatrixMarket file with "
+                           "'symmetric' in its head line and the lower triangle");
+  const auto entry = [&](int i, int j) {
+    return "row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) + " is " + number_text(A.coeff(i, j));
+  };
+  throw frame.error(key, "is not symmetric: " + entry(row, column) + ", but " + entry(column, row) +
+                             "; frames with gyroscopic or follower terms cannot be taken, export the symmetric part");
 }
 
 /// Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
@@ -91,11 +124,17 @@ void check_semidefinite(const SceneTable &frame, const std::string &key, const S
                            "energy; check their signs and units");
 }
 
-void check_mass(const SceneTable &frame, const Sparse &M)
+void check_mass(const SceneTable &frame, const Sparse &M, const Sparse &C)
 {
   check_semidefinite(frame, "mass", M);
   if (M.diagonal().maxCoeff() == 0.)
     throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
+  const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    if (mass[i] == 0. && stiffness[i] == 0.)
+      throw frame.error("mass", "row " + std::to_string(i + 1) +
+                                    " has neither mass nor stiffness, so that nothing says how "
+                                    "it moves; remove the row and column from all matrices");
 }
 
 /// n = 0: any size.
@@ -110,9 +149,13 @@ Sparse read_square(const SceneTable &frame, const std::string &key, const Kind &
 }
 
 /// rows = { "-uz" = 1 }: row 1 of q is the displacement against z.
-fem::Interface read_interface(const SceneTable &table, Eigen::Index n, std::map<int, std::string> &owner)
+void add_interface(const SceneTable &table, Eigen::Index n, std::map<int, std::string> &owner,
+                   std::vector<fem::Interface> &interfaces)
 {
   check_thing_name(table);
+  for (const auto &other : interfaces)
+    if (other.name == table.name())
+      throw table.error("is a node of the table of nodes already; rename one of them");
   fem::Interface interface;
   interface.name     = table.name();
   interface.position = table.vector("position", kind::length, {});
@@ -138,11 +181,47 @@ fem::Interface read_interface(const SceneTable &table, Eigen::Index n, std::map<
   }
   if (rows.keys().empty())
     throw rows.error("needs at least one row such as { uz = 1 }");
-  return interface;
+  interfaces.push_back(std::move(interface));
+}
+
+/// Nodes that have a name in the table of nodes are interfaces.
+std::vector<fem::Interface> named_nodes(const SceneTable &frame, const std::vector<TableNode> &nodes,
+                                        std::map<int, std::string> &owner)
+{
+  std::map<std::string, std::string> place_of;
+  std::vector<fem::Interface>        interfaces;
+  for (const TableNode &node : nodes)
+  {
+    const fem::Interface &motions = node.motions;
+    if (motions.name.empty())
+      continue;
+    const auto refused = [&](const std::string &what)
+    { return frame.error("nodes", node.place + "node '" + motions.name + "' " + what); };
+    if (const auto [first, is_new] = place_of.emplace(motions.name, node.place); !is_new)
+      throw refused("is there already: " + first->second);
+    for (int motion = 0; motion < 6; ++motion)
+      if (const int row = motions.coordinate[motion] + 1; row > 0)
+        if (const auto [first, is_new] = owner.emplace(row, motions.name + "." + motion_names[motion]); !is_new)
+          throw refused("has row " + std::to_string(row) + ", which is " + first->second + " already");
+    if (*std::max_element(motions.coordinate.begin(), motions.coordinate.end()) < 0)
+      throw refused("has no row; a node with a name is an interface and needs one at least");
+    interfaces.push_back(motions);
+  }
+  return interfaces;
+}
+
+/// Those of x, y, z that a support has tables of.
+std::vector<std::string> directions_of(const SceneTable &support)
+{
+  std::vector<std::string> directions;
+  for (const std::string direction : {"x", "y", "z"})
+    if (support.has(direction))
+      directions.push_back(direction);
+  return directions;
 }
 
 /// A force read off the frame: stiffness_row . q + damping_row . q'.
-fem::FrameOutput read_output(const SceneTable &table, const std::string &group, Eigen::Index n)
+fem::FrameOutput read_output(const SceneTable &table, const std::string &before, Eigen::Index n)
 {
   check_thing_name(table);
   const auto row = [&](const std::string &key, const Kind &kind)
@@ -154,16 +233,16 @@ fem::FrameOutput read_output(const SceneTable &table, const std::string &group, 
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), n));
   };
   fem::FrameOutput output;
-  output.name = group + "." + table.name();
+  output.name = before + table.name();
   output.unit = "N";
   output.on_q = row("stiffness_row", kind::stiffness_entry);
   output.on_v = table.has("damping_row") ? row("damping_row", kind::damping_entry) : Eigen::VectorXd::Zero(n);
   return output;
 }
 
-/// q of a unit translation in x, y, z: given, or read off the interfaces if every row belongs to one.
+/// q of a unit translation in x, y, z: given, or read off the nodes and interfaces if every row belongs to one.
 Eigen::MatrixXd read_translations(const SceneTable &frame, const fem::FrameMatrices &matrices,
-                                  std::size_t n_interface_rows, bool &known)
+                                  const std::vector<TableNode> &nodes, bool &known)
 {
   const Eigen::Index n = matrices.M.rows();
   known                = true;
@@ -174,12 +253,23 @@ Eigen::MatrixXd read_translations(const SceneTable &frame, const fem::FrameMatri
       throw frame.error("translations", "is " + shape(R.rows(), R.cols()) + ", but must be " + shape(n, 3));
     return R;
   }
-  known             = static_cast<Eigen::Index>(n_interface_rows) == n;
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(n, 3);
+  std::vector<bool> known_row(n, false);
+  Eigen::MatrixXd   R    = Eigen::MatrixXd::Zero(n, 3);
+  const auto        read = [&](const fem::Interface &motions)
+  {
+    for (int motion = 0; motion < 6; ++motion)
+      if (const int row = motions.coordinate[motion]; row >= 0)
+      {
+        known_row[row] = true;
+        if (motion < 3)
+          R(row, motion) = motions.sign[motion];
+      }
+  };
   for (const auto &interface : matrices.interfaces)
-    for (int d = 0; d < 3; ++d)
-      if (interface.coordinate[d] >= 0)
-        R(interface.coordinate[d], d) = interface.sign[d];
+    read(interface);
+  for (const auto &node : nodes)
+    read(node.motions);
+  known = std::find(known_row.begin(), known_row.end(), false) == known_row.end();
   return R;
 }
 
@@ -204,20 +294,31 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
     matrices.B = read_square(frame, "damping", kind::damping_entry, n);
     check_semidefinite(frame, "damping", matrices.B);
   }
-  check_mass(frame, matrices.M);
+  check_mass(frame, matrices.M, matrices.C);
 
   std::map<int, std::string> owner;
+  const auto                 nodes = read_node_table(frame, n);
+  matrices.interfaces              = named_nodes(frame, nodes, owner);
   for (const auto &table : frame.tables("interface"))
-    matrices.interfaces.push_back(read_interface(table, n, owner));
+    add_interface(table, n, owner, matrices.interfaces);
   if (matrices.interfaces.empty())
-    throw frame.error("has no interface; declare at least one [frame.interface.NAME] with rows = { uz = 1 }");
-  for (const std::string group : {"cut", "support"})
-    for (const auto &table : frame.tables(group))
-      matrices.outputs.push_back(read_output(table, group, n));
+    throw frame.error("has no interface; declare at least one [frame.interface.NAME] with rows = { uz = 1 }, or name a "
+                      "node in the table of nodes");
+  matrices.picture = read_node_picture(frame, nodes, n);
+  for (const auto &table : frame.tables("cut"))
+    matrices.outputs.push_back(read_output(table, "cut.", n));
+  for (const auto &table : frame.tables("support"))
+    if (const auto directions = directions_of(table); directions.empty())
+      matrices.outputs.push_back(read_output(table, "support.", n));
+    else
+      for (const auto &direction : directions)
+        matrices.outputs.push_back(read_output(table.table(direction), "support." + table.name() + ".", n));
 
-  matrices.translations      = read_translations(frame, matrices, owner.size(), has_translations);
+  matrices.translations      = read_translations(frame, matrices, nodes, has_translations);
   const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
   matrices.mass              = mass.diagonal().maxCoeff();
+  for (const std::string &suspicion : suspect_units(matrices, has_translations))
+    frame.warn("mass", suspicion);
   return matrices;
 }
 

@@ -64,6 +64,21 @@ TEST_F(MatrixMarket, ArraysRunDownTheColumns)
             (MatrixXd(2, 2) << 1., 2., 2., 4.).finished());
 }
 
+TEST_F(MatrixMarket, TakesExponentsOfFortranIndentedCommentsAndAnyCaseOfTheHead)
+{
+  EXPECT_EQ(read("%%matrixmarket MATRIX Array Integer General\n  % of another program\n2 1\n-3\n4\n"),
+            (MatrixXd(2, 1) << -3., 4.).finished());
+  EXPECT_EQ(read("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 -2.5D-03\n"),
+            (MatrixXd(1, 1) << -2.5e-3).finished());
+}
+
+TEST_F(MatrixMarket, WhatIsWrittenDenseIsReadBitByBit)
+{
+  const MatrixXd A = MatrixXd::Random(3, 2) / 3.;
+  write_matrix_market(file, A, "dense");
+  EXPECT_EQ(MatrixXd(read_matrix_market(file)), A);
+}
+
 TEST_F(MatrixMarket, WhatIsWrittenIsReadBitByBit)
 {
   Eigen::SparseMatrix<double> A(3, 3);
@@ -89,6 +104,9 @@ TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
   says("", "0", "head line");
   says("2 2 1\n1 1 1\n", "1", "head line");
   says("%%MatrixMarket matrix coordinate complex general\n", "1", "not 'complex'");
+  says("%%MatrixMarket matrix coordinate pattern symmetric\n", "1", "write the matrix itself");
+  says("%%MatrixMarket matrix coordinate real hermitian\n", "1", "not 'hermitian'");
+  says(head + "1 1 1\n1 1 1e999\n", "3", "row column value");
   says("%%MatrixMarket matrix coordinate real skew-symmetric\n", "1", "not 'skew-symmetric'");
   says(head + "2 2\n", "2", "rows columns entries");
   says(head, "1", "rows columns entries");

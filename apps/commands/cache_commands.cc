@@ -1,0 +1,174 @@
+#include "apps/commands/cache_commands.h"
+
+#include "apps/commands/prepared_machine.h"
+#include "coupling/frame_cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+using coupling::CacheEntry;
+
+/// "12.4 MB"
+std::string size_text(double bytes)
+{
+  const char *const units[] = {"B", "kB", "MB", "GB", "TB"};
+  int               unit    = 0;
+  for (; bytes >= 1000. && unit < 4; ++unit)
+    bytes /= 1000.;
+  char text[40];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", bytes, units[unit]);
+  return text;
+}
+
+std::string date_text(std::time_t time)
+{
+  char text[40];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", std::localtime(&time));
+  return text;
+}
+
+std::string short_key(const std::string &key)
+{
+  return key.substr(0, 12);
+}
+
+std::string count_text(std::size_t n, const std::string &thing)
+{
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+/// A number with one of these units: "30 d" is 30 * 86400.
+double amount(const std::string &option, const std::string &text, const std::map<std::string, double> &units)
+{
+  char        *end    = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string  unit(end);
+  unit.erase(0, unit.find_first_not_of(' '));
+  const auto found = units.find(unit);
+  if (end == text.c_str() || found == units.end() || !(number >= 0.) || !std::isfinite(number))
+  {
+    std::string valid;
+    for (const auto &[name, value] : units)
+      valid += (valid.empty() ? "" : ", ") + name;
+    throw std::invalid_argument(option + ": got '" + text + "'; it needs a number from zero and one of the units " +
+                                valid);
+  }
+  return number * found->second;
+}
+
+const std::map<std::string, double> times{{"s", 1.}, {"min", 60.}, {"h", 3600.}, {"d", 86400.}, {"w", 7. * 86400.}};
+const std::map<std::string, double> sizes{{"B", 1.}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}};
+
+std::string origin_text(const coupling::FrameOrigin &origin)
+{
+  const auto name = [](const std::string &path) { return std::filesystem::path(path).filename().string(); };
+  return name(origin.source) + " for " + origin.scene;
+}
+
+std::string ingredient_text(const std::string &value)
+{
+  return value.empty() ? "(none)" : value.size() > 48 ? value.substr(0, 12) + "..." : value;
+}
+
+void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe &recipe)
+{
+  const auto nearest = nearest_entry(entries, recipe);
+  if (!nearest)
+  {
+    std::cout << "  the cache holds no other frame\n";
+    return;
+  }
+  const auto different = differences(nearest->origin.recipe, recipe);
+  std::cout << "  nearest: " << short_key(nearest->key) << ", " << origin_text(nearest->origin) << ", last used "
+            << date_text(nearest->last_used) << "; it differs in\n";
+  for (const auto &[name, kept, asked] : different)
+    std::cout << "    " << name << ": kept " << ingredient_text(kept) << ", asked " << ingredient_text(asked) << '\n';
+  if (different.empty())
+    std::cout << "    the order of supports, interfaces or cuts\n";
+}
+
+} // namespace
+
+void list_cache()
+{
+  const auto     entries = coupling::cache_entries();
+  std::uintmax_t bytes   = 0;
+  for (const CacheEntry &entry : entries)
+    bytes += entry.bytes;
+  std::cout << coupling::cache_folder() << ": " << count_text(entries.size(), "file") << ", "
+            << size_text(double(bytes)) << '\n';
+  if (entries.empty())
+    return;
+  std::printf("  %-12s  %-16s  %9s  %-26s  %s\n", "key", "last used", "size", "coordinates", "made from");
+  for (const CacheEntry &entry : entries)
+  {
+    const std::string coordinates = std::to_string(entry.n_full) + " -> " + std::to_string(entry.n_interface) + " + " +
+                                    std::to_string(entry.n_modes) + " modes";
+    const bool good = entry.defect.empty();
+    std::printf("  %-12s  %-16s  %9s  %-26s  %s\n", short_key(entry.key).c_str(), date_text(entry.last_used).c_str(),
+                size_text(double(entry.bytes)).c_str(), good ? coordinates.c_str() : "-",
+                good ? origin_text(entry.origin).c_str() : ("unusable: " + entry.defect).c_str());
+  }
+  std::fflush(stdout);
+}
+
+void explain_cache(const Scene &scene)
+{
+  const auto        recipe  = frame_origin(scene).recipe;
+  const std::string key     = coupling::content_key(recipe);
+  const auto        entries = coupling::cache_entries();
+  const auto        own     = std::find_if(entries.begin(), entries.end(), [&](const auto &e) { return e.key == key; });
+  std::cout << scene.file << ": frame " << short_key(key);
+  if (own == entries.end())
+    std::cout << " is not in the cache " << coupling::cache_folder() << "; it would be made\n";
+  else if (!own->defect.empty())
+    std::cout << " would be made anew: " << own->file << ' ' << own->defect << '\n';
+  else
+  {
+    std::cout << " is in the cache and would be used\n  " << own->file << ", " << size_text(double(own->bytes))
+              << ", last used " << date_text(own->last_used) << "\n  " << own->n_full << " coordinates -> "
+              << own->n_interface << " interface + " << own->n_modes << " modes, " << origin_text(own->origin) << '\n';
+    return;
+  }
+  explain_miss(entries, recipe);
+}
+
+void prune_cache(const ReduceCommandOptions &options)
+{
+  const double oldest  = options.older_than.empty() ? HUGE_VAL : amount("--older-than", options.older_than, times);
+  const double largest = options.larger_than.empty() ? HUGE_VAL : amount("--larger-than", options.larger_than, sizes);
+  const auto   now     = std::time(nullptr);
+  std::size_t  removed = 0;
+  double       bytes   = 0.;
+  for (const CacheEntry &entry : coupling::cache_entries())
+  {
+    const bool goes = options.all || !entry.defect.empty() || std::difftime(now, entry.last_used) > oldest ||
+                      double(entry.bytes) > largest;
+    if (!goes)
+      continue;
+    if (const std::string reason = remove_entry(entry); !reason.empty())
+    {
+      std::cout << reason << '\n';
+      continue;
+    }
+    ++removed;
+    bytes += double(entry.bytes);
+  }
+  std::cout << coupling::cache_folder() << ": removed " << count_text(removed, "file") << ", " << size_text(bytes)
+            << std::endl;
+}
+
+} // namespace gestell::apps

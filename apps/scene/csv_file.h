@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A table of text: lines of cells, the first of them the head.  Cells are separated by commas or, if the head has more
+/// of them, by semicolons; they may stand in double quotes.  Empty lines and lines that begin with # do not count.
+struct CsvFile
+{
+  struct Line
+  {
+    int                      number; ///< in the file, from 1
+    std::vector<std::string> cells;  ///< as many as the head has
+  };
+  std::string              name;
+  int                      head_number = 1;
+  std::vector<std::string> head;
+  std::vector<Line>        lines;
+
+  std::string place(int line) const { return name + ":" + std::to_string(line) + ": "; }
+  /// A finite number.
+  /// @throws std::invalid_argument with file, line and column.
+  double number(const Line &line, std::size_t column) const;
+  /// A whole number; an empty cell is 0.
+  int integer(const Line &line, std::size_t column) const;
+};
+
+/// @throws std::invalid_argument if the file cannot be read, has no head or a line of another number of cells.
+CsvFile read_csv(const std::string &file);
+
+} // namespace gestell::apps

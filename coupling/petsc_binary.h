@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * Reads a matrix in the binary format of PETSc (MatView on a binary viewer, also PetscBinaryIO of Python and MATLAB),
+ * sparse or dense, without PETSc.  All is big-endian:
+ *
+ *     1211216, rows, columns, entries | entries of each row | column of each entry from 0 | value of each entry
+ *
+ * with integers of 4 bytes, or of 8 where PETSc was built with 64-bit indices, and doubles.  entries = -1 stands for a
+ * dense matrix, its values row by row.
+ *
+ * @throws std::invalid_argument with the file, the place in it, what was found and what is needed.
+ */
+Eigen::SparseMatrix<double> read_petsc_matrix(const std::string &file);
+
+/// Writes a sparse matrix in that format, integers of 4 bytes; beside it PETSc expects no .info file.
+/// @throws std::runtime_error if the file cannot be written.
+void write_petsc_matrix(const std::string &file, const Eigen::SparseMatrix<double> &A);
+
+/// The same of a dense one.
+void write_petsc_matrix(const std::string &file, const Eigen::MatrixXd &A);
+
+/// Whether the file begins like one of PETSc's objects.
+bool is_petsc_file(const std::string &file);
+
+} // namespace gestell::coupling
