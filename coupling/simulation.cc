@@ -210,6 +210,34 @@ void warn_of_closed_contacts(const Machine &machine, const InitialState &initial
                               "play, or start with rule = \"static\"");
 }
 
+/// Ends a run whose controlled steps have become so short that it would never end.
+class CrawlWatch
+{
+public:
+  explicit CrawlWatch(const RunOptions &options) : options_(options), from_(options.begin) {}
+
+  /// @throws ConvergenceFailure if the rest of the run would need more than `most_steps` at the pace of the last ones.
+  void look(double t)
+  {
+    const double steps = window * (options_.end - t) / std::max(t - from_, 1e-300);
+    if (steps > most_steps)
+    {
+      std::ostringstream text;
+      text << "controlled steps have become too short to reach the end: " << window << " steps from t = " << from_
+           << " s took " << t - from_ << " s, and at this pace the rest would need " << steps
+           << "; take a larger run.tolerance";
+      throw ConvergenceFailure(text.str());
+    }
+    from_ = t;
+  }
+
+  static constexpr long window = 1L << 15;
+
+private:
+  const RunOptions &options_;
+  double            from_;
+};
+
 /// What may lie behind a step that was not solved.
 std::string advice(const Machine &machine, const MethodOptions &method, const Instant &last)
 {
@@ -295,8 +323,9 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   cylinders.begin();
 
   const long   progress_every = machine.size() > 1000 ? 4 : 1024;
-  const double finish         = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
-  std::size_t  n_events       = 0;
+  CrawlWatch   crawl(options);
+  const double finish   = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
+  std::size_t  n_events = 0;
   try
   {
     for (long k = 1; integrator->time() < finish; ++k)
@@ -312,6 +341,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
       }
       if (progress && k % progress_every == 0)
         progress(integrator->time());
+      if (k % CrawlWatch::window == 0 && controlled(method))
+        crawl.look(integrator->time());
     }
   }
   catch (const ConvergenceFailure &failure)
