@@ -99,6 +99,17 @@ CLI::App *add_modes(CLI::App &program, CommonOptions &options, ModesCommandOptio
   add("--speed", modes.speed, "speed whose orders excite, such as \"30 1/min\" (default: at the start)");
   add("--orders", modes.orders, "highest order (default 10)")->check(above_zero());
   add("--band", modes.band, "how near an order comes to be told (default \"5 %\")");
+  CLI::Option *converge =
+      command->add_option("--converge", modes.converge,
+                          "refine the frame's mesh until frequencies and compliances are within this "
+                          "share, such as 0.01; tell error and uncertainty");
+  converge->check(above_zero());
+  command->add_option("--frequencies", modes.frequencies, "lowest elastic ones of the frame to converge (default 4)")
+      ->needs(converge)
+      ->check(above_zero());
+  command->add_option("--max-coordinates", modes.max_coordinates, "of the finest mesh (default 1000000)")
+      ->needs(converge)
+      ->check(above_zero());
   command->add_option("--geometric", modes.geometric, "on (default) or off: geometric stiffness of forces that turn")
       ->check(CLI::IsMember({"on", "off"}));
   return command;

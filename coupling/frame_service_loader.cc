@@ -1,5 +1,7 @@
 #include "coupling/frame_service_loader.h"
 
+#include "coupling/mesh_service.h"
+
 #include <dlfcn.h>
 
 #include <cstdlib>
@@ -32,7 +34,7 @@ fs::path plugin()
       library + ", or run from a reduced frame in the cache");
 }
 
-FrameService *load()
+void *load()
 {
   const fs::path path = plugin();
   setenv("OPENBLAS_NUM_THREADS", "1", 0); // read when the library loads: waiting threads spin
@@ -40,9 +42,23 @@ FrameService *load()
   if (!handle)
     throw std::invalid_argument("frame_service: " + path.string() + " cannot be loaded: " + dlerror() +
                                 "; install the libraries it names");
-  const auto entry = reinterpret_cast<FrameService *(*)()>(dlsym(handle, "gestell_frame_service"));
+  return handle;
+}
+
+/// Loaded on the first call and never unloaded: PETSc and MPI end with the process.
+void *loaded_plugin()
+{
+  static void *const handle = load();
+  return handle;
+}
+
+/// What the function of the plugin returns.
+template <typename Service>
+Service *service(const char *function)
+{
+  const auto entry = reinterpret_cast<Service *(*)()>(dlsym(loaded_plugin(), function));
   if (!entry)
-    throw std::invalid_argument("frame_service: " + path.string() + " is not a plugin of Gestell: " + dlerror() +
+    throw std::invalid_argument("frame_service: " + plugin().string() + " is not a plugin of Gestell: " + dlerror() +
                                 "; rebuild it together with the program");
   return entry();
 }
@@ -51,8 +67,14 @@ FrameService *load()
 
 FrameService &frame_service()
 {
-  static FrameService *const service = load(); // never unloaded: PETSc and MPI end with the process
-  return *service;
+  static FrameService *const loaded = service<FrameService>("gestell_frame_service");
+  return *loaded;
+}
+
+MeshService &mesh_service()
+{
+  static MeshService *const loaded = service<MeshService>("gestell_mesh_service");
+  return *loaded;
 }
 
 } // namespace gestell::coupling

@@ -59,6 +59,15 @@ Solid solid_of(int tag, double unit, bool meshed)
   return solid;
 }
 
+/// A script may mesh by itself ("Mesh 3;"): then it is a mesh, whatever kernel drew it.
+bool has_cells()
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 3);
+  return !types.empty();
+}
+
 void check_kernel(const CadSource &source)
 {
   gmsh::vectorpair of_model, of_opencascade;
@@ -68,7 +77,7 @@ void check_kernel(const CadSource &source)
     throw std::invalid_argument(
         source.place + ": " + source.path +
         " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
-        "it with SetFactory(\"OpenCASCADE\"); or give the mesh made of it as .msh.");
+        "it with SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" to mesh by itself.");
 }
 
 void check_solids(const CadModel &model, const CadSource &source, const GmshSession &session)
@@ -183,6 +192,7 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
 
   session.run([&] { gmsh::open(source.path); }, source.place + ": gmsh cannot read " + source.path + ": ",
               "; it may be damaged: export the model again, and see whether gmsh opens it.");
+  model.meshed = model.meshed || (file == CadFile::geo && has_cells());
   if (!model.meshed)
     check_kernel(source);
 
@@ -209,6 +219,8 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
     throw std::invalid_argument(source.place + ": " + source.path +
                                 " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "
                                 "or give a mesh of tetrahedra as .msh.");
+  if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
+    gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);
   if (!model.meshed) // a mesh is judged by its cells
   {

@@ -1,6 +1,7 @@
 #include "fem/cut_force.h"
 
 #include "fem/elasticity.h"
+#include "fem/reference_cell.h"
 
 #include <algorithm>
 #include <sstream>
@@ -31,13 +32,14 @@ std::vector<double> heights(const CutSpecification &cut, const Eigen::Vector3d &
 {
   const Eigen::Vector3d through(cut.through[0], cut.through[1], cut.through[2]);
   std::vector<double>   result;
-  result.reserve(mesh.cells.size());
-  for (const auto &cell : mesh.cells)
+  result.reserve(mesh.n_cells());
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k)
-      centroid += 0.25 * Eigen::Map<const Eigen::Vector3d>(mesh.points[cell[k]].data());
-    result.push_back(normal.dot(centroid - through));
+    Eigen::Vector3d         centroid = Eigen::Vector3d::Zero();
+    const std::vector<int> &corners  = reference_cell(mesh).corners;
+    for (const int k : corners)
+      centroid += Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[k]].data());
+    result.push_back(normal.dot(centroid / static_cast<double>(corners.size()) - through));
   }
   return result;
 }
@@ -46,10 +48,10 @@ std::vector<double> heights(const CutSpecification &cut, const Eigen::Vector3d &
 std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<double> &height)
 {
   std::vector<char> below(mesh.n_nodes(), 0);
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
     if (height[cell] <= 0.)
-      for (const int node : mesh.cells[cell])
-        below[node] = 1;
+      for (int a = 0; a < mesh.nodes_per_cell(); ++a)
+        below[mesh.nodes(cell)[a]] = 1;
   return below;
 }
 
@@ -74,16 +76,17 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
 
   bool            divides = false;
   Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+  const int       n       = mesh.nodes_per_cell();
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    const auto &nodes = mesh.cells[cell];
-    if (height[cell] <= 0. || std::none_of(nodes.begin(), nodes.end(), [&](int node) { return below[node]; }))
+    const int *nodes = mesh.nodes(cell);
+    if (height[cell] <= 0. || std::none_of(nodes, nodes + n, [&](int node) { return below[node]; }))
       continue;
     divides               = true;
-    const CellStiffness C = cell_stiffness(mesh, static_cast<int>(cell), materials[cell]);
-    for (int a = 0; a < 10; ++a)
+    const CellStiffness C = cell_stiffness(mesh, cell, materials[cell]);
+    for (int a = 0; a < n; ++a)
       if (below[nodes[a]])
-        for (int b = 0; b < 10; ++b)
+        for (int b = 0; b < n; ++b)
           row.segment<3>(3 * nodes[b]) -= C.block<3, 3>(3 * a, 3 * b).transpose() * normal;
   }
   if (!divides)

@@ -4,6 +4,7 @@
 #include "fem/cell_materials.h"
 #include "fem/cut_force.h"
 #include "fem/elasticity.h"
+#include "fem/hexahedral_mesh.h"
 #include "fem/interfaces.h"
 #include "fem/rigid_motions.h"
 #include "fem/skin.h"
@@ -12,6 +13,7 @@
 #include "fem/weighing.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace gestell::fem
 {
@@ -87,8 +89,17 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
 
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
 {
-  const CellMaterials               materials = cell_materials(mesh, specification);
-  const QuadraticMesh               quadratic = quadratic_mesh(mesh);
+  return discretise_with_mesh_error(mesh, specification).matrices;
+}
+
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+{
+  const CellMaterials materials = cell_materials(mesh, specification);
+  if (specification.stress && !mesh.hexahedra.empty())
+    throw std::invalid_argument(specification.place +
+                                ": stresses are told of tetrahedra only, but this mesh has hexahedra; leave out "
+                                "[output.stress], or mesh with tetrahedra.");
+  const QuadraticMesh               quadratic = number_nodes(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   Constraints                       constraints(quadratic.n_nodes());
   const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);
@@ -96,7 +107,7 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
   const Kinematics kinematics(constraints);
 
   FrameMatrices frame;
-  frame.n_cells                      = static_cast<int>(mesh.cells.size());
+  frame.n_cells                      = mesh.n_cells();
   frame.modal_damping_ratio          = specification.modal_damping_ratio;
   frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
   const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
@@ -134,7 +145,7 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
     frame.stress = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
         rigid_nodes(supports, coupled));
-  return frame;
+  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics)};
 }
 
 } // namespace gestell::fem

@@ -3,6 +3,9 @@
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
 #include "fem/mesh.h"
+#include "fem/mesh_error.h"
+
+#include <memory>
 
 namespace gestell::fem
 {
@@ -23,5 +26,13 @@ namespace gestell::fem
  * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
  */
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
+
+/// The same with what estimates the error the mesh leaves in its fields.
+struct Discretisation
+{
+  FrameMatrices                    matrices;
+  std::shared_ptr<const MeshError> mesh_error;
+};
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
 
 } // namespace gestell::fem

@@ -1,5 +1,8 @@
 #include "fem/elasticity.h"
 
+#include "fem/hexahedron.h"
+#include "fem/reference_cell.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -45,7 +48,10 @@ void require_valid(const Material &material)
                 "steel has 7850 kg/m^3");
 }
 
-CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
+namespace
+{
+
+CellStiffness tetrahedron_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
 {
   const Eigen::Matrix3d     J         = jacobian(mesh, mesh.cells[cell]);
   const Eigen::Matrix3d     inverse   = J.inverse();
@@ -54,7 +60,7 @@ CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material
   const ReferenceIntegrals &integrals = reference_integrals();
   const Eigen::Matrix3d     scaled    = std::abs(J.determinant()) * inverse.transpose();
 
-  CellStiffness C;
+  CellStiffness C(30, 30);
   for (int a = 0; a < 10; ++a)
     for (int b = a; b < 10; ++b)
     {
@@ -69,28 +75,89 @@ CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material
   return C;
 }
 
+CellStiffness hexahedron_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
+{
+  const double                lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
+  const double                mu     = material.E / (2. * (1. + material.nu));
+  const hexahedron::Positions X      = positions(mesh, cell);
+  constexpr int               n      = hexahedron::n_nodes;
+
+  CellStiffness C = CellStiffness::Zero(3 * n, 3 * n);
+  for (const auto &point : hexahedron::quadrature(3))
+  {
+    const Eigen::Matrix3d       J      = hexahedron::jacobian(X, point.dN);
+    const hexahedron::Gradients G      = point.dN * J.inverse();
+    const double                volume = point.weight * J.determinant();
+    for (int a = 0; a < n; ++a)
+      for (int b = a; b < n; ++b)
+      {
+        const Eigen::Matrix3d D = volume * G.row(a).transpose() * G.row(b);
+        C.block<3, 3>(3 * a, 3 * b) += lambda * D + mu * D.transpose() + mu * D.trace() * Eigen::Matrix3d::Identity();
+      }
+  }
+  for (int a = 0; a < n; ++a)
+    for (int b = a; b < n; ++b)
+      C.block<3, 3>(3 * b, 3 * a) = C.block<3, 3>(3 * a, 3 * b).transpose().eval();
+  for (int i = 0; i < 3 * n; ++i) // the blocks on the diagonal too, to the last bit
+    for (int j = 0; j < i; ++j)
+      C(i, j) = C(j, i);
+  return C;
+}
+
+CellMass hexahedron_mass(const QuadraticMesh &mesh, int cell, const Material &material)
+{
+  const hexahedron::Positions X = positions(mesh, cell);
+  CellMass                    M = CellMass::Zero(hexahedron::n_nodes, hexahedron::n_nodes);
+  for (const auto &point : hexahedron::quadrature(3))
+  {
+    const double mass = material.rho * point.weight * hexahedron::jacobian(X, point.dN).determinant();
+    M += mass * point.N * point.N.transpose();
+  }
+  return 0.5 * (M + M.transpose());
+}
+
+template <std::size_t n, typename Matrix>
+BlockMatrix assemble(int block_size, const QuadraticMesh &mesh, const std::vector<std::array<int, n>> &cells,
+                     const Matrix &matrix)
+{
+  BlockMatrix result(block_size, mesh.n_nodes(), cells);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    result.add(cells[cell], matrix(static_cast<int>(cell)).data());
+  result.finish();
+  return result;
+}
+
+template <typename Matrix>
+BlockMatrix assemble(int block_size, const QuadraticMesh &mesh, const Matrix &matrix)
+{
+  return mesh.hexahedra.empty() ? assemble(block_size, mesh, mesh.cells, matrix)
+                                : assemble(block_size, mesh, mesh.hexahedra, matrix);
+}
+
+} // namespace
+
+CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
+{
+  return mesh.hexahedra.empty() ? tetrahedron_stiffness(mesh, cell, material)
+                                : hexahedron_stiffness(mesh, cell, material);
+}
+
 CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material)
 {
+  if (!mesh.hexahedra.empty())
+    return hexahedron_mass(mesh, cell, material);
   const double determinant = std::abs(jacobian(mesh, mesh.cells[cell]).determinant());
   return material.rho * determinant * reference_integrals().mass;
 }
 
 BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials)
 {
-  BlockMatrix C(3, mesh.n_nodes(), mesh.cells);
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    C.add(mesh.cells[cell], cell_stiffness(mesh, static_cast<int>(cell), materials[cell]).data());
-  C.finish();
-  return C;
+  return assemble(3, mesh, [&](int cell) { return cell_stiffness(mesh, cell, materials[cell]); });
 }
 
 BlockMatrix assemble_mass(const QuadraticMesh &mesh, const CellMaterials &materials)
 {
-  BlockMatrix M(1, mesh.n_nodes(), mesh.cells);
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    M.add(mesh.cells[cell], cell_mass(mesh, static_cast<int>(cell), materials[cell]).data());
-  M.finish();
-  return M;
+  return assemble(1, mesh, [&](int cell) { return cell_mass(mesh, cell, materials[cell]); });
 }
 
 } // namespace gestell::fem

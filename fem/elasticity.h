@@ -22,15 +22,17 @@ struct ReferenceIntegrals
 /// Made once by the finite elements and quadratures of deal.II, exact for these polynomials (degree 4).
 const ReferenceIntegrals &reference_integrals();
 
-using CellStiffness = Eigen::Matrix<double, 30, 30, Eigen::RowMajor>;
-using CellMass      = Eigen::Matrix<double, 10, 10, Eigen::RowMajor>;
+/// [3 n x 3 n] and [n x n], n = 10 or 27 nodes of a cell.
+using CellStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 81, 81>;
+using CellMass      = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 27, 27>;
 
 /**
- * Stiffness of one straight quadratic tetrahedron of isotropic elastic material,
+ * Stiffness of one cell of isotropic elastic material,
  *
  *     C_(a i)(b j) = int lambda N_a,i N_b,j + mu (N_a,j N_b,i + delta_ij grad N_a . grad N_b) dV     [N/m]
  *
- * with Lame's lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)); exact, since the Jacobian is constant.
+ * with Lame's lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)); exact for straight tetrahedra, whose
+ * Jacobian is constant, and for hexahedra with parallel edges; else by 3 x 3 x 3 points of Gauss.
  */
 CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material);
 

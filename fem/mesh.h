@@ -10,17 +10,23 @@ namespace gestell::fem
 
 using Point3 = std::array<double, 3>; ///< [m]
 
-/// Tetrahedral mesh of a frame, straight edges, SI.  Triangles are ordered so that their normal points outwards.
+/// Mesh of a frame in tetrahedra or in hexahedra, straight edges, SI.  Faces are ordered so that their normal points
+/// outwards.
 struct Mesh
 {
   std::vector<Point3>             points;
-  std::vector<std::array<int, 4>> cells;      ///< positively oriented
+  std::vector<std::array<int, 4>> cells;      ///< tetrahedra, positively oriented
+  std::vector<std::array<int, 8>> hexahedra;  ///< in place of tetrahedra; corners in the order of gmsh
   std::vector<int>                cell_solid; ///< index of the solid a cell belongs to
   std::vector<std::array<int, 3>> skin;       ///< every outer triangle
-  std::vector<std::string>        solids;     ///< names, as in the CAD file where it has them
+  std::vector<std::array<int, 4>>
+                           skin_quads; ///< of hexahedra; quadrilateral i = abcd has triangles 2 i = abc, 2 i + 1 = acd
+  std::vector<std::string> solids;     ///< names, as in the CAD file where it has them
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;
+
+  int n_cells() const { return static_cast<int>(cells.size() + hexahedra.size()); }
 };
 
 } // namespace gestell::fem

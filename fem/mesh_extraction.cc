@@ -1,5 +1,6 @@
 #include "fem/mesh_extraction.h"
 
+#include "fem/hexahedral_extraction.h"
 #include "fem/mesh_quality.h"
 #include "fem/vector3.h"
 
@@ -204,6 +205,8 @@ void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::strin
 
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, Bodies bodies)
 {
+  if (holds_hexahedra(model))
+    return extract_hexahedra(model, head);
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
   Nodes         nodes;

@@ -26,7 +26,7 @@ enum class Bodies
 
 /**
  * Takes the tetrahedra out of gmsh, in metres: cells positively oriented, the skin (faces of one cell only) outward.
- * Of quadratic tetrahedra only the corners are kept.
+ * Of quadratic tetrahedra only the corners are kept.  A mesh of hexahedra is taken by extract_hexahedra().
  *
  * @param head  "<place>: <file>", heads messages
  * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra, more than two cells share a face, or

@@ -166,4 +166,12 @@ void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Sel
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
 }
 
+void set_refined_sizes(SizeField field, double unit)
+{
+  gmsh::model::mesh::setSizeCallback(
+      [field = std::move(field), unit](int, int, double x, double y, double z) {
+        return field({unit * x, unit * y, unit * z}) / unit;
+      });
+}
+
 } // namespace gestell::fem

@@ -2,6 +2,7 @@
 
 #include "fem/cad_model.h"
 #include "fem/frame_specification.h"
+#include "fem/size_field.h"
 
 #include <map>
 #include <string>
@@ -39,5 +40,9 @@ std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, 
  *         (0, size], or more than options.max_cells tetrahedra are to be expected; it says which size would do.
  */
 void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Selection &selection);
+
+/// Tells gmsh the sizes of a refined mesh, which hold where they are smaller than those set before.
+/// @param unit  length of gmsh's unit [m]
+void set_refined_sizes(SizeField field, double unit);
 
 } // namespace gestell::fem

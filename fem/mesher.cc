@@ -2,6 +2,7 @@
 
 #include "fem/gmsh_faces.h"
 #include "fem/gmsh_session.h"
+#include "fem/hexahedral_mesh.h"
 #include "fem/mesh_extraction.h"
 #include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
@@ -64,7 +65,7 @@ void generate(const FrameSpecification &specification, const GmshSession &sessio
 }
 
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
-                   MissingSize missing, const MeshProgress &progress)
+                   MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
   MeshOptions options = specification.mesh;
   if (options.size == 0. && missing == MissingSize::chosen)
@@ -72,9 +73,12 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   result.size      = options.size;
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
+  if (!refined.empty())
+    set_refined_sizes(SizeField(refined, options.size), result.model.unit);
   generate(specification, session, progress);
   result.extracted = extract_mesh(result.model, head_of(specification));
-  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (result.extracted.mesh.hexahedra.empty())
+    improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
 }
 
 /// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
@@ -85,11 +89,12 @@ void measure_solids(CadModel &model, const Mesh &mesh)
     solid.min = model.max;
     solid.max = model.min;
   }
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+  const std::vector<std::array<int, 4>> pieces = tetrahedra_of(mesh);
+  for (std::size_t c = 0; c < pieces.size(); ++c)
   {
-    Solid &solid = model.solids[mesh.cell_solid[c]];
-    solid.volume += six_volumes(mesh, mesh.cells[c]) / 6.;
-    for (const int point : mesh.cells[c])
+    Solid &solid = model.solids[mesh.cell_solid[c * mesh.cell_solid.size() / pieces.size()]];
+    solid.volume += six_volumes(mesh, pieces[c]) / 6.;
+    for (const int point : pieces[c])
       for (int d = 0; d < 3; ++d)
       {
         solid.min[d] = std::min(solid.min[d], mesh.points[point][d]);
@@ -106,9 +111,9 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
                                 specification.cad + " is a mesh already; remove the size, or give the geometry.");
   result.extracted = extract_mesh(result.model, head_of(specification));
   const Mesh &mesh = result.extracted.mesh;
-  if (mesh.cells.size() > options.max_cells)
-    throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.cells.size()) +
-                                " tetrahedra, mesh.max_cells allows " + text(options.max_cells) +
+  if (mesh.n_cells() > options.max_cells)
+    throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
+                                " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
   measure_solids(result.model, mesh);
   result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface);
@@ -131,21 +136,29 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
+template <typename Cell>
+void require_thick(const Mesh &mesh, const Cell &cell, double q, const std::string &head)
+{
+  if (q >= flattest)
+    return;
+  Vector3 centre{};
+  for (const int point : cell)
+    centre = centre + (1. / static_cast<double>(cell.size())) * mesh.points[point];
+  throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
+                              ", needed " + text(flattest) +
+                              "); choose another mesh.size, or a smaller one on the surface there.");
+}
+
 void check_flatness(const Mesh &mesh, const std::string &head)
 {
   for (const auto &cell : mesh.cells)
-    if (quality(mesh, cell) < flattest)
-    {
-      Vector3 centre{};
-      for (const int point : cell)
-        centre = centre + 0.25 * mesh.points[point];
-      throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " +
-                                  text(quality(mesh, cell)) + ", needed " + text(flattest) +
-                                  "); choose another mesh.size, or a smaller one on the surface there.");
-    }
+    require_thick(mesh, cell, quality(mesh, cell), head);
+  for (const auto &cell : mesh.hexahedra)
+    require_thick(mesh, cell, corner_quality(mesh, cell), head);
 }
 
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const MeshProgress &progress)
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const MeshProgress &progress,
+                       const std::vector<SizePoint> &refined = {})
 {
   const GmshSession session;
   MeshedModel       result;
@@ -157,7 +170,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     if (result.model.meshed)
       read_mesh(result, specification);
     else
-      mesh_geometry(result, specification, session, missing, progress);
+      mesh_geometry(result, specification, session, missing, progress, refined);
     check_flatness(result.extracted.mesh, head_of(specification));
     name_surfaces(result, specification);
   };
@@ -167,9 +180,10 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
 
 } // namespace
 
-Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress)
+Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
+               const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, progress).extracted.mesh;
+  return mesh_model(specification, MissingSize::refused, progress, refined).extracted.mesh;
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
@@ -187,16 +201,20 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
     face.samples.clear();
 
   report.n_points      = static_cast<int>(mesh.points.size());
-  report.n_cells       = static_cast<int>(mesh.cells.size());
-  report.n_coordinates = 3 * (report.n_points + number_of_edges(mesh));
+  report.n_cells       = mesh.n_cells();
+  report.n_coordinates = 3 * number_of_nodes(mesh);
   report.worst_quality = 1.;
-  for (const auto &cell : mesh.cells)
+  const auto count     = [&](double q)
   {
-    const double q = quality(mesh, cell);
-    report.volume += six_volumes(mesh, cell) / 6.;
     report.worst_quality = std::min(report.worst_quality, q);
     report.mean_quality += q / report.n_cells;
-  }
+  };
+  for (const auto &cell : mesh.cells)
+    count(quality(mesh, cell));
+  for (const auto &cell : mesh.hexahedra)
+    count(corner_quality(mesh, cell));
+  for (const auto &piece : tetrahedra_of(mesh))
+    report.volume += six_volumes(mesh, piece) / 6.;
   return report;
 }
 

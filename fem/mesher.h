@@ -3,6 +3,7 @@
 #include "fem/cad_model.h"
 #include "fem/frame_specification.h"
 #include "fem/mesh.h"
+#include "fem/size_field.h"
 
 #include <functional>
 #include <map>
@@ -23,9 +24,11 @@ using MeshProgress = std::function<void(const std::string &phase, double share)>
  * surfaces (of the mesh, with their physical groups) by their triangles.  Equal input gives an equal mesh; no file is
  * written; gmsh is left finalised.
  *
+ * @param refined  sizes at points, in place of mesh.size where they are smaller; see refine().
  * @throws std::invalid_argument for bad input, see read_cad, select_faces, set_mesh_sizes, extract_mesh.
  */
-Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress = {});
+Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress = {},
+               const std::vector<SizePoint> &refined = {});
 
 /// What `gestell mesh` tells: all that is needed to write selectors, and how good the mesh is.
 struct GeometryReport

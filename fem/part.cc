@@ -3,6 +3,7 @@
 #include "fem/cad_model.h"
 #include "fem/closed_surface.h"
 #include "fem/gmsh_session.h"
+#include "fem/hexahedral_mesh.h"
 #include "fem/mesh_extraction.h"
 #include "fem/mesh_quality.h"
 #include "fem/vector3.h"
@@ -147,7 +148,7 @@ void measure_geometry(Part &part, VolumeIntegrals &sum, const CadModel &model, c
 void measure_cells(Part &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
   const Mesh mesh = extract_mesh(model, head_of(source), Bodies::any).mesh;
-  for (const auto &[a, b, c, d] : mesh.cells)
+  for (const auto &[a, b, c, d] : tetrahedra_of(mesh))
     sum.add_tetrahedron(vector(mesh.points[a]), vector(mesh.points[b]), vector(mesh.points[c]), vector(mesh.points[d]));
   part.solids = mesh.solids;
   add_skin(part, {mesh.points, mesh.skin});

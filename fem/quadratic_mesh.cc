@@ -38,7 +38,7 @@ double signed_volume(const Mesh &mesh, const std::array<int, 4> &cell)
 void require_sound(const Mesh &mesh)
 {
   if (mesh.cells.empty())
-    throw std::invalid_argument("quadratic_mesh: the mesh has no tetrahedra; a solid volume is needed, not surfaces.");
+    throw std::invalid_argument("quadratic_mesh: the mesh has no cells; a solid volume is needed, not surfaces.");
   for (std::size_t i = 0; i < mesh.cells.size(); ++i)
     if (const double volume = signed_volume(mesh, mesh.cells[i]); !(volume > 0.))
       throw std::invalid_argument("quadratic_mesh: tetrahedron " + std::to_string(i) + " has the volume " +

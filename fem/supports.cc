@@ -141,10 +141,14 @@ void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Suppor
 BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_nodes)
 {
   std::vector<std::array<int, 6>> faces;
+  std::vector<std::array<int, 9>> quads;
   for (const auto &[support, patch] : supports)
     if (support.kind == SupportKind::foundation)
+    {
       faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
-  BlockMatrix B(3, n_nodes, faces);
+      quads.insert(quads.end(), patch.quads.begin(), patch.quads.end());
+    }
+  BlockMatrix B = quads.empty() ? BlockMatrix(3, n_nodes, faces) : BlockMatrix(3, n_nodes, quads);
   add_foundations(supports, &Support::damping, B);
   return B;
 }

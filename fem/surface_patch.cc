@@ -1,6 +1,7 @@
 #include "fem/surface_patch.h"
 
 #include "fem/elasticity.h"
+#include "fem/hexahedron.h"
 #include "fem/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -49,6 +50,21 @@ double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
   return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
 }
 
+/// The quadrilaterals whose halves are given, each once; none in a mesh of tetrahedra.
+std::vector<std::array<int, 9>> quads_of(const QuadraticMesh &mesh, const std::vector<std::array<int, 6>> &halves)
+{
+  std::vector<std::array<int, 9>> quads;
+  if (mesh.skin_quads.empty())
+    return quads;
+  std::set<int> nodes; // the midst of a quadrilateral is the middle of the diagonal of its halves
+  for (const std::array<int, 6> &half : halves)
+    nodes.insert(half.begin() + 3, half.end());
+  for (const std::array<int, 9> &quad : mesh.skin_quads)
+    if (nodes.count(quad[4]) > 0)
+      quads.push_back(quad);
+  return quads;
+}
+
 } // namespace
 
 SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int, 6>> faces)
@@ -57,21 +73,36 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   std::set<int> nodes;
   for (const std::array<int, 6> &face : faces)
     nodes.insert(face.begin(), face.end());
+  patch.quads = quads_of(mesh, faces);
+  for (const std::array<int, 9> &quad : patch.quads)
+    nodes.insert(quad.begin(), quad.end());
   patch.faces = std::move(faces);
   patch.nodes.assign(nodes.begin(), nodes.end());
   const auto local = [&](int node)
   { return static_cast<int>(std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node) - patch.nodes.begin()); };
 
   std::vector<Eigen::Triplet<double>> entries;
+  const auto                          add = [&](const auto &face, const auto &mass)
+  {
+    for (std::size_t a = 0; a < face.size(); ++a)
+      for (std::size_t b = 0; b < face.size(); ++b)
+        entries.emplace_back(local(face[a]), local(face[b]), mass(a, b));
+  };
   for (const std::array<int, 6> &face : patch.faces)
   {
     const double area = triangle_area(mesh, face);
     patch.area += area;
     for (int k = 0; k < 3; ++k)
       patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
-    for (int a = 0; a < 6; ++a)
-      for (int b = 0; b < 6; ++b)
-        entries.emplace_back(local(face[a]), local(face[b]), 2. * area * reference_integrals().triangle_mass(a, b));
+    if (patch.quads.empty())
+      add(face, (2. * area * reference_integrals().triangle_mass).eval());
+  }
+  for (const std::array<int, 9> &quad : patch.quads)
+  {
+    Eigen::Matrix<double, 3, 9> X;
+    for (int a = 0; a < 9; ++a)
+      X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[quad[a]].data());
+    add(quad, hexahedron::face_mass(X));
   }
   patch.centroid /= patch.area;
   patch.S.resize(patch.nodes.size(), patch.nodes.size());

@@ -69,8 +69,8 @@ std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh
   std::vector<FrameFacts::Part> parts;
   for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid)
     parts.push_back({mesh.solids[solid], materials.materials[solid].name});
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    parts[materials.of_cell[cell]].mass += cell_mass(quadratic, static_cast<int>(cell), materials[cell]).sum();
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    parts[materials.of_cell[cell]].mass += cell_mass(quadratic, cell, materials[cell]).sum();
   return parts;
 }
 

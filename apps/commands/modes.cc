@@ -1,5 +1,6 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/modes_along.h"
+#include "apps/commands/modes_converge.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
 #include "apps/output/frame_lines.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
 namespace gestell::apps
 {
@@ -56,8 +58,13 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   const std::filesystem::path folder = results_path(options, scene);
   require_writable(folder);
 
-  ProgressLine    progress(options.quiet);
-  PreparedMachine prepared = prepare_machine(scene, progress);
+  ProgressLine                             progress(options.quiet);
+  std::optional<coupling::MeshConvergence> convergence;
+  if (modes.converge > 0.)
+    convergence = converge_frame(scene, modes, progress);
+  PreparedMachine prepared =
+      convergence ? prepare_machine_on(scene, convergence->frame) : prepare_machine(scene, progress);
+
   progress.show("modes");
   const auto geometric =
       modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
@@ -68,6 +75,9 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
     for (const std::string &warning : along_warnings(*result.along))
       result.warnings.push_back(warning);
   }
+  if (convergence)
+    for (const std::string &warning : convergence_warnings(*convergence, modes.converge))
+      result.warnings.push_back(warning);
   progress.done();
   result.wall_s           = progress.wall_seconds();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
@@ -81,6 +91,11 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
 
   for (const std::string &line : frame_lines(result.model))
     std::cout << "frame: " << line << '\n';
+  if (convergence)
+  {
+    write_convergence(folder, *convergence);
+    print_convergence(*convergence, modes.converge);
+  }
   print_modes("frame as supported, interface free", result.frame_modes);
   print_modes("coupled machine", result.coupled_modes);
   print_poles(result.poles);
@@ -93,7 +108,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
               << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
-  return exit_done;
+  return convergence && !convergence->converged ? exit_failed : exit_done;
 }
 
 } // namespace gestell::apps

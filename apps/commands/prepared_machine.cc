@@ -5,6 +5,7 @@
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
 #include "coupling/frame_service_loader.h"
+#include "coupling/mesh_service.h"
 #include "coupling/modes.h"
 #include "coupling/static_expansion.h"
 
@@ -55,13 +56,25 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress,
   if (known)
     return std::move(*known);
   coupling::ReducedFrame frame =
-      coupling::frame_service().reduce(frame_matrices(scene, progress), scene.reduction.options, progress_of(progress));
+      scene.frame.source == FrameSource::geometry
+          ? coupling::mesh_service().reduce(scene.frame.geometry, scene.reduction.options, progress_of(progress))
+          : coupling::frame_service().reduce(scene.frame.matrices, scene.reduction.options, progress_of(progress));
   const std::string kept = coupling::keep_in_cache(frame, origin);
   for (const std::string &text : {note, kept})
     if (!text.empty())
       frame.notes.push_back(text);
   return frame;
 }
+
+namespace
+{
+void add_warnings(const Scene &scene, PreparedMachine &prepared)
+{
+  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+    prepared.warnings = frame->notes;
+  prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+}
+} // namespace
 
 PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
 {
@@ -93,9 +106,15 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
     break;
   }
   }
-  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
-    prepared.warnings = frame->notes;
-  prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+  add_warnings(scene, prepared);
+  return prepared;
+}
+
+PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame)
+{
+  PreparedMachine prepared;
+  prepared.machine = build_machine(scene, frame);
+  add_warnings(scene, prepared);
   return prepared;
 }
 

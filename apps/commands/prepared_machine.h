@@ -29,6 +29,9 @@ struct PreparedMachine
 /// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
 PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress);
 
+/// The same on a reduced frame that was made before.
+PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
+
 /// Its initial state, that of an unreduced frame expanded from the companion's.
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared);
 

@@ -173,6 +173,12 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
 
 ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress)
 {
+  return craig_bampton_with_basis(frame, options, progress).frame;
+}
+
+Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                                   const Progress &progress)
+{
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
@@ -224,7 +230,7 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   describe(reduced, frame, basis);
   add_stress(reduced.stress, frame.stress, basis.T, static_beyond_modes);
-  return reduced;
+  return {std::move(reduced), std::move(basis)};
 }
 
 void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress)

@@ -31,6 +31,15 @@ namespace gestell::coupling
 ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptions &options,
                            const Progress &progress = {});
 
+/// The same, and T itself.
+struct Reduction
+{
+  ReducedFrame   frame;
+  ReductionBasis basis;
+};
+Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                                   const Progress &progress = {});
+
 /// T itself with exactly n_modes modes, for those who need the internal coordinates back.
 ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes);
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "coupling/reduced_frame.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+struct ConvergenceOptions
+{
+  double tolerance       = 0.01; ///< relative error allowed in every quantity, > 0
+  int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
+  int    max_coordinates = 1000000;
+  int    max_meshes      = 6; ///< >= 2
+};
+
+/// One of the meshes.
+struct MeshLevel
+{
+  double              size          = 0.; ///< [m] of its elements, the largest
+  int                 n_cells       = 0;
+  int                 n_coordinates = 0;
+  double              cpu_s         = 0.; ///< from the CAD model to the reduced frame
+  std::vector<double> values;             ///< of the quantities watched
+  std::vector<double> estimates;          ///< relative error estimated from the stresses of this mesh alone
+};
+
+/// A frequency or a compliance, followed over the meshes.
+struct ConvergedQuantity
+{
+  std::string name;             ///< "frequency 1", "compliance of engine"
+  std::string unit;             ///< "Hz", "m/N"
+  double      limit       = 0.; ///< extrapolated to elements of size zero
+  double      uncertainty = 0.; ///< of the limit, relative
+  double      error       = 0.; ///< of the last mesh's value against the limit, relative
+  double      order       = 0.; ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
+  double      bound() const { return (error < 0. ? -error : error) + uncertainty; }
+};
+
+struct MeshConvergence
+{
+  std::vector<MeshLevel>         levels;
+  std::vector<ConvergedQuantity> quantities;
+  bool                           converged = false; ///< every bound() within the tolerance
+  std::string                    stopped;           ///< why not, if it is not
+  ReducedFrame                   frame;             ///< of the last mesh
+};
+
+} // namespace gestell::coupling

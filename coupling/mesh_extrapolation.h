@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A quantity of one mesh.
+struct MeshValue
+{
+  double coordinates = 0.; ///< n, number of them
+  double value       = 0.;
+  double estimate    = 0.; ///< relative error by an estimator, >= 0; only its fall from mesh to mesh counts
+};
+
+struct Extrapolated
+{
+  double limit       = 0.; ///< value for n -> infinity
+  double uncertainty = 0.; ///< of the limit, relative
+  double order       = 0.; ///< k of  error ~ n^(-k); NaN with fewer than three meshes or where the values tell none
+};
+
+/**
+ * Limit of values v_1, v_2, ... of ever finer meshes (Richardson).
+ *
+ * With the error of each mesh r times that of the one before it,
+ *
+ *     v = v_m - (v_(m-1) - v_m) r / (1 - r).
+ *
+ * r is known in two ways: from the estimator, r = estimate_m / estimate_(m-1), which needs two meshes and holds if it
+ * is wrong by the same factor on both; and from three meshes, by the k that fits error = c n^(-k) to their values,
+ * r = (n_(m-1) / n_m)^k.  Three meshes give the limit by the second way, uncertain by the difference to the first and
+ * by at least a quarter of the last step; two meshes the first way, uncertain by the whole step; one mesh its own
+ * estimate, uncertain by all of it.
+ *
+ * @param meshes  at least one, of growing n; values not zero.
+ * @throws std::invalid_argument if there is none.
+ *
+ * Source: Roache, J. Fluids Eng. 116, 1994, 405-413; docs/theory/mesh_error.md (6-8).
+ */
+Extrapolated extrapolate(const std::vector<MeshValue> &meshes);
+
+} // namespace gestell::coupling

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "coupling/frame_service.h"
+#include "coupling/mesh_convergence.h"
+
+namespace gestell::coupling
+{
+
+/// Frames that come with a statement of the error of their mesh: the other door of the plugin behind FrameService.
+class MeshService
+{
+public:
+  virtual ~MeshService() = default;
+
+  /// Meshes, assembles and reduces; a note of the frame tells the error of its mesh.
+  virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                              const Progress &progress) = 0;
+
+  /// Refines the mesh until frequencies and compliances are within a tolerance, see converge_mesh().
+  virtual MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
+                                   const ConvergenceOptions &options, const Progress &progress) = 0;
+};
+
+/// Loaded as frame_service() is.
+MeshService &mesh_service();
+
+} // namespace gestell::coupling
+
+extern "C" __attribute__((visibility("default"))) gestell::coupling::MeshService *gestell_mesh_service();

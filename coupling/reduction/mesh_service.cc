@@ -1,0 +1,50 @@
+#include "coupling/mesh_service.h"
+
+#include "coupling/reduction/converge_mesh.h"
+#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/mesh_statement.h"
+#include "coupling/reduction/openblas.h"
+#include "fem/discretisation.h"
+#include "fem/mesher.h"
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+class Service final : public MeshService
+{
+public:
+  ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                      const Progress &progress) override
+  {
+    use_one_blas_thread();
+    const fem::Mesh mesh = fem::make_mesh(frame, progress);
+    if (progress)
+      progress("assembly", -1.);
+    const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, frame);
+    Reduction reduced                 = craig_bampton_with_basis(matrices, options, progress);
+    if (progress)
+      progress("mesh error", -1.);
+    reduced.frame.notes.push_back(mesh_statement(reduced, *mesh_error, mesh));
+    return std::move(reduced.frame);
+  }
+
+  MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
+                           const ConvergenceOptions &options, const Progress &progress) override
+  {
+    use_one_blas_thread();
+    return converge_mesh(frame, reduction, options, progress);
+  }
+};
+
+} // namespace
+
+} // namespace gestell::coupling
+
+gestell::coupling::MeshService *gestell_mesh_service()
+{
+  static gestell::coupling::Service service;
+  return &service;
+}

@@ -1,0 +1,76 @@
+#include "coupling/reduction/mesh_statement.h"
+
+#include "coupling/dense_modes.h"
+#include "fem/wall_thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    most_modes = 12;
+constexpr double cancelled  = 1e-10; // as in supported_modes()
+constexpr double two_pi     = 6.283185307179586;
+constexpr double coarse     = 0.02; // error from which a way out is told
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << 100. * share << " %";
+  return text.str();
+}
+
+std::string rounded(double value)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+} // namespace
+
+Eigen::VectorXd modal_mesh_error(const Reduction &reduced, const fem::MeshError &mesh_error)
+{
+  const DenseModes ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled);
+  const auto       n_rigid = (ritz.omega.array() == 0.).count();
+  const double     limit   = (1. + 1e-6) * two_pi * reduced.frame.frequency_limit_hz;
+  const auto       within  = (ritz.omega.array() <= limit).count() - n_rigid;
+  const auto       count   = std::clamp<Eigen::Index>(within, 0, most_modes);
+  const auto       omega   = ritz.omega.segment(n_rigid, count);
+  Eigen::VectorXd  share   = mesh_error.of_cells(reduced.basis.T * ritz.V.middleCols(n_rigid, count)).colwise().sum();
+  share.array() /= omega.array().square();
+  return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
+}
+
+std::string mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_error, const fem::Mesh &mesh)
+{
+  const Eigen::VectorXd error = modal_mesh_error(reduced, mesh_error);
+  std::string           text  = "mesh: " + std::to_string(reduced.frame.n_full) + " coordinates";
+  if (error.size() > 0)
+  {
+    const double low = error.minCoeff(), high = error.maxCoeff();
+    text += "; judged by the stresses of the modes, frequencies up to " + rounded(reduced.frame.frequency_limit_hz) +
+            " Hz are ";
+    text += std::isfinite(high) ? percent(low) + (low < high ? " to " + percent(high) : "") +
+                                      " too high, the first by " + percent(error[0])
+                                : "of no use: errors take up the whole energy";
+    const fem::WallThickness walls = fem::wall_thickness(mesh);
+    if (walls.thin_share > 0.05)
+      text += "; " + percent(walls.thin_share) + " of the surface belongs to walls thinner than the elements, " +
+              rounded(walls.median_ratio) + " times on the average (thinnest wall " + rounded(1000. * walls.thinnest) +
+              " mm)";
+    if (!(high < coarse))
+      text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls need "
+              "far fewer coordinates";
+  }
+  return text;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,240 @@
+#include "fem/hexahedral_extraction.h"
+
+#include "fem/hexahedral_mesh.h"
+#include "fem/hexahedron.h"
+#include "fem/vector3.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <unordered_map>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Quad = std::array<int, 4>;
+
+/// Calls visit(name of the type, corners, their number) for every element of an entity.
+template <typename Visit>
+void for_each_element(int dim, int tag, const Visit &visit)
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, dim, tag);
+  for (std::size_t i = 0; i < types.size(); ++i)
+  {
+    std::string         name;
+    int                 d, order, n, n_corners;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
+    for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
+      visit(name, &nodes[i][j], n_corners);
+  }
+}
+
+/// gmsh's nodes, numbered as cells ask for them.
+class Nodes
+{
+public:
+  explicit Nodes(double unit)
+  {
+    std::vector<double> coordinates, parameters;
+    gmsh::model::mesh::getNodes(all_, coordinates, parameters, -1, -1, false, false);
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      position_[all_[i]] = {unit * coordinates[3 * i], unit * coordinates[3 * i + 1], unit * coordinates[3 * i + 2]};
+  }
+
+  int index(std::size_t tag, std::vector<Point3> &points)
+  {
+    const auto [entry, is_new] = index_.try_emplace(tag, static_cast<int>(points.size()));
+    if (is_new)
+    {
+      points.push_back(position_.at(tag));
+      tags_.push_back(tag);
+    }
+    return entry->second;
+  }
+
+  /// -1 for a node no cell uses.
+  int index(std::size_t tag) const
+  {
+    const auto entry = index_.find(tag);
+    return entry == index_.end() ? -1 : entry->second;
+  }
+
+  const std::vector<std::size_t> &tags() const { return tags_; }
+
+private:
+  std::vector<std::size_t>                all_, tags_;
+  std::unordered_map<std::size_t, Point3> position_;
+  std::unordered_map<std::size_t, int>    index_;
+};
+
+void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Mesh &mesh)
+{
+  for (const Solid &solid : model.solids)
+  {
+    const std::size_t before = mesh.hexahedra.size();
+    for_each_element(3, solid.tag,
+                     [&](const std::string &type, const std::size_t *corner, int n_corners)
+                     {
+                       if (n_corners != 8)
+                         throw std::invalid_argument(
+                             head + ": solid \"" + solid.name + "\" holds elements of type \"" + type +
+                             "\" beside hexahedra; a mesh is of hexahedra throughout or of tetrahedra throughout: mesh "
+                             "it without recombination, or make every solid transfinite.");
+                       std::array<int, 8> cell;
+                       for (int i = 0; i < 8; ++i)
+                         cell[i] = nodes.index(corner[i], mesh.points);
+                       if (corner_quality(mesh, cell) < 0.) // mirrored
+                         for (int i = 0; i < 4; ++i)
+                           std::swap(cell[i], cell[i + 4]);
+                       mesh.hexahedra.push_back(cell);
+                     });
+    if (mesh.hexahedra.size() == before)
+      throw std::invalid_argument(head + ": solid \"" + solid.name +
+                                  "\" has no volume mesh; mesh it in 3D before saving, and save all elements.");
+    mesh.cell_solid.resize(mesh.hexahedra.size(), static_cast<int>(mesh.solids.size()));
+    mesh.solids.push_back(solid.name);
+  }
+}
+
+struct CellFace
+{
+  Quad key;
+  int  cell, face;
+};
+
+Quad sorted(Quad quad)
+{
+  std::sort(quad.begin(), quad.end());
+  return quad;
+}
+
+Quad corners_of(const Mesh &mesh, const CellFace &face)
+{
+  Quad quad{};
+  for (int k = 0; k < 4; ++k)
+    quad[k] = mesh.hexahedra[face.cell][hexahedron::faces[face.face][k]];
+  return quad;
+}
+
+int root(std::vector<int> &parent, int i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// Faces of one cell only; `parent` joins cells that share one.
+std::vector<CellFace> outer_faces(const Mesh &mesh, std::vector<int> &parent, const std::string &head)
+{
+  std::vector<CellFace> faces;
+  for (int cell = 0; cell < static_cast<int>(mesh.hexahedra.size()); ++cell)
+    for (int f = 0; f < 6; ++f)
+    {
+      faces.push_back({{}, cell, f});
+      faces.back().key = sorted(corners_of(mesh, faces.back()));
+    }
+  std::sort(faces.begin(), faces.end(),
+            [](const CellFace &a, const CellFace &b)
+            { return std::tie(a.key, a.cell, a.face) < std::tie(b.key, b.cell, b.face); });
+
+  std::vector<CellFace> outer;
+  for (std::size_t i = 0; i < faces.size();)
+  {
+    std::size_t end = i + 1;
+    while (end < faces.size() && faces[end].key == faces[i].key)
+      ++end;
+    if (end - i > 2)
+      throw std::invalid_argument(head + ": " + std::to_string(end - i) +
+                                  " cells share one face; the mesh overlaps itself: unite the solids and mesh again.");
+    if (end - i == 2)
+      parent[root(parent, faces[i].cell)] = root(parent, faces[i + 1].cell);
+    else
+      outer.push_back(faces[i]);
+    i = end;
+  }
+  std::sort(outer.begin(), outer.end(),
+            [](const CellFace &a, const CellFace &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
+  return outer;
+}
+
+void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::string &head)
+{
+  for (int cell = 1; cell < static_cast<int>(mesh.hexahedra.size()); ++cell)
+    if (root(parent, cell) != root(parent, 0))
+      throw std::invalid_argument(
+          head + ": the cells at " + text(mesh.points[mesh.hexahedra[0][0]]) + " m and at " +
+          text(mesh.points[mesh.hexahedra[cell][0]]) +
+          " m do not hang together by common faces (solids that only touch must share their nodes: fragment them "
+          "before meshing, and give edges that lie upon each other the same number of nodes).");
+}
+
+} // namespace
+
+bool holds_hexahedra(const CadModel &model)
+{
+  bool found = false;
+  for (const Solid &solid : model.solids)
+  {
+    std::vector<int>                      types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, 3, solid.tag);
+    for (const int type : types)
+    {
+      std::string         name;
+      int                 d, order, n, n_corners;
+      std::vector<double> local;
+      gmsh::model::mesh::getElementProperties(type, name, d, order, n, local, n_corners);
+      found |= n_corners == 8;
+    }
+  }
+  return found;
+}
+
+ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head)
+{
+  ExtractedMesh result;
+  Mesh         &mesh = result.mesh;
+  Nodes         nodes(model.unit);
+  read_cells(model, head, nodes, mesh);
+  result.node = nodes.tags();
+
+  std::vector<int> parent(mesh.hexahedra.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const std::vector<CellFace> outer = outer_faces(mesh, parent, head);
+  check_one_body(mesh, parent, head);
+
+  const Nodes        &known = nodes;
+  std::map<Quad, int> surface_of; // sorted corners to tag
+  gmsh::vectorpair    surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto &entity : surfaces)
+    for_each_element(2, entity.second,
+                     [&](const std::string &, const std::size_t *corner, int n_corners)
+                     {
+                       if (n_corners == 4)
+                         surface_of[sorted({known.index(corner[0]), known.index(corner[1]), known.index(corner[2]),
+                                            known.index(corner[3])})] = entity.second;
+                     });
+  for (const CellFace &face : outer)
+  {
+    const Quad quad    = corners_of(mesh, face);
+    const auto surface = surface_of.find(face.key);
+    mesh.skin_quads.push_back(quad);
+    mesh.skin.push_back({quad[0], quad[1], quad[2]});
+    mesh.skin.push_back({quad[0], quad[2], quad[3]});
+    result.skin_surface.insert(result.skin_surface.end(), 2, surface == surface_of.end() ? 0 : surface->second);
+  }
+  return result;
+}
+
+} // namespace gestell::fem

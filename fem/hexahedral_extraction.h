@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fem/mesh_extraction.h"
+
+#include <string>
+
+namespace gestell::fem
+{
+
+/// Whether gmsh's mesh of the model has hexahedra.
+bool holds_hexahedra(const CadModel &model);
+
+/**
+ * Takes the hexahedra out of gmsh as extract_mesh() does tetrahedra: the skin comes as quadrilaterals and as their
+ * halves, the surface of each half in `skin_surface`.  Of cells of higher order only the corners are kept.
+ *
+ * @throws std::invalid_argument if there are cells of other kinds beside hexahedra, a solid has none, more than two
+ * cells share a face, or the cells do not all hang together by common faces.
+ */
+ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head);
+
+} // namespace gestell::fem

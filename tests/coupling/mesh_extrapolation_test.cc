@@ -1,0 +1,70 @@
+#include "coupling/mesh_extrapolation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::test
+{
+
+namespace
+{
+
+using coupling::extrapolate;
+using coupling::MeshValue;
+
+/// v = 10 + c n^-k with an estimate that is wrong by a factor.
+MeshValue mesh(double n, double k, double c = 1000., double factor = 0.7)
+{
+  const double error = c * std::pow(n, -k);
+  return {n, 10. + error, factor * error / 10.};
+}
+
+TEST(Extrapolation, OfThreeMeshesFindsOrderAndLimitOfAPowerWhateverTheirSizes)
+{
+  for (const double k : {0.5, 0.9, 1.33, 2.})
+  {
+    const auto result = extrapolate({mesh(1e3, k), mesh(2.7e3, k), mesh(1.1e4, k)});
+    EXPECT_NEAR(result.order, k, 1e-9);
+    EXPECT_NEAR(result.limit, 10., 1e-9);
+    EXPECT_GT(result.uncertainty, 0.);
+  }
+}
+
+TEST(Extrapolation, OfTwoMeshesNeedsOnlyTheFallOfTheEstimate)
+{
+  for (const double factor : {0.1, 1., 5.})
+  {
+    const auto result = extrapolate({mesh(1e3, 1., 1000., factor), mesh(4e3, 1., 1000., factor)});
+    EXPECT_NEAR(result.limit, 10., 1e-9);
+    EXPECT_TRUE(std::isnan(result.order));
+    EXPECT_NEAR(result.uncertainty, 0.25 / 10., 1e-9) << "the whole step";
+  }
+}
+
+TEST(Extrapolation, CoversTheLimitWhereTwoPowersAreMixed)
+{
+  const auto value  = [](double n) { return 10. + 200. * std::pow(n, -0.6) + 4e4 * std::pow(n, -1.5); };
+  const auto point  = [&](double n) { return MeshValue{n, value(n), 0.5 * (value(n) / 10. - 1.)}; };
+  const auto result = extrapolate({point(2e3), point(5e3), point(1.2e4)});
+  EXPECT_LT(std::abs(result.limit - 10.), 10. * result.uncertainty);
+}
+
+TEST(Extrapolation, OfValuesThatShowNoOrderFallsBackOnTheEstimate)
+{
+  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 11., 0.1}, {4e3, 11.5, 0.05}});
+  EXPECT_TRUE(std::isnan(result.order));
+  EXPECT_GT(result.uncertainty, 0.);
+}
+
+TEST(Extrapolation, OfOneMeshIsAsUncertainAsItsEstimate)
+{
+  const auto result = extrapolate({{1e3, 12., 0.2}});
+  EXPECT_EQ(result.limit, 12.);
+  EXPECT_EQ(result.uncertainty, 0.2);
+  EXPECT_THROW(extrapolate({}), std::invalid_argument);
+}
+
+} // namespace
+
+} // namespace gestell::test
