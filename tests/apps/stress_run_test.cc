@@ -84,9 +84,9 @@ TEST(StressRun, OfABarAtRestIsThatOfABeam)
   const std::string summary = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"));
   const double      x       = number(summary, {"stress", "largest", "at"});
   EXPECT_LT(x, 0.2) << "near the wall, but not in its elements";
-  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 0.03 * at_edge(x));
-  EXPECT_LT(number(summary, {"stress", "largest", "disagreement"}), 0.1);
-  EXPECT_NEAR(number(summary, {"stress", "beside_rigid", "von_mises"}), at_edge(0.), 0.1 * at_edge(0.));
+  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 0.05 * at_edge(x));
+  EXPECT_LT(number(summary, {"stress", "largest", "disagreement"}), 0.2);
+  EXPECT_NEAR(number(summary, {"stress", "beside_rigid", "von_mises"}), at_edge(0.), 0.15 * at_edge(0.));
   for (const char *name : {"stress.pvd", "stress/stress_00001.vtp", "charts/stress-1.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder.results() / name)) << name;
   EXPECT_NE(read(folder.results() / "report.html").find("Stress in the frame"), std::string::npos);

@@ -47,7 +47,8 @@ ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
   return coupling::craig_bampton(frame, options);
 }
 
-/// Largest difference over the largest stress; 1e-6 are the roundings of numbers in single precision.
+/// Largest difference over the largest stress.  Columns in single precision are rounded to 6e-8; stresses of unit
+/// motions of an interface cancel to some tenths of a percent of themselves.
 double error(const VectorXd &found, const VectorXd &exact)
 {
   return (found - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
@@ -87,11 +88,11 @@ TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
       const ReducedFrame small = reduced(frame, modes);
       EXPECT_LT(error(reduced_static_stress(small, F, Eigen::Vector3d::Zero()),
                       full_static_stress(frame, F, Eigen::Vector3d::Zero())),
-                2e-6)
+                1e-5)
           << modes << " modes, forces at the interface";
       EXPECT_LT(
           error(reduced_static_stress(small, VectorXd::Zero(6), g), full_static_stress(frame, VectorXd::Zero(6), g)),
-          2e-6)
+          1e-5)
           << modes << " modes, weight: what the modes leave out is added";
     }
 }
