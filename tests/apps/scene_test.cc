@@ -18,6 +18,8 @@ namespace
 {
 
 using namespace gestell;
+using test::cad_complaint;
+using test::cad_scene;
 using test::complaint;
 using test::SceneFolder;
 using test::small_scene;
