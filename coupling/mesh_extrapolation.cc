@@ -13,7 +13,7 @@ namespace
 
 constexpr double least_order = 0.2, greatest_order = 4.; // k in n^(-k): edges that re-enter, and smooth cubic fields
 constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
-constexpr double share_of_step = 0.25; // least uncertainty of three meshes: the order itself changes with the mesh
+constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
 
 /// (v1 - v2) / (v2 - v3) for error = n^(-k); grows with k.
 double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, double k)

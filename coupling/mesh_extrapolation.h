@@ -30,7 +30,7 @@ struct Extrapolated
  * r is known in two ways: from the estimator, r = estimate_m / estimate_(m-1), which needs two meshes and holds if it
  * is wrong by the same factor on both; and from three meshes, by the k that fits error = c n^(-k) to their values,
  * r = (n_(m-1) / n_m)^k.  Three meshes give the limit by the second way, uncertain by the difference to the first and
- * by at least a quarter of the last step; two meshes the first way, uncertain by the whole step; one mesh its own
+ * by at least half of the correction; two meshes the first way, uncertain by the whole step; one mesh its own
  * estimate, uncertain by all of it.
  *
  * @param meshes  at least one, of growing n; values not zero.
