@@ -52,7 +52,8 @@ std::string seal_defect(const std::string &file, const std::string &title)
   if (first_line != title)
     return "has another version of the format: '" + first_line.substr(0, 60) + "', and this program reads '" + title +
            "'";
-  if (in.gcount() < head_size || head != head_of(title, sha256_of_file(file, head_size)))
+  // Through the same handle: the name may belong to another file by now.
+  if (in.gcount() < head_size || head != head_of(title, sha256_of(in)))
     return "is damaged: its content is not what its checksum says";
   return {};
 }

@@ -47,18 +47,22 @@ std::string Sha256::hexadecimal()
   return text;
 }
 
-std::string sha256_of_file(const std::string &name, std::size_t skip)
+std::string sha256_of(std::istream &in)
+{
+  Sha256            hash;
+  std::vector<char> block(1 << 20);
+  while (in.read(block.data(), std::streamsize(block.size())) || in.gcount() > 0)
+    hash.update(block.data(), std::size_t(in.gcount()));
+  return hash.hexadecimal();
+}
+
+std::string sha256_of_file(const std::string &name)
 {
   std::ifstream   file(name, std::ios::binary);
   std::error_code error;
   if (!file || std::filesystem::is_directory(name, error))
     throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
-  file.seekg(std::streamoff(skip));
-  Sha256            hash;
-  std::vector<char> block(1 << 20);
-  while (file.read(block.data(), std::streamsize(block.size())) || file.gcount() > 0)
-    hash.update(block.data(), std::size_t(file.gcount()));
-  return hash.hexadecimal();
+  return sha256_of(file);
 }
 
 } // namespace gestell::coupling

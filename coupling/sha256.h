@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <istream>
 #include <memory>
 #include <string>
 
@@ -22,8 +23,10 @@ private:
   std::shared_ptr<Context> context_;
 };
 
-/// Of the bytes of a file behind its first `skip` ones.
-/// @throws std::invalid_argument if it cannot be read.
-std::string sha256_of_file(const std::string &file, std::size_t skip = 0);
+/// Of what is left of a stream.
+std::string sha256_of(std::istream &in);
+
+/// @throws std::invalid_argument if the file cannot be read.
+std::string sha256_of_file(const std::string &file);
 
 } // namespace gestell::coupling

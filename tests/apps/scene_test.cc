@@ -245,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"0], [0, \"13 t\"]]", "\"12 t\"], [\"12 t\", \"13 t\"]]", "frame.mass",
                               "not positive semidefinite"}, // 9.5 * 13 < 12^2
                       Mistake{"[[\"9.5 t\", 0], [0, \"13 t\"]]", "[[0, 0], [0, 0]]", "frame.mass", "zeros"},
-                      Mistake{"[0, \"13 t\"]]", "[\"1 t\", \"13 t\"]]", "frame.mass", "not symmetric"},
+                      Mistake{"[0, \"13 t\"]]", "[\"1 t\", \"13 t\"]]", "frame.mass", "one triangle of a symmetric matrix"},
                       Mistake{"[0, \"13 t\"]]", "[0, \"13 kN\"]]", "frame.mass", "entry of a mass matrix"},
                       Mistake{"\"3620 kN/mm\"]]", "\"-3620 kN/mm\"]]", "frame", "negative eigenvalue", 2},
                       Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 3 }", "frame.interface.table.rows.-uz",

@@ -96,7 +96,7 @@ TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
 {
   coupling::write_reduced_frame(file, some_frame());
   std::string other = bytes(file);
-  other.replace(other.find(" 4\n"), 2, " 9");
+  other[other.find('\n') - 1] = '0'; // the number of the format ends the first line
   const auto says = [&](const std::string &content, const std::string &words)
   {
     std::ofstream(file, std::ios::binary) << content;
