@@ -100,8 +100,14 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
   const ReducedFrame *frame = machine.reduced_frame();
   if (!frame)
     return {};
-  return modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true,
-                  frame->modal ? cancelled_by_reduction : cancelled_elsewhere);
+  std::vector<Mode> modes = modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true,
+                                     frame->modal ? cancelled_by_reduction : cancelled_elsewhere);
+  for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
+  {
+    modes[j].frequency_hz = modes[j].damped_frequency_hz = 0.; // what is left is rounding
+    modes[j].damping_ratio                               = std::numeric_limits<double>::quiet_NaN();
+  }
+  return modes;
 }
 
 namespace

@@ -17,7 +17,8 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi = 6.283185307179586;
+constexpr double two_pi           = 6.283185307179586;
+constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
 
 void require(bool condition, const ReductionOptions &options, const std::string &message)
 {
@@ -134,6 +135,16 @@ void add_modal_damping(MatrixXd &B, const SupportedModes &refined, const fem::Mo
   B += P * zeta.modal_dampers(refined.omega.head(p)).asDiagonal() * P.transpose();
 }
 
+/// The full frame knows how many motions are free: where one interface alone would hold it, all of C*_11 is rounding.
+void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame)
+{
+  VectorXd &frequencies = reduced.frequencies_hz;
+  if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
+    return;
+  reduced.facts.free_motions = fem::free_motions(frame, {});
+  frequencies.head(std::min(frequencies.size(), Eigen::Index(reduced.facts.free_motions.size()))).setZero();
+}
+
 void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionBasis &basis)
 {
   reduced.interfaces  = renumbered(frame.interfaces, basis.q1);
@@ -150,11 +161,11 @@ void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Redu
   reduced.triangles = frame.picture.triangles;
   if (frame.picture.displacement.rows() > 0)
     reduced.displacement = (frame.picture.displacement * basis.T).cast<float>();
-  reduced.facts              = frame.facts;
-  reduced.facts.free_motions = fem::free_motions(frame, {});
-  reduced.n_full             = int(frame.M.rows());
-  reduced.n_cells            = frame.n_cells;
-  reduced.mass               = frame.mass;
+  reduced.facts = frame.facts;
+  name_free_motions(reduced, frame);
+  reduced.n_full  = int(frame.M.rows());
+  reduced.n_cells = frame.n_cells;
+  reduced.mass    = frame.mass;
 }
 
 } // namespace
