@@ -45,17 +45,16 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
 
 SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
-  const SparseMatrix C22 = lower_triangle_held(frame.C, q1);
   try
   {
-    SparseCholesky factor(C22);
+    SparseCholesky factor(frame.C, q1);
     if (factor.pivot_ratio() < suspicious_pivots)
-      require_no_free_motion(frame, q1, C22);
+      require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     return factor;
   }
   catch (const NotPositiveDefinite &failure)
   {
-    require_no_free_motion(frame, q1, C22);
+    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
                                 "definite at coordinate " +
                                 std::to_string(failure.row) +
@@ -67,7 +66,7 @@ SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<in
 } // namespace
 
 HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-    : frame_(frame), q1_(q1), factor_(factor_held(frame, q1)), work_(frame.C.rows())
+    : frame_(frame), q1_(q1), factor_(factor_held(frame, q1))
 {
 }
 
@@ -78,12 +77,10 @@ void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   factor_.solve_in_place(X);
 }
 
-void HeldFrame::solve(const double *f, double *x) const
+void HeldFrame::restore()
 {
-  work_ = Eigen::Map<const Eigen::VectorXd>(f, work_.size());
-  for (const int i : q1_)
-    work_(i) = 0.;
-  factor_.solve(work_.data(), x);
+  if (factor_.released())
+    factor_ = SparseCholesky(frame_.C, q1_);
 }
 
 Eigen::MatrixXd HeldFrame::constraint_modes() const

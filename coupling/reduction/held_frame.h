@@ -13,6 +13,8 @@ namespace gestell::coupling
 /**
  * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
  * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
+ *
+ * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
  */
 class HeldFrame
 {
@@ -22,16 +24,21 @@ public:
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
-  void solve(const double *f, double *x) const;
 
   /// [n x n1]: E on the rows of q1, -C22^-1 C21 on those of q2.
   Eigen::MatrixXd constraint_modes() const;
+
+  /// Gives the memory of the factor back; restore() makes it anew where it is not there.
+  void release() { factor_.release(); }
+  void restore();
+
+  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
+  Inertia below(double omega) const { return factor_.inertia(frame_.C, frame_.M, omega * omega); }
 
 private:
   const fem::FrameMatrices &frame_;
   std::vector<int>          q1_;
   SparseCholesky            factor_;
-  mutable Eigen::VectorXd   work_;
 };
 
 } // namespace gestell::coupling
