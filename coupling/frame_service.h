@@ -23,21 +23,7 @@ struct ReductionOptions
 /// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
 using Progress = std::function<void(const std::string &phase, double share)>;
 
-struct SurfaceReport
-{
-  int                   tag;
-  std::string           name, type;
-  double                area; ///< [m^2]
-  std::array<double, 3> min, max, centre;
-};
-
-struct MeshReport
-{
-  int                        n_points = 0, n_cells = 0, n_coordinates = 0;
-  double                     volume = 0., mass = 0., worst_quality = 0.;
-  std::vector<std::string>   solids;
-  std::vector<SurfaceReport> surfaces;
-};
+struct MeshReport; // coupling/mesh_report.h
 
 /**
  * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame

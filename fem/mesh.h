@@ -23,6 +23,8 @@ struct Mesh
                            skin_quads; ///< of hexahedra; quadrilateral i = abcd has triangles 2 i = abc, 2 i + 1 = acd
   std::vector<std::string> solids;     ///< names, as in the CAD file where it has them
 
+  std::vector<std::string> notes; ///< what a user should know of the geometry and the mesh
+
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;
 

@@ -27,6 +27,7 @@ public:
     Reduction reduced                 = craig_bampton_with_basis(matrices, options, progress);
     if (progress)
       progress("mesh error", -1.);
+    reduced.frame.notes.insert(reduced.frame.notes.begin(), mesh.notes.begin(), mesh.notes.end());
     reduced.frame.notes.push_back(mesh_statement(reduced, *mesh_error, mesh));
     return std::move(reduced.frame);
   }

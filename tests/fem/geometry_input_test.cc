@@ -151,13 +151,7 @@ TEST(Bodies, ThatLieApartAreRefusedByName)
 {
   EXPECT_THAT(refusal(specification(two_boxes(200.), 0.05)),
               AllOf(StartsWith(frame), HasSubstr("2 bodies that do not hang together"), HasSubstr("body 2"),
-                    HasSubstr("boolean union")));
-}
-
-TEST(Bodies, ThatTouchOrOverlapWithoutACommonFaceAreRefused)
-{
-  EXPECT_THAT(refusal(specification(two_boxes(100.), 0.05)), HasSubstr("some touch or overlap"));
-  EXPECT_THAT(refusal(specification(two_boxes(50.), 0.05)), HasSubstr("some touch or overlap"));
+                    HasSubstr("mesh.bodies = 2")));
 }
 
 TEST(Bodies, OfAMeshWithoutCommonNodesAreRefused)
