@@ -20,7 +20,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double same_place = 1e-8; // of the model: nodes that close lie upon each other
+constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
+constexpr double same_place    = 1e-8; // of the model: nodes that close lie upon each other
 
 using Triangle = std::array<int, 3>;
 
@@ -43,7 +44,10 @@ struct CellFace
   }
 };
 
-/// Calls visit(corner tags) for every element of the entity; only simplices of the dimension are let through.
+/// Corners between which gmsh's further nodes of a quadratic tetrahedron stand.
+constexpr std::array<std::array<int, 2>, 6> quadratic_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
+
+/// Calls visit(tags, their number) for every element of the entity; only simplices of the dimension are let through.
 template <typename Visit>
 void for_each_simplex(int dim, int tag, const std::string &head, const Visit &visit)
 {
@@ -61,7 +65,21 @@ void for_each_simplex(int dim, int tag, const std::string &head, const Visit &vi
           head + " holds elements of type \"" + name +
           "\"; only tetrahedra with triangles on the surfaces are read: mesh it without recombination.");
     for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
-      visit(&nodes[i][j]);
+      visit(&nodes[i][j], n);
+  }
+}
+
+/// Of a quadratic tetrahedron the middles of edges that are not straight.
+void keep_middles(Mesh &mesh, const std::array<int, 4> &cell, const std::size_t *tags, MeshNodes &nodes,
+                  const std::string &head)
+{
+  for (int e = 0; e < 6; ++e)
+  {
+    const int     a = cell[quadratic_edges[e][0]], b = cell[quadratic_edges[e][1]];
+    const Point3  middle = nodes.position(tags[e], head);
+    const Vector3 side   = mesh.points[b] - mesh.points[a];
+    if (norm(middle - 0.5 * (mesh.points[a] + mesh.points[b])) > straight_edge * norm(side))
+      mesh.middles[{std::min(a, b), std::max(a, b)}] = middle;
   }
 }
 
@@ -71,11 +89,13 @@ void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes
   {
     const std::size_t before = mesh.cells.size();
     for_each_simplex(3, solid.tag, head,
-                     [&](const std::size_t *corner)
+                     [&](const std::size_t *corner, int n)
                      {
                        std::array<int, 4> cell;
                        for (int i = 0; i < 4; ++i)
                          cell[i] = nodes.index(corner[i], mesh.points, head);
+                       if (n == 10)
+                         keep_middles(mesh, cell, corner + 4, nodes, head);
                        if (six_volumes(mesh, cell) < 0.)
                          std::swap(cell[2], cell[3]);
                        mesh.cells.push_back(cell);
@@ -233,7 +253,7 @@ void note_nodes(Mesh &mesh, const MeshNodes &nodes)
 {
   if (nodes.n_merged() > 0)
     mesh.notes.push_back(std::to_string(nodes.n_merged()) + " nodes are taken for one with another, as mesh.gap says");
-  if (const auto n_unused = nodes.n_nodes() - nodes.n_merged() - mesh.points.size(); n_unused > 0)
+  if (const auto n_unused = nodes.n_unused(); n_unused > 0)
     mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
   if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())
     mesh.notes.push_back(std::to_string(pairs.size()) + " nodes lie upon others, one at " +
@@ -266,7 +286,7 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const
   for (const auto &[dim, tag] : surfaces)
     for_each_simplex(
         2, tag, head,
-        [&, tag = tag](const std::size_t *corner) {
+        [&, tag = tag](const std::size_t *corner, int) {
           surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
         });
   for (const CellFace &face : skin)

@@ -27,7 +27,7 @@ struct ExtractionOptions
 
 /**
  * Takes the tetrahedra out of gmsh, in metres: cells positively oriented however the file numbers them, the skin (faces
- * of one cell only) outward.  Of quadratic tetrahedra only the corners are kept.  A mesh of hexahedra is taken by
+ * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  A mesh of hexahedra is taken by
  * extract_hexahedra().  Coincident nodes that join nothing, and nodes no cell uses, become notes of the mesh.
  *
  * @param head  "<place>: <file>", heads messages

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <unordered_set>
 
 namespace gestell::fem
 {
@@ -58,17 +59,34 @@ std::size_t MeshNodes::representative(std::size_t tag) const
   return tag;
 }
 
+Point3 MeshNodes::position(std::size_t tag, const std::string &head) const
+{
+  const auto at = position_.find(tag);
+  if (at == position_.end())
+    throw std::invalid_argument(head + ": a cell has node " + std::to_string(tag) +
+                                ", which the file does not hold; export the mesh again, with all its nodes.");
+  return at->second;
+}
+
+std::size_t MeshNodes::n_unused() const
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 3);
+  std::unordered_set<std::size_t> used;
+  for (const auto &of_type : nodes)
+    used.insert(of_type.begin(), of_type.end());
+  return static_cast<std::size_t>(
+      std::count_if(position_.begin(), position_.end(), [&](const auto &node) { return used.count(node.first) == 0; }));
+}
+
 int MeshNodes::index(std::size_t tag, std::vector<Point3> &points, const std::string &head)
 {
   tag                        = representative(tag);
   const auto [entry, is_new] = index_.try_emplace(tag, static_cast<int>(points.size()));
   if (is_new)
   {
-    const auto at = position_.find(tag);
-    if (at == position_.end())
-      throw std::invalid_argument(head + ": a cell has node " + std::to_string(tag) +
-                                  ", which the file does not hold; export the mesh again, with all its nodes.");
-    points.push_back(at->second);
+    points.push_back(position(tag, head));
     tags_.push_back(tag);
   }
   return entry->second;

@@ -28,13 +28,16 @@ public:
   /// @param head  of the message of the std::invalid_argument for a node that is not in the mesh
   int index(std::size_t tag, std::vector<Point3> &points, const std::string &head);
 
+  /// Where a node stands that becomes no point, such as the middle of an edge.
+  Point3 position(std::size_t tag, const std::string &head) const;
+
   /// Index of a node that a cell uses, -1 for others.
   int index(std::size_t tag) const;
 
   /// Of each point gmsh's tag.
   const std::vector<std::size_t> &tags() const { return tags_; }
 
-  std::size_t n_nodes() const { return position_.size(); }
+  std::size_t n_unused() const; ///< nodes of no cell of any order
   std::size_t n_merged() const { return same_as_.size(); }
 
 private:

@@ -1,5 +1,6 @@
 #include "fem/mesher.h"
 
+#include "fem/curved_sides.h"
 #include "fem/gmsh_faces.h"
 #include "fem/gmsh_session.h"
 #include "fem/hexahedral_mesh.h"
@@ -9,6 +10,7 @@
 #include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
 #include "fem/point_freedom.h"
+#include "fem/shared_faces.h"
 #include "fem/small_features.h"
 #include "fem/surface_selection.h"
 #include "fem/vector3.h"
@@ -54,6 +56,7 @@ Selection select_all(const CadModel &model, const FrameSpecification &specificat
   Selection selection;
   for (const auto &[name, selector] : specification.surfaces)
     selection[name] = select_faces(model.faces, selector, model.diagonal());
+  require_faces_of_one_owner(selection, model.faces, specification);
   return selection;
 }
 
@@ -112,8 +115,11 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
     set_refined_sizes(SizeField(refined, options.size), result.model.unit);
   generate(specification, session, progress);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
-  if (result.extracted.mesh.hexahedra.empty())
-    improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (!result.extracted.mesh.hexahedra.empty())
+    return;
+  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (options.curved)
+    follow_geometry(result.extracted, result.model);
 }
 
 /// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
@@ -154,6 +160,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
   measure_solids(result.model, mesh);
+  unfold(result.extracted.mesh);
   const auto divided = divide_skin(result.extracted, result.model.groups);
   result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
   result.selection   = select_all(result.model, specification);
@@ -271,8 +278,7 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
     count(quality(mesh, cell));
   for (const auto &cell : mesh.hexahedra)
     count(corner_quality(mesh, cell));
-  for (const auto &piece : tetrahedra_of(mesh))
-    report.volume += six_volumes(mesh, piece) / 6.;
+  report.volume = curved_volume(mesh);
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "fem/skin_stress.h"
 
 #include "fem/elasticity.h"
+#include "fem/reference_cell.h"
 
 #include <Eigen/LU>
 
@@ -145,8 +146,11 @@ private:
       const auto point = point_of_.find({nodes[corner], moduli[0], moduli[1]});
       if (point == point_of_.end())
         continue;
-      const int  i       = point->second;
-      const auto weights = (reference_integrals().corner_gradients[corner] * inverse).eval(); // [10 x 3] dN_a/dx
+      const int             i  = point->second;
+      const auto           &dN = reference_integrals().corner_gradients[corner];
+      const Eigen::Matrix3d slope =
+          mesh_.is_curved(cell) ? Eigen::Matrix3d((positions(mesh_, cell) * dN).inverse()) : inverse;
+      const auto weights = (dN * slope).eval(); // [10 x 3] dN_a/dx
       volume_[i] += volume;
       for (int a = 0; a < 10; ++a)
         for (int l = 0; l < 3; ++l)

@@ -183,11 +183,12 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
   mesh.gap       = table.not_negative("gap", kind::length, 0.);
   mesh.bodies    = table.integer("bodies", 1);
   mesh.defeature = table.not_negative("defeature", kind::length, 0.);
+  mesh.curved    = table.boolean("curved", false);
   mesh.overlaps =
       table.choice("overlaps", {"refused", "once"}, "refused") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
   if (mesh.bodies < 1)
     throw table.error("bodies", "needs the number of bodies expected, 1 or more");
-  const std::vector<std::string> own{"size", "max_cells", "gap", "bodies", "defeature", "overlaps"};
+  const std::vector<std::string> own{"size", "max_cells", "gap", "bodies", "defeature", "overlaps", "curved"};
   std::vector<std::string>       known = own;
   for (const auto &entry : frame.surfaces)
     known.push_back(entry.first);

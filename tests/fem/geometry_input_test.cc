@@ -248,6 +248,18 @@ TEST(Selection, WithoutAFaceListsTheNearestOnes)
                     HasSubstr("through (0 0.52 2.56), radius 0.12"), HasSubstr("off by 20 mm")));
 }
 
+TEST(Selection, OfOneFaceForTwoInterfacesIsRefusedBeforeMeshing)
+{
+  FrameSpecification s = specification(box(), 0.2);
+  s.surfaces["top"]    = plane({0., 0., 1.}, {0., 0., 1.});
+  s.surfaces["lid"]    = plane({0., 0., 1.}, {0.5, 0.5, 1.});
+  s.interfaces         = {{"press", {"top"}, InterfaceCoupling::rigid, {}, "scene.toml:9: frame.interface.press"},
+                          {"motor", {"lid"}, InterfaceCoupling::average, {}, "scene.toml:12: frame.interface.motor"}};
+  EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:12: frame.interface.motor"), HasSubstr("\"lid\""),
+                                HasSubstr("\"top\" of interface \"press\""), HasSubstr("the same face"),
+                                HasSubstr("normal (0 0 1)")));
+}
+
 TEST(Selection, OfAnotherNumberOfFacesThanWantedListsThem)
 {
   FrameSpecification s = specification(press_frame(), 0.1);
