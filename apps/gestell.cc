@@ -107,6 +107,10 @@ CLI::App *add_modes(CLI::App &program, CommonOptions &options, ModesCommandOptio
   command->add_option("--frequencies", modes.frequencies, "lowest elastic ones of the frame to converge (default 4)")
       ->needs(converge)
       ->check(above_zero());
+  command
+      ->add_option("--watch", modes.watch, "what is to converge: all, or frequencies without compliances (default all)")
+      ->needs(converge)
+      ->check(CLI::IsMember({"all", "frequencies"}));
   command->add_option("--max-coordinates", modes.max_coordinates, "of the finest mesh (default 1000000)")
       ->needs(converge)
       ->check(above_zero());

@@ -253,7 +253,7 @@ public:
 
   void add(const ReductionOptions &value)
   {
-    const auto &[n_modes, tolerance, frequency, place] = value;
+    const auto &[n_modes, tolerance, frequency, place, inner, inertia_relief] = value;
     if (n_modes >= 0)
       add("reduction.modes", n_modes);
     else
@@ -261,6 +261,8 @@ public:
       add("reduction.tolerance", tolerance);
       add("reduction.frequency", frequency);
     }
+    add("reduction.inside", inner);
+    add("reduction.inertia relief", inertia_relief);
   }
 
   Recipe finished()

@@ -67,8 +67,9 @@ struct ModesCommandOptions
   std::string              speed;                         ///< of the excitation; empty: that of the scene's start
   int                      orders          = 10;          ///< multiples of it that are looked at
   std::string              band            = "5 %";       ///< how near an order comes to count
-  double                   converge        = 0.; ///< relative error the mesh may leave; 0: the scene's mesh as it is
-  int                      frequencies     = 4;  ///< lowest elastic ones of the frame that `converge` watches
+  double                   converge        = 0.;    ///< relative error the mesh may leave; 0: the scene's mesh as it is
+  int                      frequencies     = 4;     ///< lowest elastic ones of the frame that `converge` watches
+  std::string              watch           = "all"; ///< or "frequencies": compliances of interfaces are left out
   int                      max_coordinates = 1000000; ///< of the finest mesh
 };
 

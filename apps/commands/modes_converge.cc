@@ -51,8 +51,9 @@ double largest_bound(const coupling::MeshConvergence &convergence, const std::st
 /// "frequencies within 0.7 %, compliances within 1.5 %"
 std::string reached(const coupling::MeshConvergence &convergence)
 {
-  return "frequencies within " + percent(largest_bound(convergence, "frequency")) + ", compliances within " +
-         percent(largest_bound(convergence, "compliance"));
+  const double compliances = largest_bound(convergence, "compliance");
+  return "frequencies within " + percent(largest_bound(convergence, "frequency")) +
+         (compliances > 0. ? ", compliances within " + percent(compliances) : "");
 }
 
 } // namespace
@@ -67,6 +68,7 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandO
   options.tolerance       = modes.converge;
   options.n_frequencies   = modes.frequencies;
   options.max_coordinates = modes.max_coordinates;
+  options.compliances     = modes.watch == "all";
   return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options,
                                            [&progress](const std::string &phase, double share)
                                            { progress.show(phase, share); });

@@ -137,8 +137,9 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;
   result.watched    = watch_frequencies(result.frame, options.n_frequencies);
-  for (Watched &compliance : watch_compliances(result.frame))
-    result.watched.push_back(std::move(compliance));
+  if (options.compliances)
+    for (Watched &compliance : watch_compliances(result.frame))
+      result.watched.push_back(std::move(compliance));
 
   MatrixXd fields(matrices.M.rows(), result.watched.size());
   for (std::size_t j = 0; j < result.watched.size(); ++j)
