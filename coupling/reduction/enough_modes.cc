@@ -105,8 +105,7 @@ void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::Fr
     basis.append(frame.M, modes.V.rightCols(n_modes - old), modes.omega.tail(n_modes - old));
     return;
   }
-  const auto inverse = [&](const double *f, double *x) { held.solve(f, x); };
-  const auto modes   = lowest_modes(frame.C, frame.M, inverse, n_modes - old, basis.fixed_modes());
+  const auto modes = held.lowest_modes(n_modes - old, basis.fixed_modes());
   basis.append(frame.M, modes.V, modes.omega);
 }
 

@@ -1,6 +1,7 @@
 #include "coupling/reduction/held_frame.h"
 
 #include "coupling/reduction/free_motion.h"
+#include "coupling/reduction/team_held_frame.h"
 
 #include <algorithm>
 
@@ -43,47 +44,75 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
   return lower;
 }
 
-SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+[[noreturn]] void refuse_indefinite(const std::string &where)
+{
+  throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
+                              "definite" +
+                              where + "; it must be symmetric with positive energy for every motion");
+}
+
+std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   const SparseMatrix C22 = lower_triangle_held(frame.C, q1);
   try
   {
-    SparseCholesky factor(C22);
-    if (factor.pivot_ratio() < suspicious_pivots)
+    auto factor = std::make_unique<SparseCholesky>(C22);
+    if (factor->pivot_ratio() < suspicious_pivots)
       require_no_free_motion(frame, q1, C22);
     return factor;
   }
   catch (const NotPositiveDefinite &failure)
   {
     require_no_free_motion(frame, q1, C22);
-    throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
-                                "definite at coordinate " +
-                                std::to_string(failure.row) +
-                                "; it must be symmetric with positive energy for every "
-                                "motion");
+    refuse_indefinite(" at coordinate " + std::to_string(failure.row));
   }
+}
+
+std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMatrices &frame,
+                                            const std::vector<int> &q1)
+{
+  auto held = std::make_unique<TeamHeldFrame>(team, frame, q1);
+  if (!held->positive() || held->softest() < suspicious_pivots)
+    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
+  if (!held->positive())
+    refuse_indefinite("");
+  return held;
 }
 
 } // namespace
 
-HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-    : frame_(frame), q1_(q1), factor_(factor_held(frame, q1)), work_(frame.C.rows())
+HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1) : frame_(frame), q1_(q1)
 {
+  if (const Team *team = Team::of_this_run())
+    team_ = held_by_team(*team, frame, q1);
+  else
+    factor_ = factor_held(frame, q1);
 }
+
+HeldFrame::~HeldFrame() = default;
 
 void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
+  if (team_)
+    return team_->solve_in_place(X);
   for (const int i : q1_)
     X.row(i).setZero();
-  factor_.solve_in_place(X);
+  factor_->solve_in_place(X);
 }
 
-void HeldFrame::solve(const double *f, double *x) const
+LowestModes HeldFrame::lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const
 {
-  work_ = Eigen::Map<const Eigen::VectorXd>(f, work_.size());
-  for (const int i : q1_)
-    work_(i) = 0.;
-  factor_.solve(work_.data(), x);
+  if (team_)
+    return team_->lowest_modes(count, known);
+  Eigen::VectorXd held(frame_.C.rows());
+  const auto      inverse = [&](const double *f, double *x)
+  {
+    held = Eigen::Map<const Eigen::VectorXd>(f, held.size());
+    for (const int i : q1_)
+      held(i) = 0.;
+    factor_->solve(held.data(), x);
+  };
+  return coupling::lowest_modes(frame_.C, frame_.M, inverse, count, known);
 }
 
 Eigen::MatrixXd HeldFrame::constraint_modes() const

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "coupling/reduction/shared_held_frame.h"
+#include "coupling/reduction/team.h"
+#include "fem/frame_matrices.h"
+
+namespace gestell::coupling
+{
+
+/// Rank 0's hand on a SharedHeldFrame: each call orders all ranks to make theirs.
+class TeamHeldFrame
+{
+public:
+  /// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
+  TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  ~TeamHeldFrame();
+  TeamHeldFrame(const TeamHeldFrame &)            = delete;
+  TeamHeldFrame &operator=(const TeamHeldFrame &) = delete;
+
+  /// See SharedHeldFrame.
+  bool        positive() const { return shared_->positive(); }
+  double      softest() const { return shared_->softest(); }
+  void        solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
+  LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const;
+
+private:
+  const Team            &team_;
+  int                    number_; // of the frame, on all ranks
+  const SharedHeldFrame *shared_ = nullptr;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "coupling/reduction/shared_held_frame.h"
+#include "coupling/reduction/team.h"
+#include "fem/frame_matrices.h"
+
+namespace gestell::coupling
+{
+
+// The tasks of Team about held frames.  What rank 0 puts in is not read on other ranks; `number` names the frame.
+
+struct HoldTask
+{
+  static constexpr Order    order  = Order::hold;
+  int                       number = 0;
+  const fem::FrameMatrices *frame  = nullptr;
+  const std::vector<int>   *q1     = nullptr;
+  const SharedHeldFrame    *held   = nullptr; ///< made by run()
+  void                      run(const fem::Ranks &ranks);
+};
+
+struct ReleaseTask
+{
+  static constexpr Order order  = Order::release;
+  int                    number = 0;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct SolveTask
+{
+  static constexpr Order       order  = Order::solve;
+  int                          number = 0;
+  Eigen::Ref<Eigen::MatrixXd> *X      = nullptr;
+  void                         run(const fem::Ranks &ranks);
+};
+
+struct ModesTask
+{
+  static constexpr Order                   order  = Order::modes;
+  int                                      number = 0, count = 0;
+  const Eigen::Ref<const Eigen::MatrixXd> *known = nullptr;
+  LowestModes                              modes; ///< found by run()
+  void                                     run(const fem::Ranks &ranks);
+};
+
+} // namespace gestell::coupling
