@@ -76,6 +76,7 @@ public:
   template <typename T>
   void send(const std::vector<T> &values, int to) const
   {
+    static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
     send_bytes(values.data(), values.size(), sizeof(T), to);
   }
   template <typename T>

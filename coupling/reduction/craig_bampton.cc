@@ -188,12 +188,12 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
 }
 
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress)
+                                   const Progress &progress, const fem::RowsOnRanks *rows)
 {
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
-  const HeldFrame held(frame, q1);
+  const HeldFrame held(frame, q1, rows);
   tell(progress, "constraint modes");
   ReductionBasis basis = basis_without_modes(held, frame, q1);
 

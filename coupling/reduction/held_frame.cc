@@ -69,9 +69,9 @@ std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, con
 }
 
 std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMatrices &frame,
-                                            const std::vector<int> &q1)
+                                            const std::vector<int> &q1, const fem::RowsOnRanks *rows)
 {
-  auto held = std::make_unique<TeamHeldFrame>(team, frame, q1);
+  auto held = std::make_unique<TeamHeldFrame>(team, frame, q1, rows);
   if (!held->positive() || held->softest() < suspicious_pivots)
     require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
   if (!held->positive())
@@ -81,10 +81,11 @@ std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMa
 
 } // namespace
 
-HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1) : frame_(frame), q1_(q1)
+HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows)
+    : frame_(frame), q1_(q1)
 {
   if (const Team *team = Team::of_this_run())
-    team_ = held_by_team(*team, frame, q1);
+    team_ = held_by_team(*team, frame, q1, rows);
   else
     factor_ = factor_held(frame, q1);
 }

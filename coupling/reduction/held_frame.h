@@ -9,6 +9,11 @@
 #include <memory>
 #include <vector>
 
+namespace gestell::fem
+{
+class RowsOnRanks;
+}
+
 namespace gestell::coupling
 {
 
@@ -23,8 +28,9 @@ class TeamHeldFrame;
 class HeldFrame
 {
 public:
+  /// @param rows of C and M if several ranks have them already; they are dealt out otherwise.
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
-  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows = nullptr);
   ~HeldFrame();
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.

@@ -4,6 +4,7 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/mesh_statement.h"
 #include "coupling/reduction/openblas.h"
+#include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
 
@@ -23,8 +24,8 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, frame);
-    Reduction reduced                 = craig_bampton_with_basis(matrices, options, progress);
+    const auto [matrices, mesh_error, rows] = fem::discretise_with_mesh_error(mesh, frame, team_assembly());
+    Reduction reduced                       = craig_bampton_with_basis(matrices, options, progress, rows.get());
     if (progress)
       progress("mesh error", -1.);
     reduced.frame.notes.push_back(mesh_statement(reduced, *mesh_error, mesh));

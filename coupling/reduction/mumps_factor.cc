@@ -5,6 +5,7 @@
 #include <dmumps_c.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <string>
@@ -97,7 +98,7 @@ void read_lower_triangle(Mat A, const std::vector<int> &held, std::vector<int> &
       {
         row.push_back(i + 1);
         column.push_back(columns[k] + 1);
-        value.push_back(values[k]);
+        value.push_back(is_held(i) ? std::max(std::abs(values[k]), 1e-300) : values[k]);
       }
     require_petsc(MatRestoreRow(A, i, &count, &columns, &values), "MumpsFactor");
   }

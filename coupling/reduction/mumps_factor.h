@@ -24,7 +24,7 @@ public:
   };
 
   /// @param A      [n x n] MATMPIAIJ; only its lower triangle is read.
-  /// @param held   rows, ascending, the same on all ranks, that count as if A had nothing but its diagonal there.
+  /// @param held   rows, ascending, the same on all ranks, that count as if A had nothing there but |its diagonal|.
   /// @param places rank 0: place of every row in the elimination [n]; on others empty.
   MumpsFactor(Mat A, const std::vector<int> &held, const std::vector<int> &places, Sign sign);
   ~MumpsFactor();

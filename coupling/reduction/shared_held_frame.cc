@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace gestell::coupling
@@ -23,24 +24,42 @@ SharedHeldFrame::SharedHeldFrame(std::shared_ptr<const SharedMatrices> matrices,
     : matrices_(std::move(matrices)), q1_(q1 ? *q1 : std::vector<int>()), held_(matrices_->rows_of(q1)),
       free_load_(matrices_->vector())
 {
-  std::vector<int> places;
   {
     const MatrixGraph graph(matrices_->ranks(), matrices_->C(), held_);
     matrices_->ranks().agree(
         [&]
         {
           if (matrices_->ranks().first())
-            places = graph.elimination_places();
+            places_ = graph.elimination_places();
         });
   }
-  factor_ = std::make_unique<MumpsFactor>(matrices_->C(), held_, places, MumpsFactor::Sign::positive);
-  if (positive())
+  factorise();
+  if (positive_)
     measure_softest();
 }
 
-bool SharedHeldFrame::positive() const
+void SharedHeldFrame::factorise()
 {
-  return !factor_->failed() && factor_->negative_pivots() == 0;
+  if (factor_)
+    return;
+  factor_   = std::make_unique<MumpsFactor>(matrices_->C(), held_, places_, MumpsFactor::Sign::positive);
+  positive_ = !factor_->failed() && factor_->negative_pivots() == 0;
+}
+
+int SharedHeldFrame::modes_below(double omega)
+{
+  matrices_->ranks().broadcast(omega);
+  factor_.reset();
+  Mat shifted = nullptr;
+  require_petsc(MatDuplicate(matrices_->C(), MAT_COPY_VALUES, &shifted), "SharedHeldFrame");
+  const PetscOwned<Mat> owned(shifted);
+  require_petsc(MatAXPY(shifted, -omega * omega, matrices_->M(), DIFFERENT_NONZERO_PATTERN), "SharedHeldFrame");
+  const MumpsFactor factor(shifted, held_, places_, MumpsFactor::Sign::indefinite);
+  if (factor.failed())
+    throw fem::AgreedFailure(fem::AgreedFailure::Kind::method,
+                             "modes cannot be counted: C - omega^2 M is singular at omega = " + std::to_string(omega) +
+                                 " rad/s; ask for another number of modes");
+  return factor.negative_pivots();
 }
 
 void SharedHeldFrame::solve(Vec f, Vec x)
@@ -97,6 +116,7 @@ void SharedHeldFrame::solve_in_place(Eigen::Ref<MatrixXd> X)
   const int               n       = int(row_of.size()); // none but on rank 0
   int                     columns = int(X.cols());
   ranks.broadcast(columns);
+  factorise();
   MatrixXd block;
   for (int first = 0; first < columns; first += block_width)
   {

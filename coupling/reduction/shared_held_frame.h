@@ -25,10 +25,9 @@ public:
   SharedHeldFrame(std::shared_ptr<const SharedMatrices> matrices, const std::vector<int> *q1);
 
   /// C22 has a factor, and all pivots are positive.
-  bool positive() const;
+  bool positive() const { return positive_; }
   /// x^T C22 x / x^T D x, D the diagonal, of a motion nearly as soft as any: rounding if one is free.
-  double             softest() const { return softest_; }
-  const MumpsFactor &factor() const { return *factor_; }
+  double softest() const { return softest_; }
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X);
@@ -44,16 +43,23 @@ public:
    */
   LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known);
 
+  /// Number of modes below omega [rad/s]: of negative pivots of C22 - omega^2 M22.  Gives the factor of C22 back, which
+  /// is made anew when it is needed.
+  int modes_below(double omega);
+
 private:
+  void            factorise();
   PetscOwned<Vec> irregular_motion();
   void            measure_softest();
 
   std::shared_ptr<const SharedMatrices> matrices_;
-  std::vector<int>                      q1_;   // rank 0
-  std::vector<int>                      held_; // its rows
+  std::vector<int>                      q1_;     // rank 0
+  std::vector<int>                      held_;   // its rows
+  std::vector<int>                      places_; // rank 0: of all rows in the elimination
   PetscOwned<Vec>                       free_load_;
   std::unique_ptr<MumpsFactor>          factor_;
-  double                                softest_ = 0.;
+  bool                                  positive_ = false;
+  double                                softest_  = 0.;
 };
 
 } // namespace gestell::coupling

@@ -10,23 +10,10 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// Where every row goes: made on rank 0.
-struct Plan
-{
-  std::vector<int> begin;         // first row of each rank, and n
-  std::vector<int> row_of;        // of each coordinate
-  std::vector<int> coordinate_of; // of each row
-};
-
-Plan plan_of(const std::vector<int> &rank_of, int n_ranks)
+RowPlan plan_rows(const std::vector<int> &rank_of, int n_ranks)
 {
   const int n = int(rank_of.size());
-  Plan      plan{std::vector<int>(n_ranks + 1, 0), std::vector<int>(n), std::vector<int>(n)};
+  RowPlan   plan{std::vector<int>(n_ranks + 1, 0), std::vector<int>(n), std::vector<int>(n)};
   for (const int rank : rank_of)
     ++plan.begin[rank + 1];
   std::partial_sum(plan.begin.begin(), plan.begin.end(), plan.begin.begin());
@@ -40,6 +27,11 @@ Plan plan_of(const std::vector<int> &rank_of, int n_ranks)
   return plan;
 }
 
+namespace
+{
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
 /// Compressed rows of one rank.
 struct Rows
 {
@@ -48,7 +40,7 @@ struct Rows
 };
 
 /// Rows of A for one rank, columns ascending.
-Rows rows_for(const SparseMatrix &A, const Plan &plan, int rank)
+Rows rows_for(const SparseMatrix &A, const RowPlan &plan, int rank)
 {
   Rows                                rows;
   std::vector<std::pair<int, double>> entries;
@@ -70,7 +62,7 @@ Rows rows_for(const SparseMatrix &A, const Plan &plan, int rank)
 }
 
 /// Rank 0 sends every other rank its rows.
-Rows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, const Plan &plan)
+Rows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, const RowPlan &plan)
 {
   if (!ranks.first())
   {
@@ -106,12 +98,12 @@ PetscOwned<Mat> shared_matrix(const Rows &rows, int n)
 SharedMatrices::SharedMatrices(const fem::Ranks &ranks, const SparseMatrix *C, const SparseMatrix *M) : ranks_(ranks)
 {
   fem::petsc_session();
-  Plan plan;
+  RowPlan plan;
   ranks.agree(
       [&]
       {
         if (C)
-          plan = plan_of(MatrixGraph(*C).parts(ranks.size()), ranks.size());
+          plan = plan_rows(MatrixGraph(*C).parts(ranks.size()), ranks.size());
       });
   row_of_ = plan.row_of;
   begin_  = plan.begin;
@@ -120,6 +112,12 @@ SharedMatrices::SharedMatrices(const fem::Ranks &ranks, const SparseMatrix *C, c
     ranks.broadcast(begin);
   C_ = shared_matrix(dealt_out(ranks, C, plan), n());
   M_ = shared_matrix(dealt_out(ranks, M, plan), n());
+}
+
+SharedMatrices::SharedMatrices(const fem::Ranks &ranks, std::vector<int> begin, std::vector<int> row_of,
+                               PetscOwned<Mat> C, PetscOwned<Mat> M)
+    : ranks_(ranks), begin_(std::move(begin)), row_of_(std::move(row_of)), C_(std::move(C)), M_(std::move(M))
+{
 }
 
 std::vector<int> SharedMatrices::rows_of(const std::vector<int> *coordinates) const

@@ -11,6 +11,17 @@
 namespace gestell::coupling
 {
 
+/// Which row of shared matrices every coordinate has: rows are numbered rank by rank.
+struct RowPlan
+{
+  std::vector<int> begin;         // first row of each rank, and n
+  std::vector<int> row_of;        // of each coordinate
+  std::vector<int> coordinate_of; // of each row
+};
+
+/// @param rank_of the rank of each coordinate [n].
+RowPlan plan_rows(const std::vector<int> &rank_of, int n_ranks);
+
 /**
  * C and M of a frame with their rows on all ranks, dealt out so that few entries join those of different ranks.
  *
@@ -22,6 +33,11 @@ class SharedMatrices
 public:
   /// Deals out what rank 0 has, both triangles stored; nullptr on the ranks above 0.
   SharedMatrices(const fem::Ranks &ranks, const Eigen::SparseMatrix<double> *C, const Eigen::SparseMatrix<double> *M);
+  /// Matrices that all ranks have made.
+  /// @param begin  first row of each rank, and n; on all ranks.
+  /// @param row_of rank 0 alone.
+  SharedMatrices(const fem::Ranks &ranks, std::vector<int> begin, std::vector<int> row_of, PetscOwned<Mat> C,
+                 PetscOwned<Mat> M);
 
   const fem::Ranks &ranks() const { return ranks_; }
   Mat               C() const { return C_.get(); }

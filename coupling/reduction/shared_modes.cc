@@ -72,6 +72,7 @@ LowestModes SharedHeldFrame::lowest_modes(int count, const Eigen::Ref<const Eige
   int              n_known = int(known.cols());
   matrices_->ranks().broadcast(count);
   matrices_->ranks().broadcast(n_known);
+  factorise();
 
   EPS handle = nullptr;
   require_petsc(EPSCreate(fem::Ranks::comm(), &handle), "lowest_modes");

@@ -47,6 +47,12 @@ void Team::use()
     the_team() = std::move(team);
 }
 
+int Team::next_number()
+{
+  static int number = 0;
+  return ++number;
+}
+
 void Team::report(const fem::AgreedFailure &failure)
 {
   if (failure.kind == fem::AgreedFailure::Kind::wrong_input)
@@ -59,6 +65,10 @@ void obey(int order)
   const fem::Ranks ranks;
   switch (Order(order))
   {
+  case Order::assemble:
+    return serve<AssembleTask>(ranks);
+  case Order::forget:
+    return serve<ForgetTask>(ranks);
   case Order::hold:
     return serve<HoldTask>(ranks);
   case Order::release:
@@ -67,6 +77,8 @@ void obey(int order)
     return serve<SolveTask>(ranks);
   case Order::modes:
     return serve<ModesTask>(ranks);
+  case Order::count:
+    return serve<CountTask>(ranks);
   }
   ranks.abort("there is no order " + std::to_string(order) + "; all ranks must run the same version of gestell");
 }

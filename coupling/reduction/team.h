@@ -8,10 +8,13 @@ namespace gestell::coupling
 /// Orders of rank 0, see fem::Ranks; 0 dismisses.
 enum class Order
 {
-  hold = 1,
+  assemble = 1,
+  forget,
+  hold,
   release,
   solve,
-  modes
+  modes,
+  count
 };
 
 /**
@@ -29,6 +32,8 @@ public:
   static void use();
 
   const fem::Ranks &ranks() const { return ranks_; }
+  /// For the next thing that all ranks keep; from 1 on.
+  static int next_number();
 
   /// @throws std::invalid_argument, ConvergenceFailure: failures that all ranks agreed on.  Others end the program.
   template <typename Task>

@@ -1,43 +1,24 @@
 #include "coupling/reduction/team_held_frame.h"
 
+#include "coupling/reduction/team_assembly.h"
 #include "coupling/reduction/team_tasks.h"
 
-#include <stdexcept>
-#include <string>
+#include <utility>
 
 namespace gestell::coupling
 {
 
-namespace
+TeamHeldFrame::TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                             const fem::RowsOnRanks *rows)
+    : team_(team), number_(Team::next_number())
 {
-
-void require_work_for_all(const fem::FrameMatrices &frame, int n_ranks)
-{
-  const bool cells = frame.n_cells > 0;
-  const int  parts = cells ? frame.n_cells : int(frame.C.rows());
-  if (n_ranks > parts)
-    throw std::invalid_argument("mpirun: " + std::to_string(n_ranks) + " ranks for a frame of " +
-                                std::to_string(parts) + (cells ? " cells" : " coordinates") +
-                                ", but each rank needs at least one; start no more than " + std::to_string(parts) +
-                                ", or mesh more finely.  Some thousand cells per rank are worth the effort.");
-}
-
-int next_number()
-{
-  static int number = 0;
-  return ++number;
-}
-
-} // namespace
-
-TeamHeldFrame::TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1)
-    : team_(team), number_(next_number())
-{
-  require_work_for_all(frame, team.ranks().size());
+  require_work_for_all(team, frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows()),
+                       frame.n_cells > 0 ? "cells" : "coordinates");
   HoldTask hold;
-  hold.number = number_;
-  hold.frame  = &frame;
-  hold.q1     = &q1;
+  hold.number   = number_;
+  hold.matrices = number_of(rows);
+  hold.frame    = &frame;
+  hold.q1       = &q1;
   team.together(hold);
   shared_ = hold.held;
 }
@@ -65,6 +46,15 @@ LowestModes TeamHeldFrame::lowest_modes(int count, const Eigen::Ref<const Eigen:
   task.known  = &known;
   team_.together(task);
   return std::move(task.modes);
+}
+
+int TeamHeldFrame::modes_below(double omega) const
+{
+  CountTask task;
+  task.number = number_;
+  task.omega  = omega;
+  team_.together(task);
+  return task.below;
 }
 
 } // namespace gestell::coupling

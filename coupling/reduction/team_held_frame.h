@@ -2,7 +2,7 @@
 
 #include "coupling/reduction/shared_held_frame.h"
 #include "coupling/reduction/team.h"
-#include "fem/frame_matrices.h"
+#include "fem/cell_sums.h"
 
 namespace gestell::coupling
 {
@@ -11,8 +11,10 @@ namespace gestell::coupling
 class TeamHeldFrame
 {
 public:
+  /// @param rows what the ranks have of the frame's C and M; nullptr: they are dealt out.
   /// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
-  TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                const fem::RowsOnRanks *rows = nullptr);
   ~TeamHeldFrame();
   TeamHeldFrame(const TeamHeldFrame &)            = delete;
   TeamHeldFrame &operator=(const TeamHeldFrame &) = delete;
@@ -22,6 +24,7 @@ public:
   double      softest() const { return shared_->softest(); }
   void        solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
   LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const;
+  int         modes_below(double omega) const;
 
 private:
   const Team            &team_;

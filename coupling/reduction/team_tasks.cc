@@ -11,37 +11,55 @@ namespace gestell::coupling
 namespace
 {
 
-/// Frames held on this rank, by number.  Never destroyed: at the end of the process MPI has ended before.
-std::map<int, std::unique_ptr<SharedHeldFrame>> &held_frames()
+/// What this rank has of matrices and held frames, by number.  Never destroyed: at the end of the process MPI has ended
+/// before.
+template <typename T>
+std::map<int, T> &kept()
 {
-  static auto *const frames = new std::map<int, std::unique_ptr<SharedHeldFrame>>;
-  return *frames;
+  static auto *const things = new std::map<int, T>;
+  return *things;
+}
+auto &matrices_kept()
+{
+  return kept<std::shared_ptr<const SharedMatrices>>();
+}
+auto &frames_held()
+{
+  return kept<std::unique_ptr<SharedHeldFrame>>();
 }
 
 } // namespace
+
+void AssembleTask::run(const fem::Ranks &ranks)
+{
+  ranks.agree([] { use_one_blas_thread(); });
+  ranks.broadcast(number);
+  matrices_kept()[number] = assemble_on_ranks(ranks, source, sums);
+}
+
+void ForgetTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  matrices_kept().erase(number);
+}
 
 void HoldTask::run(const fem::Ranks &ranks)
 {
   ranks.agree([] { use_one_blas_thread(); });
   ranks.broadcast(number);
-  auto &held_frame = held_frames()[number];
-  try
-  {
-    held_frame = std::make_unique<SharedHeldFrame>(
-        std::make_shared<const SharedMatrices>(ranks, frame ? &frame->C : nullptr, frame ? &frame->M : nullptr), q1);
-  }
-  catch (const fem::AgreedFailure &)
-  {
-    held_frames().erase(number);
-    throw;
-  }
-  held = held_frame.get();
+  ranks.broadcast(matrices);
+  const auto shared     = matrices > 0 ? matrices_kept().at(matrices)
+                                       : std::make_shared<const SharedMatrices>(ranks, frame ? &frame->C : nullptr,
+                                                                            frame ? &frame->M : nullptr);
+  auto       made       = std::make_unique<SharedHeldFrame>(shared, q1);
+  held                  = made.get();
+  frames_held()[number] = std::move(made);
 }
 
 void ReleaseTask::run(const fem::Ranks &ranks)
 {
   ranks.broadcast(number);
-  held_frames().erase(number);
+  frames_held().erase(number);
 }
 
 void SolveTask::run(const fem::Ranks &ranks)
@@ -49,7 +67,7 @@ void SolveTask::run(const fem::Ranks &ranks)
   ranks.broadcast(number);
   Eigen::MatrixXd             none;
   Eigen::Ref<Eigen::MatrixXd> nothing(none);
-  held_frames().at(number)->solve_in_place(X ? *X : nothing);
+  frames_held().at(number)->solve_in_place(X ? *X : nothing);
 }
 
 void ModesTask::run(const fem::Ranks &ranks)
@@ -57,7 +75,13 @@ void ModesTask::run(const fem::Ranks &ranks)
   ranks.broadcast(number);
   const Eigen::MatrixXd             none;
   Eigen::Ref<const Eigen::MatrixXd> nothing(none);
-  modes = held_frames().at(number)->lowest_modes(count, known ? *known : nothing);
+  modes = frames_held().at(number)->lowest_modes(count, known ? *known : nothing);
+}
+
+void CountTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  below = frames_held().at(number)->modes_below(omega);
 }
 
 } // namespace gestell::coupling

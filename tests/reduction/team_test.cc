@@ -1,4 +1,4 @@
-// Failures among ranks: none is left waiting.
+// Failures among ranks: none is left waiting.  What they find together: modes, and how many there are.
 
 #include "tests/apps/program.h"
 
@@ -37,6 +37,15 @@ TEST(Team, EndsWithAMessageWhereOneRankBreaksDown)
   EXPECT_EQ(answer.exit_code, 3) << answer.text;
   EXPECT_TRUE(answer.says("gestell: the computation failed on rank 1 of 2: this rank broke down")) << answer.text;
   EXPECT_FALSE(answer.says("took part")) << answer.text;
+}
+
+TEST(Team, CountsTheModesOfAFrameByTheInertiaOfItsFactor)
+{
+  const Answer answer = trial("count");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  for (const char *line : {"0 modes and counted 0\n", "1 modes and counted 1\n", "7 modes and counted 7\n",
+                           "11 modes and counted 11\n", "the rest agrees\n"})
+    EXPECT_TRUE(answer.says(line)) << line << answer.text;
 }
 
 } // namespace

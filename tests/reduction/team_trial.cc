@@ -1,8 +1,10 @@
 // A team of ranks with a task that fails, or does not, in the way the one argument says.  Called by team_test.
 
 #include "coupling/reduction/team.h"
+#include "coupling/reduction/team_held_frame.h"
+#include "tests/reduction/lattice.h"
 
-#include <cstdlib>
+#include <cmath>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -36,10 +38,32 @@ struct Trial
   static constexpr int ranks_of_one = 1;
 };
 
+/// Finds modes, counts them, and finds them again with the factor that the count gave back.
+void count_modes(const Team &team)
+{
+  gestell::test::Lattice lattice;
+  lattice.nx = 10, lattice.ny = 4, lattice.nz = 10;
+  const auto                             frame = gestell::test::frame_of(lattice);
+  const gestell::coupling::TeamHeldFrame held(team, frame, frame.interface_coordinates());
+  const Eigen::MatrixXd                  none(frame.C.rows(), 0);
+  const gestell::coupling::LowestModes   modes = held.lowest_modes(12, none);
+  const Eigen::VectorXd                 &omega = modes.omega;
+  for (const int below : {0, 1, 7, 11})
+  {
+    const double shift = below > 0 ? 0.5 * (omega(below - 1) + omega(below)) : 0.5 * omega(0);
+    std::cout << below << " modes and counted " << held.modes_below(shift) << std::endl;
+  }
+  const auto rest = held.lowest_modes(5, modes.V.leftCols(7));
+  std::cout << "the rest " << ((rest.omega - omega.tail(5)).norm() < 1e-9 * omega.norm() ? "agrees" : "differs")
+            << std::endl;
+}
+
 int lead(const std::string &how)
 {
   Team::use();
   const Team *team = Team::of_this_run();
+  if (how == "count")
+    count_modes(*team);
   try
   {
     Trial trial{how};
@@ -59,11 +83,14 @@ int lead(const std::string &how)
 
 void follow(const Ranks &ranks)
 {
-  while (ranks.next_order() != 0)
+  while (const int order = ranks.next_order())
     try
     {
       Trial trial;
-      Team::carry_out(trial, ranks);
+      if (Order(order) == Trial::order)
+        Team::carry_out(trial, ranks);
+      else
+        gestell::coupling::obey(order);
     }
     catch (const gestell::fem::AgreedFailure &)
     {
