@@ -1,7 +1,11 @@
 #include "coupling/sparse_cholesky.h"
 
+#include "coupling/node_ordering.h"
+#include "coupling/openblas.h"
+
 #include <suitesparse/cholmod.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -13,31 +17,68 @@ namespace gestell::coupling
 
 struct SparseCholesky::Factor
 {
-  cholmod_common  common;
-  cholmod_factor *L = nullptr;
-  int             n = 0;
+  cholmod_common   common;
+  cholmod_factor  *L = nullptr;
+  int              n = 0;
+  std::vector<int> held; // ascending
 
   // workspaces that CHOLMOD keeps from call to call
   cholmod_dense *X = nullptr, *Y = nullptr, *E = nullptr;
 
   Factor()
   {
+    use_fitting_blas_kernels();
     openblas_set_num_threads(1);
     cholmod_start(&common);
     common.print              = 0;
     common.supernodal         = CHOLMOD_SUPERNODAL;
     common.nmethods           = 1;
-    common.method[0].ordering = CHOLMOD_METIS;
+    common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder          = 1;
   }
   ~Factor()
   {
-    cholmod_free_dense(&X, &common);
-    cholmod_free_dense(&Y, &common);
-    cholmod_free_dense(&E, &common);
+    release_numbers();
     cholmod_free_factor(&L, &common);
     cholmod_finish(&common);
   }
+  std::vector<char> held_marks() const
+  {
+    std::vector<char> marks(held.empty() ? 0 : n, 0);
+    for (const int i : held)
+      marks[i] = 1;
+    return marks;
+  }
+
+  Fronts fronts() const
+  {
+    const auto ints = [](const void *p) { return static_cast<const int *>(p); };
+    return {n, int(L->nsuper), ints(L->super), ints(L->pi), ints(L->s), ints(L->px), ints(L->Perm)};
+  }
+
+  /// Room for the numbers of L, where CHOLMOD's solution expects them; release_numbers() gives it back.
+  void allocate_numbers()
+  {
+    L->x = cholmod_malloc(L->xsize, sizeof(double), &common);
+    if (!L->x)
+      throw std::bad_alloc();
+    L->xtype = CHOLMOD_REAL;
+    L->dtype = CHOLMOD_DOUBLE;
+    L->minor = L->n;
+    L->is_ll = 1;
+  }
+
+  void release_numbers()
+  {
+    if (L && L->x)
+    {
+      L->x     = cholmod_free(L->xsize, sizeof(double), L->x, &common);
+      L->xtype = CHOLMOD_PATTERN;
+    }
+    for (cholmod_dense **workspace : {&X, &Y, &E})
+      cholmod_free_dense(workspace, &common);
+  }
+
   Factor(const Factor &)            = delete;
   Factor &operator=(const Factor &) = delete;
 };
@@ -45,26 +86,45 @@ struct SparseCholesky::Factor
 namespace
 {
 
-constexpr int block_width = 32; // right-hand sides at once: wider gains little and needs more workspace
-
-/// CHOLMOD's view of the lower triangle of A; nothing is copied.
-cholmod_sparse lower_triangle_of(const Eigen::SparseMatrix<double> &A)
+/// What CHOLMOD knows of L from the pattern alone: the order of the coordinates and the fronts.
+cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held, cholmod_common &common)
 {
-  cholmod_sparse view{};
-  view.nrow   = A.rows();
-  view.ncol   = A.cols();
-  view.nzmax  = A.nonZeros();
-  view.p      = const_cast<int *>(A.outerIndexPtr());
-  view.i      = const_cast<int *>(A.innerIndexPtr());
-  view.x      = const_cast<double *>(A.valuePtr());
-  view.stype  = -1;
-  view.itype  = CHOLMOD_INT;
-  view.xtype  = CHOLMOD_REAL;
-  view.dtype  = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
+  SparsePattern    lower = lower_triangle(A, held);
+  std::vector<int> order = node_ordering(A, held, common);
+  cholmod_sparse   view  = view_of(lower);
+  cholmod_factor  *L     = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
+  if (!L || common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+  {
+    cholmod_free_factor(&L, &common);
+    throw std::bad_alloc();
+  }
+  return L;
 }
+
+Eigen::SparseMatrix<double> both_triangles(const Eigen::SparseMatrix<double> &A)
+{
+  if (A.rows() != A.cols())
+    throw std::invalid_argument("SparseCholesky: the matrix has " + std::to_string(A.rows()) + " rows and " +
+                                std::to_string(A.cols()) + " columns; it must be square");
+  Eigen::SparseMatrix<double> full = A.selfadjointView<Eigen::Lower>();
+  full.makeCompressed();
+  return full;
+}
+
+/// Whether C has an entry wherever M has one.
+bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M)
+{
+  for (int j = 0; j < M.outerSize(); ++j)
+  {
+    const auto rows = [j](const Eigen::SparseMatrix<double> &A, int next)
+    { return A.innerIndexPtr() + A.outerIndexPtr()[j + next]; };
+    if (!std::includes(rows(C, 0), rows(C, 1), rows(M, 0), rows(M, 1)))
+      return false;
+  }
+  return true;
+}
+
+constexpr int block_width = 32; // right-hand sides at once: wider gains little and needs more workspace
 
 cholmod_dense columns_at(double *x, int n, int columns)
 {
@@ -96,28 +156,22 @@ void for_each_pivot(const cholmod_factor &L, const Visit &visit)
 
 } // namespace
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : factor_(std::make_unique<Factor>())
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
+    : factor_(std::make_unique<Factor>())
 {
-  if (A.rows() != A.cols())
-    throw std::invalid_argument("SparseCholesky: the matrix has " + std::to_string(A.rows()) + " rows and " +
-                                std::to_string(A.cols()) + " columns; it must be square");
-  if (!A.isCompressed())
-  {
-    Eigen::SparseMatrix<double> compressed = A;
-    compressed.makeCompressed();
-    *this = SparseCholesky(compressed);
-    return;
-  }
-  Factor        &f    = *factor_;
-  cholmod_sparse view = lower_triangle_of(A);
-  f.n                 = int(A.rows());
-  f.L                 = cholmod_analyze(&view, &f.common);
-  if (f.L)
-    cholmod_factorize(&view, f.L, &f.common);
-  if (!f.L || f.common.status == CHOLMOD_OUT_OF_MEMORY || f.common.status == CHOLMOD_TOO_LARGE)
-    throw std::bad_alloc();
-  if (f.L->minor < std::size_t(f.n))
-    throw NotPositiveDefinite(static_cast<const int *>(f.L->Perm)[f.L->minor]);
+  eigen_assert(A.isCompressed() && A.rows() == A.cols());
+  Factor &f = *factor_;
+  f.n       = int(A.rows());
+  f.held    = held;
+  f.L       = analysed(A, f.held_marks(), f.common);
+  f.allocate_numbers();
+  const double typical = f.n > 0 ? A.diagonal().cwiseAbs().mean() : 1.;
+  const int    failed = multifrontal_cholesky(f.fronts(), {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},
+                                              static_cast<double *>(f.L->x));
+  if (failed >= 0)
+    throw NotPositiveDefinite(failed);
   for_each_pivot(*f.L,
                  [](int row, double pivot)
                  {
@@ -138,7 +192,7 @@ int SparseCholesky::size() const
 void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
   Factor &f = *factor_;
-  eigen_assert(X.rows() == f.n);
+  eigen_assert(X.rows() == f.n && !released());
   for (int first = 0; first < X.cols(); first += block_width)
   {
     const int     width   = std::min(block_width, int(X.cols()) - first);
@@ -182,6 +236,30 @@ int SparseCholesky::weakest_row() const
 double SparseCholesky::entries() const
 {
   return double(factor_->L->xsize);
+}
+
+void SparseCholesky::release()
+{
+  factor_->release_numbers();
+}
+
+bool SparseCholesky::released() const
+{
+  return factor_->L->xtype == CHOLMOD_PATTERN;
+}
+
+Inertia SparseCholesky::inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
+                                double sigma) const
+{
+  const Factor &f = *factor_;
+  eigen_assert(C.rows() == f.n && M.rows() == f.n);
+  if (contains(C, M))
+    return multifrontal_inertia(f.fronts(), {C, &M, sigma, f.held_marks(), 1.});
+  Factor united; // masses between coordinates without a stiffness
+  united.n    = f.n;
+  united.held = f.held;
+  united.L    = analysed(C + M, f.held_marks(), united.common);
+  return multifrontal_inertia(united.fronts(), {C, &M, sigma, f.held_marks(), 1.});
 }
 
 } // namespace gestell::coupling

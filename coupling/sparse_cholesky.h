@@ -1,11 +1,14 @@
 #pragma once
 
+#include "coupling/multifrontal.h"
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -22,7 +25,8 @@ public:
 };
 
 /**
- * Factor L of a sparse symmetric positive definite matrix, A = P^T L L^T P: CHOLMOD, supernodal, ordered by METIS.
+ * Factor L of a sparse symmetric positive definite matrix, A = P^T L L^T P: ordered by METIS on the graph of the nodes
+ * (coordinates with the same partners), analysed by CHOLMOD, factored by multifrontal_cholesky(), solved by CHOLMOD.
  *
  * Right-hand sides solved together share the way through L, which is what a solution costs: 32 at once take about a
  * tenth per vector of one alone.  OpenBLAS, which does the arithmetic, is set to one thread: its waiting threads spin.
@@ -35,6 +39,10 @@ public:
   /// @param A [n x n]; only its lower triangle is read.
   /// @throws NotPositiveDefinite; std::invalid_argument if A is not square; std::bad_alloc.
   explicit SparseCholesky(const Eigen::SparseMatrix<double> &A);
+  /// The same of a compressed matrix with both triangles, coordinates held: their rows and columns count as zero but
+  /// for a positive number on the diagonal.
+  /// @param held  ascending.
+  SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
@@ -52,6 +60,14 @@ public:
   int weakest_row() const;
   /// Numbers stored in L.
   double entries() const;
+
+  /// Gives the memory of L back; what is left serves inertia() alone.
+  void release();
+  bool released() const;
+
+  /// Eigenvalues of (C - lambda M) x = 0 below sigma, the coordinates held cut off; see multifrontal_inertia().
+  /// @param C  the matrix this factor was made of, or one with its pattern, both triangles; M likewise.
+  Inertia inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M, double sigma) const;
 
 private:
   struct Factor;

@@ -138,7 +138,7 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
 {
   const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
   const auto foundations                                                    = [&](Vector3 Support::*totals)
-  { return kinematics.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
+  { return of.kinematics.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
 

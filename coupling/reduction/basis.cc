@@ -47,15 +47,14 @@ MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixX
   return Y;
 }
 
-void ReductionBasis::append(const SparseMatrix &M, const MatrixXd &V, const VectorXd &omega)
+void ReductionBasis::set_modes(const SparseMatrix &M, const MatrixXd &V, const VectorXd &omega)
 {
-  const auto old = T.cols(), added = V.cols();
-  T.conservativeResize(Eigen::NoChange, old + added);
-  MT.conservativeResize(Eigen::NoChange, old + added);
-  omega0.conservativeResize(omega0.size() + added);
-  T.rightCols(added)  = V;
-  MT.rightCols(added) = symmetric_product(M, V);
-  omega0.tail(added)  = omega;
+  const Eigen::Index n1 = this->n1(), m = V.cols();
+  T.conservativeResize(Eigen::NoChange, n1 + m);
+  MT.conservativeResize(Eigen::NoChange, n1 + m);
+  T.rightCols(m)  = V;
+  MT.rightCols(m) = symmetric_product(M, V);
+  omega0          = omega;
 }
 
 void ReductionBasis::truncate(int m)

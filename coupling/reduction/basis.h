@@ -26,7 +26,8 @@ struct ReductionBasis
   auto constraint_modes() const { return T.leftCols(n1()); }
   auto fixed_modes() const { return T.rightCols(m()); }
 
-  void append(const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega);
+  /// In place of those there are.
+  void set_modes(const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega);
   void truncate(int m);
 };
 

@@ -1,7 +1,9 @@
 #include "coupling/reduction/craig_bampton.h"
 
+#include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/enough_modes.h"
-#include "coupling/reduction/lowest_modes.h"
+#include "coupling/reduction/fixed_modes.h"
+#include "coupling/reduction/interior_response.h"
 #include "fem/rigid_motions.h"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ using Eigen::VectorXd;
 
 constexpr double two_pi           = 6.283185307179586;
 constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
+constexpr int    most_rounds      = 4;    // of finding modes that were missing
 
 void require(bool condition, const ReductionOptions &options, const std::string &message)
 {
@@ -88,16 +91,15 @@ struct StaticRemainder
   double   relative = 0.; ///< of the energy norm of C22^-1 f2; the worst load
 };
 
-StaticRemainder static_remainder(const HeldFrame &held, const ReductionBasis &basis, const MatrixXd &load)
+StaticRemainder static_remainder(const MatrixXd &deflection, const ReductionBasis &basis, const MatrixXd &load)
 {
   MatrixXd f2 = load;
   for (const int i : basis.q1)
     f2.row(i).setZero();
-  StaticRemainder remainder{f2};
-  held.solve_in_place(remainder.deflection);
-  const VectorXd energy    = (f2.array() * remainder.deflection.array()).colwise().sum();
-  const auto     stiffness = basis.omega0.array().square().matrix();
-  const MatrixXd modal     = stiffness.asDiagonal().inverse() * (basis.fixed_modes().transpose() * f2);
+  StaticRemainder remainder{deflection};
+  const VectorXd  energy    = (f2.array() * remainder.deflection.array()).colwise().sum();
+  const auto      stiffness = basis.omega0.array().square().matrix();
+  const MatrixXd  modal     = stiffness.asDiagonal().inverse() * (basis.fixed_modes().transpose() * f2);
   remainder.deflection -= basis.fixed_modes() * modal;
   const VectorXd left = (f2.array() * remainder.deflection.array()).colwise().sum();
   for (int d = 0; d < load.cols(); ++d)
@@ -176,9 +178,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   options.n_modes = std::max(0, n_modes);
   const auto q1   = frame.interface_coordinates();
   require_valid(frame, q1, options);
-  const HeldFrame held(frame, q1);
-  ReductionBasis  basis = basis_without_modes(held, frame, q1);
-  add_fixed_modes(basis, held, frame, n_modes);
+  HeldFrame      held(frame, q1);
+  ReductionBasis basis = basis_without_modes(held, frame, q1);
+  const auto     modes = FixedModes(held, frame, q1).lowest(options.n_modes);
+  basis.set_modes(frame.M, modes.V, modes.omega);
   return basis;
 }
 
@@ -187,31 +190,35 @@ ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptio
   return craig_bampton_with_basis(frame, options, progress).frame;
 }
 
-Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress, const fem::RowsOnRanks *rows)
+namespace
 {
-  const auto q1 = frame.interface_coordinates();
-  require_valid(frame, q1, options);
-  tell(progress, "factorisation");
-  const HeldFrame held(frame, q1, rows);
-  tell(progress, "constraint modes");
-  ReductionBasis basis = basis_without_modes(held, frame, q1);
 
+/// What of the reduction does not depend on the modes.
+struct Statics
+{
+  ReductionBasis   basis; // no modes yet
+  MatrixXd         load;  // [n x 3] of a unit acceleration, or [n x 0]
+  InteriorResponse response;
+};
+
+Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
+                 const ReductionOptions &options, const Progress &progress)
+{
+  ReductionBasis basis = statics.basis;
   ReducedFrame   reduced;
   SupportedModes refined;
   if (options.n_modes < 0)
-    refined = enough_modes(basis, held, frame, options, progress, reduced.notes);
+    refined = enough_modes(basis, fixed, statics.response, frame, options, progress, reduced.notes);
   else
   {
     tell(progress, "fixed-interface modes");
-    add_fixed_modes(basis, held, frame, options.n_modes);
+    const LowestModes modes = fixed.lowest(options.n_modes);
+    basis.set_modes(frame.M, modes.V, modes.omega);
   }
+  tell(progress, "reduced matrices");
   ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-  {
-    tell(progress, "error estimate");
-    refined = supported_modes(held, basis, star, frame.M);
-  }
+    refined = supported_modes(basis, star, statics.response);
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -219,19 +226,17 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   if (frame.modal_damping_ratio.any())
     add_modal_damping(star.B, refined, frame.modal_damping_ratio);
 
-  tell(progress, "reduced matrices");
   reduced.M = star.M;
   reduced.B = star.B;
   reduced.C = star.C;
   MatrixXd static_beyond_modes;
-  if (frame.translations.rows() > 0)
+  if (statics.load.cols() > 0)
   {
-    const MatrixXd load       = acceleration_load(frame);
-    reduced.translations_load = basis.T.transpose() * load;
-    reduced.total_mass        = frame.translations.transpose() * load;
-    const auto remainder      = static_remainder(held, basis, load);
+    reduced.translations_load = basis.T.transpose() * statics.load;
+    reduced.total_mass        = frame.translations.transpose() * statics.load;
+    const auto remainder      = static_remainder(statics.response.loads, basis, statics.load);
     reduced.static_residual   = remainder.relative;
-    reduced.outputs_under_acceleration.resize(Eigen::Index(frame.outputs.size()), load.cols());
+    reduced.outputs_under_acceleration.resize(Eigen::Index(frame.outputs.size()), statics.load.cols());
     for (std::size_t i = 0; i < frame.outputs.size(); ++i)
       reduced.outputs_under_acceleration.row(Eigen::Index(i)) =
           frame.outputs[i].on_q.transpose() * remainder.deflection;
@@ -244,6 +249,36 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   return {std::move(reduced), std::move(basis)};
 }
 
+} // namespace
+
+Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                                   const Progress &progress, const fem::RowsOnRanks *rows)
+{
+  const auto q1 = frame.interface_coordinates();
+  require_valid(frame, q1, options);
+  tell(progress, "factorisation");
+  HeldFrame held(frame, q1, rows);
+  tell(progress, "constraint modes");
+  Statics statics{basis_without_modes(held, frame, q1),
+                  frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
+                  {}};
+  statics.response = interior_response(held, statics.basis, frame.M, statics.load);
+  FixedModes fixed(held, frame, q1);
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    Reduction reduced = reduce(statics, fixed, frame, options, progress);
+    tell(progress, "count of the modes");
+    if (!fixed.confirm())
+      continue;
+    if (!fixed.statement().empty())
+      reduced.frame.notes.push_back(fixed.statement());
+    return reduced;
+  }
+  throw ConvergenceFailure(
+      "reduction: in " + std::to_string(most_rounds) +
+      " rounds some fixed-interface modes were missing each time; ask for another number of modes");
+}
+
 void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress)
 {
   const int n = int(frame.M.rows());
@@ -251,14 +286,11 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
     throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested of a frame with " +
                                 std::to_string(n) + " coordinates; ask for 0 to " + std::to_string(n));
   tell(progress, "factorisation");
-  const HeldFrame free_frame(frame, {});
+  HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  ReductionBasis basis;
-  basis.T.resize(n, 0);
-  basis.MT.resize(n, 0);
-  add_fixed_modes(basis, free_frame, frame, n_modes);
-  frame.modal_damping.Z = basis.MT;
-  frame.modal_damping.d = frame.modal_damping_ratio.modal_dampers(basis.omega0);
+  const LowestModes modes = FixedModes(free_frame, frame, {}).lowest(n_modes);
+  frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
+  frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }
 
 } // namespace gestell::coupling

@@ -1,9 +1,5 @@
 #include "coupling/reduction/enough_modes.h"
 
-#include "coupling/dense_modes.h"
-#include "coupling/integration/second_order_system.h"
-#include "coupling/reduction/lowest_modes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -24,7 +20,6 @@ constexpr double growth          = 1.5;
 constexpr double reach           = 1.5; // highest fixed-interface mode over the limit, at least
 constexpr double rule            = 3.5; // the book's
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
-constexpr int    dense_limit     = 600; // internal coordinates that are solved densely
 
 } // namespace
 
@@ -64,26 +59,6 @@ int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &r
   return high;
 }
 
-/// All modes of the held frame, densely: for few coordinates, where Krylov spaces run out of room.
-LowestModes dense_fixed_modes(const fem::FrameMatrices &frame, const std::vector<int> &q1, int n_modes)
-{
-  const int        n = int(frame.M.rows());
-  std::vector<int> q2;
-  for (int i = 0; i < n; ++i)
-    if (!std::binary_search(q1.begin(), q1.end(), i))
-      q2.push_back(i);
-  const MatrixXd M = frame.M, C = frame.C;
-  const auto     modes = dense_modes(C(q2, q2), M(q2, q2));
-  if (modes.omega.size() < n_modes)
-    throw ConvergenceFailure("fixed-interface modes: " + std::to_string(n_modes) +
-                             " asked for, but the mass matrix of the "
-                             "internal coordinates has rank " +
-                             std::to_string(modes.omega.size()) + "; ask for fewer modes");
-  LowestModes lowest{modes.omega.head(n_modes), MatrixXd::Zero(n, n_modes)};
-  lowest.V(q2, Eigen::all) = modes.V.leftCols(n_modes);
-  return lowest;
-}
-
 std::string percent(double x)
 {
   std::ostringstream out;
@@ -94,34 +69,21 @@ std::string percent(double x)
 
 } // namespace
 
-void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame, int n_modes)
-{
-  const int n2 = int(frame.M.rows()) - basis.n1(), old = basis.m();
-  if (n_modes <= old)
-    return;
-  if (n2 <= dense_limit)
-  {
-    const auto modes = dense_fixed_modes(frame, basis.q1, n_modes);
-    basis.append(frame.M, modes.V.rightCols(n_modes - old), modes.omega.tail(n_modes - old));
-    return;
-  }
-  const auto modes = held.lowest_modes(n_modes - old, basis.fixed_modes());
-  basis.append(frame.M, modes.V, modes.omega);
-}
-
-SupportedModes enough_modes(ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame,
-                            const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const InteriorResponse &response,
+                            const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
+                            std::vector<std::string> &notes)
 {
   const int n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
   {
     if (progress)
       progress("fixed-interface modes", double(m) / most);
-    add_fixed_modes(basis, held, frame, m);
+    const LowestModes modes = fixed.lowest(m);
+    basis.set_modes(frame.M, modes.V, modes.omega);
     if (progress)
       progress("error estimate", -1.);
     const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
-    SupportedModes        refined = supported_modes(held, basis, star, frame.M);
+    SupportedModes        refined = supported_modes(basis, star, response);
     const double          within  = highest_of_interest(options, refined);
     const double          error   = largest_error(frequency_estimate(star, basis.n1(), m, refined), refined, within);
     const double          highest = m > 0 ? basis.omega0(m - 1) : INFINITY;

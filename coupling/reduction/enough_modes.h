@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/frame_service.h"
+#include "coupling/reduction/fixed_modes.h"
 #include "coupling/reduction/supported_modes.h"
 
 #include <string>
@@ -8,9 +9,6 @@
 
 namespace gestell::coupling
 {
-
-/// Fixed-interface modes beyond those the basis has: appended to it.  Few coordinates are solved densely.
-void add_fixed_modes(ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame, int n_modes);
 
 /// Highest frequency of interest [rad/s]: options.frequency, or that of the twelfth elastic mode of the supported
 /// frame.
@@ -30,7 +28,8 @@ double highest_of_interest(const ReductionOptions &options, const SupportedModes
  *
  * @return the refined modes the choice rests on.
  */
-SupportedModes enough_modes(ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame,
-                            const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
+SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const InteriorResponse &response,
+                            const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
+                            std::vector<std::string> &notes);
 
 } // namespace gestell::coupling

@@ -2,6 +2,7 @@
 
 #include "coupling/reduction/free_motion.h"
 #include "coupling/reduction/team_held_frame.h"
+#include "coupling/reduction/team_search.h"
 
 #include <algorithm>
 
@@ -53,17 +54,16 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
 
 std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
-  const SparseMatrix C22 = lower_triangle_held(frame.C, q1);
   try
   {
-    auto factor = std::make_unique<SparseCholesky>(C22);
+    auto factor = std::make_unique<SparseCholesky>(frame.C, q1);
     if (factor->pivot_ratio() < suspicious_pivots)
-      require_no_free_motion(frame, q1, C22);
+      require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     return factor;
   }
   catch (const NotPositiveDefinite &failure)
   {
-    require_no_free_motion(frame, q1, C22);
+    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     refuse_indefinite(" at coordinate " + std::to_string(failure.row));
   }
 }
@@ -101,19 +101,31 @@ void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   factor_->solve_in_place(X);
 }
 
-LowestModes HeldFrame::lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const
+void HeldFrame::release()
+{
+  if (factor_)
+    factor_->release();
+}
+
+void HeldFrame::restore()
+{
+  if (factor_ && factor_->released())
+    *factor_ = SparseCholesky(frame_.C, q1_);
+}
+
+Inertia HeldFrame::below(double omega) const
 {
   if (team_)
-    return team_->lowest_modes(count, known);
-  Eigen::VectorXd held(frame_.C.rows());
-  const auto      inverse = [&](const double *f, double *x)
-  {
-    held = Eigen::Map<const Eigen::VectorXd>(f, held.size());
-    for (const int i : q1_)
-      held(i) = 0.;
-    factor_->solve(held.data(), x);
-  };
-  return coupling::lowest_modes(frame_.C, frame_.M, inverse, count, known);
+    return {team_->modes_below(omega), 1.};
+  return factor_->inertia(frame_.C, frame_.M, omega * omega);
+}
+
+std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &options, const LowestModes &known) const
+{
+  if (team_)
+    return std::make_unique<TeamSearch>(*team_, known);
+  return std::make_unique<BlockLanczos>(
+      frame_.M, [this](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(X); }, options, known);
 }
 
 Eigen::MatrixXd HeldFrame::constraint_modes() const

@@ -23,6 +23,8 @@ class TeamHeldFrame;
  * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
  * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
  *
+ * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
+ *
  * Where mpirun started several ranks the factor lies on all of them, and they find the modes together.
  */
 class HeldFrame
@@ -39,8 +41,15 @@ public:
   /// [n x n1]: E on the rows of q1, -C22^-1 C21 on those of q2.
   Eigen::MatrixXd constraint_modes() const;
 
-  /// The lowest modes of (C22 - omega^2 M22) v = 0 beyond those known, see lowest_modes().
-  LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const;
+  /// Gives the memory of the factor back; restore() makes it anew where it is not there.
+  void release();
+  void restore();
+
+  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
+  Inertia below(double omega) const;
+
+  /// For fixed-interface modes; the frame must outlive it.  @param options where one process searches.
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
 
 private:
   const fem::FrameMatrices       &frame_;

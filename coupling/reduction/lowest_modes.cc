@@ -1,16 +1,15 @@
 #include "coupling/reduction/lowest_modes.h"
 
 #include "coupling/integration/second_order_system.h"
-#include "fem/petsc_session.h"
+#include "coupling/reduction/basis.h"
 
-#include <slepceps.h>
+#include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
-#include <exception>
-#include <memory>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <vector>
 
 namespace gestell::coupling
 {
@@ -18,191 +17,259 @@ namespace gestell::coupling
 namespace
 {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-constexpr double tolerance     = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
-constexpr int    max_restarts  = 100;
-constexpr int    spare_vectors = 20; // of the Krylov space beyond the modes wanted, at least
+constexpr int    max_steps    = 1000;
+constexpr double most_numbers = 4e8;   // of the space, where no room is given
+constexpr double most_vectors = 2000;  // the same
+constexpr double broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
+constexpr double dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
+constexpr double well_apart   = 1e-6;  // the same, from which once is enough
+constexpr double sparing      = 1.05;  // growth of the space from which convergence is looked at again
+constexpr double gap          = 1e-4;  // of theta, between modes that count as apart
 
-void require_success(PetscErrorCode code)
+/// Numbers in [-1, 1), always the same for a seed.
+MatrixXd irregular(Index rows, Index columns, unsigned long &seed)
 {
-  if (code == 0)
-    return;
-  const char *text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);
-  throw ConvergenceFailure("eigenvalue solver SLEPc failed with error " + std::to_string(code) +
-                           (text ? std::string(": ") + text : std::string()));
+  MatrixXd X(rows, columns);
+  for (Index j = 0; j < columns; ++j)
+    for (Index i = 0; i < rows; ++i)
+    {
+      std::uint64_t z = (seed += 0x9E3779B97F4A7C15u);
+      z               = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+      z               = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+      X(i, j)         = std::ldexp(double((z ^ (z >> 31)) >> 11), -52) - 1.;
+    }
+  return X;
 }
 
-/// PETSc objects that destroy themselves.
-struct Destroy
+VectorXd norms(const MatrixXd &X, const MatrixXd &MX)
 {
-  void operator()(Mat x) const { MatDestroy(&x); }
-  void operator()(Vec x) const { VecDestroy(&x); }
-  void operator()(EPS x) const { EPSDestroy(&x); }
-};
-template <typename T>
-using Owned = std::unique_ptr<std::remove_pointer_t<T>, Destroy>;
-
-/// While it lives PETSc returns its errors and prints nothing.
-struct QuietErrors
-{
-  QuietErrors() { PetscPushErrorHandler(PetscReturnErrorHandler, nullptr); }
-  ~QuietErrors() { PetscPopErrorHandler(); }
-};
-
-/// What PETSc calls back: the solver, and what it threw, since exceptions must not cross C.
-struct Inverse
-{
-  const InverseStiffness *solve;
-  std::exception_ptr      failure;
-};
-
-PetscErrorCode apply_inverse(PC pc, Vec f, Vec x)
-{
-  void *context;
-  PCShellGetContext(pc, &context);
-  auto              &inverse = *static_cast<Inverse *>(context);
-  const PetscScalar *from;
-  PetscScalar       *to;
-  VecGetArrayRead(f, &from);
-  VecGetArray(x, &to);
-  PetscErrorCode code = 0;
-  try
-  {
-    (*inverse.solve)(from, to);
-  }
-  catch (...)
-  {
-    inverse.failure = std::current_exception();
-    code            = PETSC_ERR_LIB;
-  }
-  VecRestoreArray(x, &to);
-  VecRestoreArrayRead(f, &from);
-  return code;
-}
-
-/// PETSc's view of a symmetric Eigen matrix: columns read as rows, nothing copied.
-Owned<Mat> view_of(const Eigen::SparseMatrix<double> &A)
-{
-  static_assert(std::is_same<PetscInt, int>::value && std::is_same<PetscScalar, double>::value,
-                "PETSc must be built with 32-bit indices and real double numbers");
-  Mat view;
-  require_success(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.rows(), A.cols(), const_cast<int *>(A.outerIndexPtr()),
-                                            const_cast<int *>(A.innerIndexPtr()), const_cast<double *>(A.valuePtr()),
-                                            &view));
-  MatSetOption(view, MAT_SYMMETRIC, PETSC_TRUE);
-  return Owned<Mat>(view);
-}
-
-Owned<Vec> view_of(double *x, int n)
-{
-  Vec view;
-  require_success(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, x, &view));
-  return Owned<Vec>(view);
-}
-
-/// Any vector with a share of every mode that the solver's holding allows: C^-1 M x, x irregular but always the same.
-Eigen::VectorXd start_vector(const Eigen::SparseMatrix<double> &M, const InverseStiffness &inverse)
-{
-  const auto      n = M.rows();
-  Eigen::VectorXd x(n), start(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    x(i) = std::fmod(0.6180339887498949 * double(i + 1), 1.) - 0.3;
-  x = (M * x).eval();
-  inverse(x.data(), start.data());
-  return start;
-}
-
-void use_inverse(EPS eps, Inverse &inverse)
-{
-  ST  st;
-  KSP ksp;
-  PC  pc;
-  EPSGetST(eps, &st);
-  STSetType(st, STSINVERT);
-  STGetKSP(st, &ksp);
-  KSPSetType(ksp, KSPPREONLY);
-  KSPGetPC(ksp, &pc);
-  PCSetType(pc, PCSHELL);
-  PCShellSetContext(pc, &inverse);
-  PCShellSetApply(pc, apply_inverse);
-}
-
-/// Keeps the search orthogonal, in M, to the modes found before.
-void deflate(EPS eps, const Eigen::Ref<const MatrixXd> &known)
-{
-  std::vector<Owned<Vec>> views;
-  std::vector<Vec>        vectors;
-  for (Eigen::Index j = 0; j < known.cols(); ++j)
-  {
-    views.push_back(view_of(const_cast<double *>(known.col(j).data()), int(known.rows())));
-    vectors.push_back(views.back().get());
-  }
-  if (!vectors.empty())
-    require_success(EPSSetDeflationSpace(eps, int(vectors.size()), vectors.data()));
-}
-
-LowestModes read_modes(EPS eps, int count, int n)
-{
-  PetscInt found = 0;
-  EPSGetConverged(eps, &found);
-  if (found < count)
-    throw ConvergenceFailure("lowest_modes: " + std::to_string(found) + " of " + std::to_string(count) +
-                             " modes converged in " + std::to_string(max_restarts) +
-                             " restarts; ask for fewer modes, or check that the structure has that many with mass");
-  LowestModes modes{Eigen::VectorXd(count), MatrixXd(n, count)};
-  for (int j = 0; j < count; ++j)
-  {
-    PetscScalar      square;
-    const Owned<Vec> shape = view_of(modes.V.col(j).data(), n);
-    require_success(EPSGetEigenpair(eps, j, &square, nullptr, shape.get(), nullptr));
-    if (!(square > 0.))
-      throw ConvergenceFailure("lowest_modes: mode " + std::to_string(j + 1) + " has omega^2 = " +
-                               std::to_string(square) + "; the stiffness matrix must be positive definite");
-    modes.omega(j) = std::sqrt(square);
-  }
-  return modes;
+  return (X.array() * MX.array()).colwise().sum().max(0.).sqrt().matrix().transpose();
 }
 
 } // namespace
 
-LowestModes lowest_modes(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
-                         const InverseStiffness &inverse, int count, const Eigen::Ref<const MatrixXd> &known)
+BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, InverseStiffness inverse, const Options &options,
+                           const LowestModes &known)
+    : M_(M), inverse_(std::move(inverse)), options_(options), n_(M.rows()), size_(int(known.omega.size()))
 {
-  const int n = int(M.rows());
-  if (count == 0)
-    return {Eigen::VectorXd(0), MatrixXd(n, 0)};
-  fem::petsc_session();
-  const QuietErrors quiet;
+  if (options.block < 1 || !(options.tolerance > 0.))
+    throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
+                                std::to_string(options.tolerance) + "; needed are 1 or more, and above zero");
+  room_ = options.room > 0 ? options.room
+                           : int(std::min<double>({double(n_), most_vectors, most_numbers / double(n_ > 0 ? n_ : 1)}));
+  room_ = std::max(room_, size_ + 4 * options.block);
+  Q_.resize(n_, room_); // without values: memory is taken as columns are written
+  if (size_ > 0)
+    Q_.leftCols(size_) = known.V;
+  T_ = known.omega.cwiseAbs2().cwiseInverse().asDiagonal();
+  start_block();
+}
 
-  const Owned<Mat> mass = view_of(M), stiffness = view_of(C);
+/// A block of any direction orthogonal to the space; none if the space has the whole range of M.
+void BlockLanczos::start_block()
+{
+  const auto Q = Q_.leftCols(size_);
+  MatrixXd   X = irregular(n_, std::min<Index>(options_.block, n_ - size_), seed_);
+  MatrixXd   MX;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    MX                    = symmetric_product(M_, X);
+    const VectorXd before = norms(X, MX);
+    X -= Q * (Q.transpose() * MX);
+    MX = symmetric_product(M_, X);
+    if (pass == 0 && (norms(X, MX).array() <= 1e-7 * before.array()).all())
+      X.resize(n_, 0), MX.resize(n_, 0);
+  }
+  inverse_(MX); // what of it has no mass would never leave the space
+  X.swap(MX);
+  MX                   = symmetric_product(M_, X);
+  const VectorXd scale = norms(X, MX);
+  X -= Q * (Q.transpose() * MX);
+  set_next(X, symmetric_product(M_, X), scale);
+  E_       = MatrixXd::Zero(next_.cols(), size_);
+  coupled_ = size_;
+  M_last_.resize(n_, 0);
+  exhausted_ = next_.cols() == 0;
+}
 
-  EPS handle;
-  require_success(EPSCreate(PETSC_COMM_SELF, &handle));
-  const Owned<EPS> eps(handle);
-  Inverse          context{&inverse, nullptr};
-  EPSSetOperators(handle, stiffness.get(), mass.get());
-  EPSSetProblemType(handle, EPS_GHEP);
-  EPSSetType(handle, EPSKRYLOVSCHUR);
-  EPSSetWhichEigenpairs(handle, EPS_TARGET_MAGNITUDE);
-  EPSSetTarget(handle, 0.);
-  EPSSetPurify(handle, PETSC_FALSE); // one solution per mode, for directions without mass only
-  EPSSetTolerances(handle, tolerance, max_restarts);
-  EPSSetDimensions(handle, count, std::min(n, count + std::max(count, spare_vectors)), PETSC_DEFAULT);
-  use_inverse(handle, context);
-  deflate(handle, known);
+/// next_ <- orthonormal basis of W, which is orthogonal to the space but for rounding; E_ <- next_^T M W.
+void BlockLanczos::set_next(MatrixXd W, MatrixXd MW, const VectorXd &scale)
+{
+  E_ = MatrixXd::Identity(W.cols(), W.cols());
+  for (int pass = 0; pass < 4 && W.cols() > 0; ++pass)
+  {
+    const MatrixXd gram = W.transpose() * MW;
+    const VectorXd size = gram.diagonal().cwiseMax(0.).cwiseSqrt();
+    VectorXd       unit(size.size());
+    for (Index j = 0; j < size.size(); ++j)
+      unit(j) = size(j) > (pass == 0 ? broken_down * scale(j) : 0.) ? 1. / size(j) : 0.;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(unit.asDiagonal() * gram * unit.asDiagonal());
+    const VectorXd                               &lambda = scaled.eigenvalues();
+    const Index    rank = (lambda.array() > dependent).count(), dropped = lambda.size() - rank;
+    const VectorXd root = lambda.tail(rank).cwiseSqrt();
+    const MatrixXd U    = scaled.eigenvectors().rightCols(rank);
+    const MatrixXd F    = unit.asDiagonal() * U * root.cwiseInverse().asDiagonal();
+    W                   = (W * F).eval();
+    E_                  = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
+    if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
+    {
+      MW = (MW * F).eval();
+      break;
+    }
+    const auto Q = Q_.leftCols(size_); // few significant figures are left: once more
+    W -= Q * (Q.transpose() * symmetric_product(M_, W));
+    MW = symmetric_product(M_, W);
+  }
+  next_.swap(W);
+  M_next_.swap(MW);
+}
 
-  Eigen::VectorXd  start      = start_vector(M, inverse);
-  const Owned<Vec> start_view = view_of(start.data(), n);
-  Vec              starts[]   = {start_view.get()};
-  EPSSetInitialSpace(handle, 1, starts);
+void BlockLanczos::append_next()
+{
+  const int k = size_, b = int(next_.cols());
+  Q_.middleCols(k, b) = next_;
+  T_.conservativeResize(k + b, k + b);
+  T_.bottomLeftCorner(b, k)  = E_;
+  T_.topRightCorner(k, b)    = E_.transpose();
+  T_.bottomRightCorner(b, b) = MatrixXd::Zero(b, b);
+  size_ += b;
+}
 
-  const PetscErrorCode code = EPSSolve(handle);
-  if (context.failure)
-    std::rethrow_exception(context.failure);
-  require_success(code);
-  return read_modes(handle, count, n);
+void BlockLanczos::step()
+{
+  const int      k = size_, b = int(next_.cols());
+  const bool     all_coupled = coupled_ == 0 || M_last_.cols() != k - coupled_;
+  const MatrixXd M_last = std::move(M_last_), M_now = M_next_;
+  append_next();
+  MatrixXd W = M_now;
+  inverse_(W);
+  MatrixXd       MW    = symmetric_product(M_, W);
+  const VectorXd scale = norms(W, MW);
+
+  // first what couples, then what rounding left of all the others
+  const int      from        = all_coupled ? 0 : coupled_;
+  const auto     near        = Q_.middleCols(from, size_ - from);
+  const MatrixXd H           = near.transpose() * MW;
+  const MatrixXd own         = H.bottomRows(b);
+  T_.bottomRightCorner(b, b) = 0.5 * (own + own.transpose());
+  W -= near * H;
+  if (all_coupled)
+    MW = symmetric_product(M_, W);
+  else
+  {
+    MW -= M_last * H.topRows(k - from);
+    MW -= M_now * own;
+  }
+  const auto Q = Q_.leftCols(size_);
+  W -= Q * (Q.transpose() * MW);
+  set_next(W, symmetric_product(M_, W), scale);
+
+  MatrixXd E     = MatrixXd::Zero(next_.cols(), size_);
+  E.rightCols(b) = E_;
+  E_             = E;
+  coupled_       = k;
+  M_last_        = M_now;
+  if (next_.cols() == 0)
+    start_block();
+}
+
+/// The space of the `keep` best vectors, coupled to the next block as the whole was.
+void BlockLanczos::restart(int keep)
+{
+  const MatrixXd S = S_.leftCols(keep);
+  for (Index first = 0; first < n_; first += 4096) // in place, by rows
+  {
+    const Index rows                          = std::min<Index>(4096, n_ - first);
+    Q_.middleRows(first, rows).leftCols(keep) = (Q_.middleRows(first, rows).leftCols(size_) * S).eval();
+  }
+  T_    = theta_.head(keep).asDiagonal();
+  E_    = (E_ * S).eval();
+  size_ = keep;
+  M_last_.resize(n_, 0);
+  coupled_ = 0;
+}
+
+void BlockLanczos::solve_projected()
+{
+  if (size_ == 0)
+    return;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(T_);
+  theta_    = ritz.eigenvalues().reverse();
+  S_        = ritz.eigenvectors().rowwise().reverse();
+  residual_ = (E_ * S_).colwise().norm().transpose();
+}
+
+int BlockLanczos::n_found() const
+{
+  int found = 0;
+  while (found < theta_.size() && theta_(found) > 0. && residual_(found) <= options_.tolerance * theta_(found))
+    ++found;
+  return found;
+}
+
+/// Least j >= count with theta_j and theta_(j+1) apart, residuals included; -1 if there is none among those found.
+int BlockLanczos::gap_index(int count) const
+{
+  const int found = n_found();
+  for (int j = count; j <= found; ++j)
+  {
+    const double above = j > 0 ? theta_(j - 1) - residual_(j - 1) : INFINITY;
+    const double next  = j < theta_.size() ? theta_(j) + residual_(j) : exhausted_ ? 0. : INFINITY;
+    if (next < (1. - gap) * above)
+      return j;
+  }
+  return -1;
+}
+
+void BlockLanczos::find(int count)
+{
+  solve_projected();
+  for (int steps = 0; gap_index(count) < 0; ++steps)
+  {
+    if (exhausted_ || steps == max_steps)
+      throw ConvergenceFailure("lowest modes: " + std::to_string(n_found()) + " of " + std::to_string(count) +
+                               (exhausted_
+                                    ? " exist, for the mass matrix has no higher rank; ask for fewer modes"
+                                    : " converged in " + std::to_string(max_steps) +
+                                          " steps; ask for fewer modes, or look for a part that is almost loose"));
+    const int b = int(next_.cols()), needed = count + 4 * options_.block;
+    if (room_ < needed)
+    {
+      room_ = needed + 2 * options_.block;
+      Q_.conservativeResize(Eigen::NoChange, room_);
+    }
+    if (size_ + b > room_)
+    {
+      solve_projected();
+      restart(std::min(size_, std::max(count + options_.block, room_ / 2)));
+    }
+    step();
+    if (exhausted_ || size_ >= int(sparing * double(theta_.size())))
+      solve_projected();
+  }
+}
+
+LowestModes BlockLanczos::modes(int count) const
+{
+  if (count > n_found())
+    throw std::logic_error("BlockLanczos::modes: only " + std::to_string(n_found()) + " are found");
+  const VectorXd share = residual_.head(count).cwiseQuotient(theta_.head(count));
+  return {theta_.head(count).cwiseSqrt().cwiseInverse(), Q_.leftCols(size_) * S_.leftCols(count),
+          0.5 * (share.array() / (1. - share.array())).matrix()};
+}
+
+BlockLanczos::Gap BlockLanczos::gap_above(int count) const
+{
+  const int j = gap_index(count);
+  if (j < 0)
+    throw std::logic_error("BlockLanczos::gap_above: no gap is known above " + std::to_string(count) + " modes");
+  const double next = j < theta_.size() ? theta_(j) + residual_(j) : 0.;
+  return {j > 0 ? 1. / std::sqrt(theta_(j - 1) - residual_(j - 1)) : 0., next > 0. ? 1. / std::sqrt(next) : INFINITY,
+          j};
 }
 
 } // namespace gestell::coupling

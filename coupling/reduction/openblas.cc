@@ -1,5 +1,7 @@
 #include "coupling/reduction/openblas.h"
 
+#include "coupling/openblas.h"
+
 #include <dlfcn.h>
 
 #include <cstdlib>
@@ -29,6 +31,7 @@ void use_one_blas_thread()
                                 ", but Gestell needs OpenBLAS; on Debian install "
                                 "libopenblas0-pthread and choose it with: update-alternatives --config "
                                 "libblas.so.3-x86_64-linux-gnu");
+  use_fitting_blas_kernels();
   const char *wanted = std::getenv("OPENBLAS_NUM_THREADS"); // --jobs sets it
   openblas_set_num_threads(wanted && std::atoi(wanted) > 0 ? std::atoi(wanted) : 1);
 }

@@ -115,13 +115,15 @@ LowestModes SharedHeldFrame::lowest_modes(int count, const Eigen::Ref<const Eige
                              "lowest_modes: " + std::to_string(found) + " of " + std::to_string(count) +
                                  " modes converged in " + std::to_string(max_restarts) +
                                  " restarts; ask for fewer modes, or check that the structure has that many with mass");
-  LowestModes modes{Eigen::VectorXd(count), Eigen::MatrixXd(matrices_->row_of().size(), count)};
+  LowestModes modes{Eigen::VectorXd(count), Eigen::MatrixXd(matrices_->row_of().size(), count), Eigen::VectorXd(count)};
   for (int j = 0; j < count; ++j)
   {
     double square = 0.;
     require_petsc(EPSGetEigenpair(handle, j, &square, nullptr, shape.get(), nullptr), "lowest_modes");
     require_positive(square, j + 1);
     modes.omega(j) = std::sqrt(square);
+    EPSGetErrorEstimate(handle, j, &modes.bound(j)); // of 1 / omega^2, relative
+    modes.bound(j) *= 0.5;
     matrices_->collect(shape.get(), modes.V.col(j).data());
   }
   return modes;

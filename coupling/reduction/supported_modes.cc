@@ -33,10 +33,10 @@ MatrixXd pseudo_inverse(const MatrixXd &S)
 
 } // namespace
 
-SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basis, const ReducedMatrices &star,
-                               const Eigen::SparseMatrix<double> &M)
+SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
+                               const InteriorResponse &response)
 {
-  const int        n1   = basis.n1();
+  const int        n1 = basis.n1(), m = basis.m();
   const DenseModes ritz = dense_modes(star.C, star.M, cancelled);
 
   SupportedModes modes;
@@ -44,18 +44,25 @@ SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basi
   const auto     elastic = ritz.omega.size() - modes.n_rigid;
   const MatrixXd Phi_r = ritz.V.leftCols(modes.n_rigid), Phi_e = ritz.V.rightCols(elastic);
 
-  // Y = C^-1 M T Phi
-  MatrixXd       Y     = basis.MT * Phi_e;
-  const MatrixXd Psi_F = basis.constraint_modes().transpose() * Y;
-  const MatrixXd on_q1 = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * Psi_F;
-  held.solve_in_place(Y);
-  Y += basis.constraint_modes() * on_q1;
-  if (modes.n_rigid > 0)
-    Y -= basis.T * (Phi_r * (Phi_r.transpose() * (basis.MT.transpose() * Y)));
+  // [T, X]^T M [T, X]
+  MatrixXd gram(n1 + m + n1, n1 + m + n1);
+  gram.topLeftCorner(n1 + m, n1 + m) = star.M;
+  gram.topRightCorner(n1 + m, n1)    = basis.MT.transpose() * response.X;
+  gram.bottomLeftCorner(n1, n1 + m)  = gram.topRightCorner(n1 + m, n1).transpose();
+  gram.bottomRightCorner(n1, n1)     = response.XMX;
+  const auto TM                      = gram.topRows(n1 + m);
 
-  const MatrixXd   P       = basis.MT.transpose() * Y; // T^T M Y
+  // Y = C^-1 M T Phi = [T, X] y
+  MatrixXd y(n1 + m + n1, elastic);
+  y.topRows(n1)       = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * (star.M.topRows(n1) * Phi_e);
+  y.middleRows(n1, m) = basis.omega0.cwiseAbs2().cwiseInverse().asDiagonal() * Phi_e.bottomRows(m);
+  y.bottomRows(n1)    = Phi_e.topRows(n1);
+  if (modes.n_rigid > 0)
+    y.topRows(n1 + m) -= Phi_r * (Phi_r.transpose() * (TM * y));
+
+  const MatrixXd   P       = TM * y; // T^T M Y
   const MatrixXd   YCY     = P.transpose() * Phi_e;
-  const MatrixXd   YMY     = Y.transpose() * symmetric_product(M, Y);
+  const MatrixXd   YMY     = y.transpose() * gram * y;
   const DenseModes refined = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
   modes.omega              = refined.omega;
   modes.P                  = P * refined.V;

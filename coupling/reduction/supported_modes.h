@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/reduction/basis.h"
-#include "coupling/reduction/held_frame.h"
+#include "coupling/reduction/interior_response.h"
 
 #include <Eigen/Core>
 
@@ -20,6 +20,9 @@ namespace gestell::coupling
  *
  *     C^-1 f = (0; C22^-1 f2) + Psi S^-1 Psi^T f,     S = C*_11 = C11 - C12 C22^-1 C21  [n1 x n1].
  *
+ * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of InteriorResponse: all of it takes
+ * place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
+ *
  * If the frame floats, S has its rigid motions as null space; they are exact in the reduced model and left out here.
  */
 struct SupportedModes
@@ -29,8 +32,8 @@ struct SupportedModes
   Eigen::MatrixXd P;     // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
 };
 
-SupportedModes supported_modes(const HeldFrame &held, const ReductionBasis &basis, const ReducedMatrices &star,
-                               const Eigen::SparseMatrix<double> &M);
+SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
+                               const InteriorResponse &response);
 
 /// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
 struct FrequencyEstimate

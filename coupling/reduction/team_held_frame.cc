@@ -10,7 +10,7 @@ namespace gestell::coupling
 
 TeamHeldFrame::TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1,
                              const fem::RowsOnRanks *rows)
-    : team_(team), number_(Team::next_number())
+    : team_(team), n_(int(frame.C.rows())), n_free_(n_ - int(q1.size())), number_(Team::next_number())
 {
   require_work_for_all(team, frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows()),
                        frame.n_cells > 0 ? "cells" : "coordinates");

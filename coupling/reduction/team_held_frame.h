@@ -19,6 +19,9 @@ public:
   TeamHeldFrame(const TeamHeldFrame &)            = delete;
   TeamHeldFrame &operator=(const TeamHeldFrame &) = delete;
 
+  int n() const { return n_; }           ///< coordinates
+  int n_free() const { return n_free_; } ///< internal ones
+
   /// See SharedHeldFrame.
   bool        positive() const { return shared_->positive(); }
   double      softest() const { return shared_->softest(); }
@@ -28,6 +31,7 @@ public:
 
 private:
   const Team            &team_;
+  int                    n_, n_free_;
   int                    number_; // of the frame, on all ranks
   const SharedHeldFrame *shared_ = nullptr;
 };

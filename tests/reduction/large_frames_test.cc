@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using test::frame_of;
 using test::Lattice;
 
-/// 1200 coordinates: too many for the dense way, so that SLEPc does the work.
+/// 1200 coordinates: too many for the dense way, so that block Lanczos does the work.
 fem::FrameMatrices large_frame()
 {
   Lattice lattice;

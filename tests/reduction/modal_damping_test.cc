@@ -171,7 +171,7 @@ TEST(AutomaticNumber, TellsWhereItStopsShort)
   Lattice lattice;
   lattice.nx = 9, lattice.ny = 5, lattice.nz = 9;
   const auto reduced = craig_bampton(frame_of(lattice), options);
-  ASSERT_EQ(reduced.notes.size(), 1u);
+  ASSERT_EQ(reduced.notes.size(), 2u); // the second tells that no mode is missing
   EXPECT_NE(reduced.notes[0].find("above the tolerance"), std::string::npos) << reduced.notes[0];
 }
 

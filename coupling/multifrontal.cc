@@ -1,0 +1,315 @@
+#include "coupling/multifrontal.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+extern "C"
+{
+  void dpotrf_(const char *uplo, const int *n, double *A, const int *lda, int *info);
+  void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
+              const double *alpha, const double *A, const int *lda, double *B, const int *ldb);
+  void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *A,
+              const int *lda, const double *beta, double *C, const int *ldc);
+  void dgemm_(const char *transa, const char *transb, const int *m, const int *n, const int *k, const double *alpha,
+              const double *A, const int *lda, const double *B, const int *ldb, const double *beta, double *C,
+              const int *ldc);
+}
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using std::ptrdiff_t;
+
+constexpr int    block = 64; // columns factored at once where pivots may be negative
+constexpr double one = 1., minus_one = -1., two = 2., zero = 0.;
+
+/// The rows of a contribution, as places in the front that takes it, cut into runs without gaps.
+struct Run
+{
+  int from, to, length;
+};
+
+class Elimination
+{
+public:
+  Elimination(const Fronts &fronts, const HeldMatrix &A)
+      : fronts_(fronts), A_(A), place_of_(fronts.n), local_(fronts.n), parent_(fronts.count, -1)
+  {
+    std::vector<int> front_of(fronts.n);
+    for (int s = 0; s < fronts.count; ++s)
+      for (int k = fronts.first[s]; k < fronts.first[s + 1]; ++k)
+        place_of_[fronts.order[k]] = k, front_of[k] = s;
+    for (int s = 0; s < fronts.count; ++s)
+      if (below(s) > 0)
+        parent_[s] = front_of[fronts.rows[fronts.begin[s] + width(s)]];
+    stack_.reset(new double[stack_size()]); // without values: pages are taken as they are reached
+  }
+
+  /// L, or the coordinate of the first pivot that is not positive.
+  int cholesky(double *L)
+  {
+    for (int s = 0; s < fronts_.count; ++s)
+    {
+      double *panel = L + fronts_.place[s];
+      assemble(s, panel);
+      int       info = 0;
+      const int h = height(s), w = width(s);
+      dpotrf_("L", &w, panel, &h, &info);
+      if (info > 0)
+        return fronts_.order[fronts_.first[s] + info - 1];
+      divide_and_pass_on(s, panel);
+    }
+    return -1;
+  }
+
+  Inertia inertia()
+  {
+    Inertia             result;
+    std::vector<double> panel, kept;
+    growth_.assign(fronts_.n, 0.);
+    for (int s = 0; s < fronts_.count; ++s)
+    {
+      const int h = height(s), w = width(s);
+      panel.resize(std::max<std::size_t>(panel.size(), std::size_t(h) * w));
+      assemble(s, panel.data());
+      int info = 0;
+      kept.resize(ptrdiff_t(w) * w);
+      copy_block(panel.data(), h, kept.data(), w, w);
+      dpotrf_("L", &w, panel.data(), &h, &info);
+      if (info == 0)
+      {
+        divide_and_pass_on(s, panel.data());
+        continue;
+      }
+      copy_block(kept.data(), w, panel.data(), h, w);
+      result.negative += factor_with_signs(s, panel.data());
+    }
+    for (int k = 0; k < fronts_.n; ++k)
+    {
+      const int i = fronts_.order[k];
+      if (growth_[k] > 0.)
+        result.growth = std::max(result.growth, 1. + growth_[k] / std::abs(A_.C.coeff(i, i)));
+    }
+    return result;
+  }
+
+private:
+  int width(int s) const { return fronts_.first[s + 1] - fronts_.first[s]; }
+  int height(int s) const { return fronts_.begin[s + 1] - fronts_.begin[s]; }
+  int below(int s) const { return height(s) - width(s); }
+
+  ptrdiff_t contribution_size(int s) const { return ptrdiff_t(below(s)) * below(s); }
+
+  /// Most numbers that lie on the stack at a time: what waits, and the contribution in the making above it.
+  ptrdiff_t stack_size() const
+  {
+    ptrdiff_t              now = 0, most = 1;
+    std::vector<ptrdiff_t> waiting(fronts_.count, 0);
+    for (int s = 0; s < fronts_.count; ++s)
+    {
+      most = std::max(most, now + contribution_size(s));
+      now += contribution_size(s) - waiting[s];
+      if (parent_[s] >= 0)
+        waiting[parent_[s]] += contribution_size(s);
+    }
+    return most;
+  }
+
+  static void copy_block(const double *from, int from_height, double *to, int to_height, int w)
+  {
+    for (int j = 0; j < w; ++j)
+      std::copy_n(from + ptrdiff_t(j) * from_height + j, w - j, to + ptrdiff_t(j) * to_height + j);
+  }
+
+  /// Entries of A in the columns of a front, and what earlier fronts pass on to it.
+  void assemble(int s, double *panel)
+  {
+    const int h = height(s), w = width(s), r = below(s);
+    std::fill_n(panel, ptrdiff_t(h) * w, 0.);
+    for (int i = 0; i < h; ++i)
+      local_[fronts_.rows[fronts_.begin[s] + i]] = i;
+    for (int k = fronts_.first[s]; k < fronts_.first[s + 1]; ++k)
+      add_column(k, panel + ptrdiff_t(k - fronts_.first[s]) * h);
+
+    top_                = waiting_.empty() ? stack_.get() : waiting_.back().end;
+    contribution_       = top_;
+    contribution_is_set = false;
+    while (!waiting_.empty() && parent_[waiting_.back().front] == s)
+    {
+      if (!contribution_is_set)
+        for (int j = 0; j < r; ++j)
+          std::memset(contribution_ + ptrdiff_t(j) * r + j, 0, sizeof(double) * (r - j));
+      contribution_is_set = true;
+      add_contribution(waiting_.back().front, waiting_.back().begin, panel, h, w);
+      top_ = waiting_.back().begin;
+      waiting_.pop_back();
+    }
+  }
+
+  void add_column(int k, double *column) const
+  {
+    const int i = fronts_.order[k];
+    if (!A_.held.empty() && A_.held[i])
+    {
+      column[local_[k]] = A_.held_diagonal;
+      return;
+    }
+    add_column(A_.C, 1., i, k, column);
+    if (A_.M)
+      add_column(*A_.M, -A_.sigma, i, k, column);
+  }
+
+  void add_column(const Eigen::SparseMatrix<double> &X, double factor, int i, int k, double *column) const
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator x(X, i); x; ++x)
+      if (const int row = place_of_[x.row()]; row >= k && (A_.held.empty() || !A_.held[x.row()]))
+        column[local_[row]] += factor * x.value();
+  }
+
+  void add_contribution(int child, const double *from, double *panel, int h, int w)
+  {
+    const int  rc = below(child), r = h - w;
+    const int *rows = fronts_.rows + fronts_.begin[child] + width(child);
+    runs_.clear();
+    for (int i = 0; i < rc; ++i)
+      if (const int to = local_[rows[i]]; !runs_.empty() && runs_.back().to + runs_.back().length == to)
+        ++runs_.back().length;
+      else
+        runs_.push_back({i, to, 1});
+    std::size_t first = 0;
+    for (int j = 0; j < rc; ++j)
+    {
+      while (runs_[first].from + runs_[first].length <= j)
+        ++first;
+      const int     column = runs_[first].to + j - runs_[first].from;
+      double       *to     = column < w ? panel + ptrdiff_t(column) * h : contribution_ + ptrdiff_t(column - w) * r - w;
+      const double *values = from + ptrdiff_t(j) * rc;
+      for (std::size_t run = first; run < runs_.size(); ++run)
+      {
+        const auto &[at, place, length] = runs_[run];
+        const int begin = std::max(at, j), shift = place - at;
+        for (int i = begin; i < at + length; ++i)
+          to[i + shift] += values[i];
+      }
+    }
+  }
+
+  /// L21 = A21 L11^-T, and the contribution -L21 L21^T.
+  void divide_and_pass_on(int s, double *panel)
+  {
+    const int h = height(s), w = width(s), r = below(s);
+    if (r == 0)
+      return;
+    dtrsm_("R", "L", "T", "N", &r, &w, &one, panel, &h, panel + w, &h);
+    dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, contribution_is_set ? &one : &zero, contribution_, &r);
+    pass_on(s);
+  }
+
+  /// The contribution is moved down to where those it was made of lay.
+  void pass_on(int s)
+  {
+    const auto size = contribution_size(s);
+    if (top_ != contribution_)
+      std::memmove(top_, contribution_, sizeof(double) * size);
+    waiting_.push_back({s, top_, top_ + size});
+  }
+
+  /// A11 = L11 S L11^T, S = diag(+-1), by blocks; L21 and the contribution -L21 S L21^T.  Counts what is negative.
+  int factor_with_signs(int s, double *panel)
+  {
+    const int           h = height(s), w = width(s), r = below(s);
+    std::vector<double> sign(w), signed_rows;
+    for (int k0 = 0; k0 < w; k0 += block)
+    {
+      const int k1 = std::min(w, k0 + block), columns = k1 - k0, rest = h - k1, right = w - k1;
+      double   *corner = panel + k0 + ptrdiff_t(k0) * h, *lower = corner + columns;
+      factor_corner(corner, h, columns, sign.data() + k0);
+      if (rest == 0)
+        break;
+      dtrsm_("R", "L", "T", "N", &rest, &columns, &one, corner, &h, lower, &h);
+      for (int j = 0; j < columns; ++j)
+        if (sign[k0 + j] < 0.)
+          for (int i = 0; i < rest; ++i)
+            lower[i + ptrdiff_t(j) * h] = -lower[i + ptrdiff_t(j) * h];
+      if (right == 0)
+        continue;
+      signed_rows.resize(ptrdiff_t(right) * columns);
+      for (int j = 0; j < columns; ++j)
+        for (int i = 0; i < right; ++i)
+          signed_rows[i + ptrdiff_t(j) * right] = sign[k0 + j] * lower[i + ptrdiff_t(j) * h];
+      dgemm_("N", "T", &rest, &right, &columns, &minus_one, lower, &h, signed_rows.data(), &right, &one,
+             panel + k1 + ptrdiff_t(k1) * h, &h);
+    }
+    std::vector<double> turned; // columns of L21 whose sign is negative
+    int                 negative = 0;
+    for (int j = 0; j < w; ++j)
+      if (sign[j] < 0.)
+      {
+        ++negative;
+        const double *column = panel + ptrdiff_t(j) * h;
+        turned.insert(turned.end(), column + w, column + h);
+        for (int i = j; i < h; ++i)
+          growth_[fronts_.rows[fronts_.begin[s] + i]] += 2. * column[i] * column[i];
+      }
+    if (r == 0)
+      return negative;
+    dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, contribution_is_set ? &one : &zero, contribution_, &r);
+    if (negative > 0)
+      dsyrk_("L", "N", &r, &negative, &two, turned.data(), &r, &one, contribution_, &r);
+    pass_on(s);
+    return negative;
+  }
+
+  static void factor_corner(double *corner, int h, int columns, double *sign)
+  {
+    for (int j = 0; j < columns; ++j)
+    {
+      double      *column = corner + ptrdiff_t(j) * h;
+      const double pivot  = column[j] != 0. ? column[j] : std::numeric_limits<double>::min();
+      sign[j]             = pivot > 0. ? 1. : -1.;
+      column[j]           = std::sqrt(std::abs(pivot));
+      for (int i = j + 1; i < columns; ++i)
+        column[i] *= sign[j] / column[j];
+      for (int c = j + 1; c < columns; ++c)
+        for (int i = c; i < columns; ++i)
+          corner[i + ptrdiff_t(c) * h] -= sign[j] * column[i] * column[c];
+    }
+  }
+
+  struct Waiting
+  {
+    int     front;
+    double *begin, *end;
+  };
+
+  const Fronts             &fronts_;
+  const HeldMatrix         &A_;
+  std::vector<int>          place_of_, local_, parent_;
+  std::unique_ptr<double[]> stack_;
+  std::vector<Waiting>      waiting_;
+  double                   *top_ = nullptr, *contribution_ = nullptr;
+  bool                      contribution_is_set = false;
+  std::vector<Run>          runs_;
+  std::vector<double>       growth_;
+};
+
+} // namespace
+
+int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A, double *L)
+{
+  return Elimination(fronts, A).cholesky(L);
+}
+
+Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A)
+{
+  return Elimination(fronts, A).inertia();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Fronts of a symmetric matrix: groups of columns of its factor L that share their rows (CHOLMOD's supernodes), every
+/// one after those that contribute to it (postorder).
+struct Fronts
+{
+  int        n = 0, count = 0;
+  const int *first = nullptr; // [count + 1] columns of front s are first[s] .. first[s + 1] - 1
+  const int *begin = nullptr; // [count + 1] into rows
+  const int *rows  = nullptr; // of front s: ascending, its own columns first
+  const int *place = nullptr; // [count + 1] of its panel, rows x columns, in the numbers of L
+  const int *order = nullptr; // [n] coordinate of the matrix at place k
+};
+
+/// A = C - sigma M with the coordinates `held` cut off: their rows and columns are zero but for the diagonal.
+struct HeldMatrix
+{
+  const Eigen::SparseMatrix<double> &C;               // both triangles stored
+  const Eigen::SparseMatrix<double> *M     = nullptr; // the same; none: A = C
+  double                             sigma = 0.;
+  std::vector<char>                  held; // [n] or empty
+  double                             held_diagonal = 1.;
+};
+
+/**
+ * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
+ * the fronts before it, is factored densely, and passes its contribution on.
+ *
+ * @param L  room for the panels of the fronts.
+ * @return   -1, or the coordinate whose pivot is not positive.
+ *
+ * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.
+ */
+int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A, double *L);
+
+/// Signs of D in A = L D L^T, D diagonal.
+struct Inertia
+{
+  int negative = 0; ///< eigenvalues of A below zero (Sylvester)
+  /// Largest diagonal entry of L |D| L^T over that of C: what rounding is magnified by, as pivots are taken as they
+  /// come.
+  double growth = 1.;
+};
+
+/**
+ * Inertia of an indefinite A by the same way with pivots of any sign; nothing of L is kept.
+ *
+ * What is counted is the inertia of A + E, |E| ~ growth * eps * diag(C).  Where growth is far beyond 1 / sqrt(eps) a
+ * pivot came close to zero, and another sigma should be taken.
+ */
+Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A);
+
+} // namespace gestell::coupling

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "coupling/reduction/basis.h"
+#include "coupling/reduction/held_frame.h"
+#include "coupling/reduction/lowest_modes.h"
+
+#include <memory>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * Fixed-interface modes of a frame, as many as are asked for, and the proof that none of them is missing.
+ *
+ * A search by Krylov spaces may pass over a mode, above all one of several with the same frequency, and cannot know it.
+ * The number of negative eigenvalues of C22 - omega^2 M22 can: it is the number of modes below omega (Sylvester's law
+ * of inertia).  confirm() takes it in a gap above the modes asked for; where the search has found fewer, it goes on,
+ * orthogonal to the modes known, until it has them all.
+ *
+ * Few internal coordinates (600) are solved densely, which yields all modes there are.
+ */
+class FixedModes
+{
+public:
+  /// Both must outlive this; the frame's factor may be released while nothing is searched for.
+  FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
+             const BlockLanczos::Options &options = {});
+
+  /// The lowest `count`, 0 <= count <= internal coordinates.
+  /// @throws ConvergenceFailure with the number found.
+  LowestModes lowest(int count);
+
+  /**
+   * Whether the modes last asked for are all there are up to the highest of them.
+   *
+   * If not, those that are missing have been found (lowest() now has them), and the frame's factor is restored; what
+   * was made of the modes must be made anew.  Releases the factor, and the search's memory, to count.
+   *
+   * @throws ConvergenceFailure if the inertia cannot be told, or what is missing not found.
+   */
+  bool confirm();
+
+  /// What was proved, as a sentence; empty before confirm(), and where nothing had to be.
+  const std::string &statement() const { return statement_; }
+
+private:
+  Inertia count_in(const ModeSearch::Gap &gap, double &omega) const;
+  void    look_for(const LowestModes &known, int count, int block);
+  void    look_for_missing(LowestModes known, int count, double omega);
+
+  HeldFrame                  &held_;
+  const fem::FrameMatrices   &frame_;
+  std::vector<int>            q2_;
+  BlockLanczos::Options       options_;
+  int                         wanted_ = 0;
+  bool                        dense_;
+  LowestModes                 all_; // if dense
+  std::unique_ptr<ModeSearch> search_;
+  std::string                 statement_;
+};
+
+} // namespace gestell::coupling

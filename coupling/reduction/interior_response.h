@@ -1,0 +1,31 @@
+#pragma once
+
+#include "coupling/reduction/basis.h"
+#include "coupling/reduction/held_frame.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/**
+ * Deflection of the inside, the interface held, under what does not depend on the modes kept: the inertia forces of the
+ * constraint modes and given loads.
+ *
+ *     X = C22^-1 (M Psi)_2     [n x n1], zero on q1
+ *
+ * With V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)]: a round of inverse iteration for all Ritz vectors of
+ * the reduced model costs no solution but these n1.
+ */
+struct InteriorResponse
+{
+  Eigen::MatrixXd X;
+  Eigen::MatrixXd XMX;   // X^T M X [n1 x n1]
+  Eigen::MatrixXd loads; // C22^-1 f2 [n x k]
+};
+
+/// @param loads f [n x k]; its part on q1 has no meaning here.
+InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &basis,
+                                   const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
+
+} // namespace gestell::coupling
