@@ -109,6 +109,10 @@ CLI::App *add_modes(CLI::App &program, CommonOptions &options, ModesCommandOptio
   command->add_option("--frequencies", modes.frequencies, "lowest elastic ones of the frame to converge (default 4)")
       ->needs(converge)
       ->check(above_zero());
+  command
+      ->add_option("--watch", modes.watch, "what is to converge: all, or frequencies without compliances (default all)")
+      ->needs(converge)
+      ->check(CLI::IsMember({"all", "frequencies"}));
   command->add_option("--max-coordinates", modes.max_coordinates, "of the finest mesh (default 1000000)")
       ->needs(converge)
       ->check(above_zero());
@@ -173,6 +177,13 @@ int run_program(int argc, char **argv)
   mesher->add_option("--size", mesh.size, "element size, such as \"80 mm\"");
   mesher->add_option("--unit", mesh.unit, "length unit of a file without one, such as \"1 mm\"");
   mesher->add_option("--max-cells", mesh.max_cells, "refuse a mesh of more elements")->check(above_zero());
+  mesher->add_option("--gap", mesh.gap, "join solids at most that far apart, such as \"0.1 mm\"");
+  mesher->add_option("--bodies", mesh.bodies, "number of bodies expected that do not hang together")
+      ->check(CLI::PositiveNumber);
+  mesher->add_option("--overlaps", mesh.overlaps, "refused, or once: a common part of solids belongs to the first")
+      ->check(CLI::IsMember({"refused", "once"}));
+  mesher->add_option("--defeature", mesh.defeature, "remove faces and edges smaller than this, such as \"2 mm\"");
+  mesher->add_flag("--selectors", mesh.selectors, "write surfaces as entries [frame.surface.NAME] of a scene");
 
   StabilityCommandOptions stability_options;
   CLI::App               *stability = add_stability(program, options, stability_options);

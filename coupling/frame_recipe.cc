@@ -155,10 +155,15 @@ public:
   }
   void add(const std::string &name, const fem::MeshOptions &value)
   {
-    const auto &[size, surface_size, max_cells, place] = value;
+    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, place] = value;
     add(name + ".size", size);
     add(name + ".surface", surface_size);
     add(name + ".max_cells", max_cells);
+    add(name + ".gap", gap);
+    add(name + ".bodies", bodies);
+    add(name + ".defeature", defeature);
+    add(name + ".overlaps", overlaps);
+    add(name + ".curved", curved);
   }
   void add(const fem::FrameSpecification &value)
   {
@@ -248,7 +253,7 @@ public:
 
   void add(const ReductionOptions &value)
   {
-    const auto &[n_modes, tolerance, frequency, place] = value;
+    const auto &[n_modes, tolerance, frequency, place, inner, inertia_relief] = value;
     if (n_modes >= 0)
       add("reduction.modes", n_modes);
     else
@@ -256,6 +261,8 @@ public:
       add("reduction.tolerance", tolerance);
       add("reduction.frequency", frequency);
     }
+    add("reduction.inside", inner);
+    add("reduction.inertia relief", inertia_relief);
   }
 
   Recipe finished()

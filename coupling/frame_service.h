@@ -12,32 +12,27 @@
 namespace gestell::coupling
 {
 
+/// The modes that describe the inside of a frame beside the static shapes of its interface.
+enum class InnerModes
+{
+  interface_held, ///< Craig & Bampton
+  interface_free  ///< of the frame as supported: MacNeal, Rubin
+};
+
 struct ReductionOptions
 {
   int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
   double      tolerance = 0.01; ///< relative error of the frequencies up to `frequency` (automatic number)
   double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
   std::string place;            ///< "press.toml:60: reduction", heads messages
+  InnerModes  inner          = InnerModes::interface_held;
+  bool        inertia_relief = false; ///< with the deflections under the inertia of rigid motions beside the modes
 };
 
 /// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
 using Progress = std::function<void(const std::string &phase, double share)>;
 
-struct SurfaceReport
-{
-  int                   tag;
-  std::string           name, type;
-  double                area; ///< [m^2]
-  std::array<double, 3> min, max, centre;
-};
-
-struct MeshReport
-{
-  int                        n_points = 0, n_cells = 0, n_coordinates = 0;
-  double                     volume = 0., mass = 0., worst_quality = 0.;
-  std::vector<std::string>   solids;
-  std::vector<SurfaceReport> surfaces;
-};
+struct MeshReport; // coupling/mesh_report.h
 
 /**
  * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame

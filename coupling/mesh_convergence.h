@@ -12,6 +12,7 @@ struct ConvergenceOptions
 {
   double tolerance       = 0.01; ///< relative error allowed in every quantity, > 0
   int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
+  bool   compliances     = true; ///< of all interfaces are watched, too
   int    max_coordinates = 1000000;
   int    max_meshes      = 6; ///< >= 2
 };

@@ -29,9 +29,11 @@ struct Extrapolated
  *
  * r is known in two ways: from the estimator, r = estimate_m / estimate_(m-1), which needs two meshes and holds if it
  * is wrong by the same factor on both; and from three meshes, by the k that fits error = c n^(-k) to their values,
- * r = (n_(m-1) / n_m)^k.  Three meshes give the limit by the second way, uncertain by the difference to the first and
- * by at least half of the correction; two meshes the first way, uncertain by the whole step; one mesh its own
- * estimate, uncertain by all of it.
+ * r = (n_(m-1) / n_m)^k.  Three meshes give the limit by the second way, uncertain by the difference to the first, or
+ * from four meshes on to the limit of the three before, and by at least half of the correction; two meshes the first
+ * way, uncertain by the whole step; one mesh its own estimate, uncertain by all of it.  Values that settle faster than
+ * any k up to 4 were far from their order on the first of three meshes: the rest is taken with k = 1, all of it
+ * doubted.
  *
  * @param meshes  at least one, of growing n; values not zero.
  * @throws std::invalid_argument if there is none.

@@ -16,6 +16,15 @@ public:
   virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;
 
+  /// Meshes and assembles for a frame that is not reduced; the error of its mesh is told by the reduced one beside it.
+  struct Unreduced
+  {
+    fem::FrameMatrices matrices;
+    ReducedFrame       reduced;
+  };
+  virtual Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                             const Progress &progress) = 0;
+
   /// Refines the mesh until frequencies and compliances are within a tolerance, see converge_mesh().
   virtual MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
                                    const ConvergenceOptions &options, const Progress &progress) = 0;

@@ -33,6 +33,8 @@ constexpr double settled_at = 10.;                     ///< [s] a step so long i
 constexpr double settled    = 1e-7;                    ///< its motion, against the size of q
 constexpr double push       = 0.01;                    ///< [m, rad] off an unstable equilibrium
 
+constexpr double cancelled = 1e-10; ///< share of an energy that is rounding: motions of a reduced frame that cost none
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -53,8 +55,48 @@ class Equilibrium
 public:
   Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr)
       : machine_(machine), balance_(machine, from, held), n_(machine.size()), q_(from.q),
-        lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine))
+        lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine)), floating_(n_, 0), inertia_(n_, 0)
   {
+  }
+
+  /// From now on the inertia takes the loads along motions that nothing holds.
+  void relieve()
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd K = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
+    const MatrixXd Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    if (Z.cols() == 0)
+      return;
+    const DenseModes modes = dense_modes(Z.transpose() * K * Z, Z.transpose() * M_ * Z, cancelled);
+    const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
+    floating_              = Z * modes.V.leftCols(n); // first, for omega ascends; what grows is no free motion
+    if (modes.growth.head(n).any())
+      floating_.resize(n_, 0);
+    inertia_ = M_ * floating_;
+  }
+
+  /// Tells the acceleration of a machine that floats.
+  void tell_relief()
+  {
+    if (floating_.cols() == 0)
+      return;
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd loads        = machine_.translation_loads();
+    const MatrixXd translations = floating_.transpose() * loads; // R^T M of unit translations: their squares are masses
+    const VectorXd acceleration = -floating_.transpose() * residual.head(n_);
+    std::ostringstream text;
+    text << "nothing holds the machine in " << floating_.cols() << (floating_.cols() == 1 ? " motion" : " motions")
+         << "; its inertia takes the loads along them, with a mean acceleration of [" << std::setprecision(4);
+    for (int d = 0; d < 3; ++d)
+    {
+      const double mass = translations.col(d).squaredNorm();
+      text << (d > 0 ? ", " : "") << (mass > 0. ? translations.col(d).dot(acceleration) / mass : 0.);
+    }
+    notes_.push_back(text.str() + "] m/s^2");
   }
 
   const VectorXd           &q() const { return q_; }
@@ -77,7 +119,7 @@ public:
       return;
     }
     const VectorXd unstable = q_;
-    if (balance_.holds() || !relax(begin))
+    if (balance_.holds() || floating_.cols() > 0 || !relax(begin))
       no_equilibrium(found);
     else if (found && largest(q_ - unstable) > stays)
       notes_.push_back("the equilibrium next to the position of the start is unstable, the motion of " +
@@ -122,14 +164,26 @@ private:
     std::ostringstream message;
     if (!loose_.empty())
       message << "there is no static equilibrium: the motion of " << loose_
-              << " has neither stiffness nor weight that holds it here; hold it, start from another position, or with "
-                 "rule = \"given\"";
+              << " has neither stiffness nor weight that holds it here; hold it, start from another position, with "
+                 "inertia_relief = true if it is to accelerate as a whole, or with rule = \"given\"";
     else
       message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the position of the start, "
               << (balance_.holds() ? "even with the loads put on in " + std::to_string(most_parts) + " parts"
                                    : std::string("nor does the machine settle in one when it is let go from there"))
               << "; give a better position, or start with rule = \"given\"";
     throw std::invalid_argument(message.str());
+  }
+
+  /// The equations of statics, of a machine that floats with its inertia.
+  void evaluate(double share, MatrixXd &saddle, VectorXd &residual)
+  {
+    balance_.evaluate(q_, lambda_, share, saddle, residual);
+    if (floating_.cols() == 0)
+      return;
+    residual.head(n_) -= inertia_ * (floating_.transpose() * residual.head(n_));
+    // Springs against motions along which nothing acts any more: they carry no force, but make the matrix regular.
+    const double spring = saddle.topLeftCorner(n_, n_).trace() / M_.trace();
+    saddle.topLeftCorner(n_, n_) += spring * inertia_ * inertia_.transpose();
   }
 
   bool newton_in_parts(const VectorXd &begin)
@@ -197,7 +251,7 @@ private:
     double   before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < most_iterations; ++k)
     {
-      balance_.evaluate(q_, lambda_, share, saddle, residual);
+      evaluate(share, saddle, residual);
       const VectorXd delta = solution(saddle, -residual);
       if (!delta.allFinite())
         return false;
@@ -348,19 +402,23 @@ private:
   int                      n_;
   VectorXd                 q_, lambda_;
   MatrixXd                 M_;
-  std::string              loose_; ///< coordinate along which an unbalanced force finds no stiffness
+  MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R
+  std::string              loose_;              ///< coordinate along which an unbalanced force finds no stiffness
   std::vector<std::string> notes_;
 };
 
 } // namespace
 
-InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift)
+InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift, Floating floating)
 {
   if (machine.full_frame())
     throw std::invalid_argument(
         "a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
   Equilibrium equilibrium(machine, assembled);
+  if (floating == Floating::relieved)
+    equilibrium.relieve();
   equilibrium.solve();
+  equilibrium.tell_relief();
   InitialState state = assembled;
   state.q            = equilibrium.q();
   state.v            = drift == Drift::quasistatic ? equilibrium.drift() : Eigen::VectorXd::Zero(machine.size()).eval();

@@ -11,6 +11,13 @@ enum class Drift
   quasistatic ///< with the velocity at which the equilibrium moves along with prescribed motions
 };
 
+/// What becomes of loads along motions that nothing holds: those of a vehicle without its wheels, of a satellite.
+enum class Floating
+{
+  refused, ///< there is no equilibrium, unless no force acts along them
+  relieved ///< the inertia of the machine takes them
+};
+
 /**
  * Static equilibrium near an assembled position:
  *
@@ -20,9 +27,17 @@ enum class Drift
  * in parts.  Laws that depend on u' act as at rest; what sticks carries no force.  The velocity of the drift follows
  * from the equilibrium's derivative, K q' = W G^T lambda',  G W^T q' = -dg/dt.
  *
+ * Relieved, a machine that floats has the deflection in which it accelerates as a whole, with the motions R that cost
+ * no energy and break no joint, R^T M R = E:
+ *
+ *     C q = (1 - M R R^T)(f_t + W p),     R^T M (q - q_assembled) = 0,     acceleration R R^T (f_t + W p),
+ *
+ * so that a run starts without vibration; a note tells the acceleration.
+ *
  * @throws std::invalid_argument if a motion has neither stiffness nor weight to hold it, or no equilibrium is found
  */
-InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift);
+InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift,
+                                Floating floating = Floating::refused);
 
 struct HeldEquilibrium
 {

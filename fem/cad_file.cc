@@ -1,5 +1,7 @@
 #include "fem/cad_file.h"
 
+#include "fem/step_text.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -14,9 +16,9 @@ namespace gestell::fem
 namespace
 {
 
-const std::map<std::string, CadFile> kinds = {{".step", CadFile::step}, {".stp", CadFile::step},
-                                              {".brep", CadFile::brep}, {".geo", CadFile::geo},
-                                              {".msh", CadFile::mesh},  {".stl", CadFile::triangles}};
+const std::map<std::string, CadFile> kinds = {
+    {".step", CadFile::step}, {".stp", CadFile::step},   {".brep", CadFile::brep},    {".geo", CadFile::geo},
+    {".msh", CadFile::mesh},  {".inp", CadFile::abaqus}, {".stl", CadFile::triangles}};
 
 std::string extension(const std::string &path)
 {
@@ -55,6 +57,15 @@ void check_step(const std::string &path, std::uintmax_t size, const Refuse &refu
     refuse("is not a STEP file: it does not begin with \"ISO-10303-21;\"; export the model as STEP (AP203 or AP214).");
   if (tail_of(path, size).find("END-ISO-10303-21") == std::string::npos)
     refuse("is cut off: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
+
+  const StepText text = read_step_text(path);
+  if (text.n_missing > 0)
+    refuse("is damaged, though it ends as it should: " + std::to_string(text.n_missing) +
+           " references lead to entities that are not in the file (#" + std::to_string(text.named_by) + " names #" +
+           std::to_string(text.first_missing) + "); a part of it is lost: copy or export it again.");
+  if (text.n_entities > 0 && !text.has_unit)
+    refuse("does not say what its unit of length is (no LENGTH_UNIT in a GLOBAL_UNIT_ASSIGNED_CONTEXT), so millimetres "
+           "and metres cannot be told apart; a part of it is lost: copy or export it again.");
 }
 
 // OpenCASCADE never ends on a BREP file that was cut off.
@@ -70,6 +81,11 @@ void check_brep(const std::string &path, std::uintmax_t size, const Refuse &refu
 
 } // namespace
 
+bool is_mesh(CadFile file)
+{
+  return file == CadFile::mesh || file == CadFile::abaqus;
+}
+
 bool is_step(const std::string &path)
 {
   const auto kind = kinds.find(extension(path));
@@ -83,12 +99,12 @@ CadFile check_cad_file(const CadSource &source)
   { throw std::invalid_argument(source.place + ": " + path + " " + why); };
   std::error_code ignored;
   if (path.empty())
-    throw std::invalid_argument(source.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo or "
-                                               ".msh file.");
+    throw std::invalid_argument(source.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo, "
+                                               ".msh or .inp file.");
   if (!std::filesystem::exists(path, ignored))
     refuse("does not exist; a relative path counts from the scene's folder.");
   if (!std::filesystem::is_regular_file(path, ignored))
-    refuse("is not a file; name the .step, .stp, .brep, .geo or .msh file itself.");
+    refuse("is not a file; name the .step, .stp, .brep, .geo, .msh or .inp file itself.");
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (size == 0)
     refuse("is empty; export the model again.");
@@ -97,7 +113,7 @@ CadFile check_cad_file(const CadSource &source)
   const auto kind = kinds.find(extension(path));
   if (kind == kinds.end())
     refuse("ends in \"" + extension(path) +
-           "\"; .step, .stp, .brep, .geo and .msh are read: export the model as STEP.");
+           "\"; .step, .stp, .brep, .geo, .msh and .inp are read: export the model as STEP.");
   if (source.unit < 0.)
     throw std::invalid_argument(source.place + ": unit = " + std::to_string(source.unit) +
                                 " m; it must be > 0, or be left out.");

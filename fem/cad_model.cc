@@ -1,7 +1,12 @@
 #include "fem/cad_model.h"
 
 #include "fem/cad_file.h"
+#include "fem/defeature.h"
 #include "fem/gmsh_faces.h"
+#include "fem/mesh_groups.h"
+#include "fem/shells.h"
+#include "fem/solid_union.h"
+#include "fem/step_attributes.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
@@ -9,7 +14,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -36,26 +40,21 @@ std::string physical_name(int dim, int tag)
   return name;
 }
 
+std::string name_of_solid(int tag)
+{
+  std::string name;
+  gmsh::model::getEntityName(3, tag, name);
+  name = name.empty() ? physical_name(3, tag) : last_part(name);
+  return name.empty() ? "solid " + std::to_string(tag) : name;
+}
+
 Solid solid_of(int tag, double unit, bool meshed)
 {
   Solid solid;
-  solid.tag = tag;
-  gmsh::model::getEntityName(3, tag, solid.name);
-  solid.name = solid.name.empty() ? physical_name(3, tag) : last_part(solid.name);
-  if (solid.name.empty())
-    solid.name = "solid " + std::to_string(tag);
-
-  std::vector<int> above;
-  gmsh::model::getAdjacencies(3, tag, above, solid.faces);
-  if (meshed)
-    return solid;
-  auto &[x0, y0, z0] = solid.min;
-  auto &[x1, y1, z1] = solid.max;
-  gmsh::model::getBoundingBox(3, tag, x0, y0, z0, x1, y1, z1);
-  solid.min = unit * solid.min;
-  solid.max = unit * solid.max;
-  gmsh::model::occ::getMass(3, tag, solid.volume);
-  solid.volume *= unit * unit * unit;
+  if (!meshed)
+    solid = measured_solid(tag, unit);
+  solid.tag  = tag;
+  solid.name = name_of_solid(tag);
   return solid;
 }
 
@@ -88,9 +87,10 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
     gmsh::vectorpair faces;
     gmsh::model::getEntities(faces, 2);
     const std::string said = session.errors();
-    const std::string what =
-        faces.empty() ? "no shape"
-                      : "no closed solid, only " + std::to_string(faces.size()) + " faces (shells or surfaces)";
+    const std::string what = faces.empty() ? "no shape"
+                                           : "no closed solid, only " + std::to_string(faces.size()) +
+                                                 " faces (shells or surfaces)" +
+                                                 (model.meshed ? "" : open_edges_of_faces(model.unit));
     throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
                                 (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
                                 (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
@@ -118,48 +118,6 @@ void check_size(const CadModel &model, const CadSource &source)
       " m would make it " + text(diagonal * likely) + " m).");
 }
 
-/// For every solid the lowest index of a solid it hangs together with by common faces.
-std::vector<int> bodies_of(const std::vector<Solid> &solids)
-{
-  std::vector<int> body(solids.size());
-  std::iota(body.begin(), body.end(), 0);
-  std::map<int, int> first_owner; // face tag to index of solid
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (const int face : solids[i].faces)
-    {
-      const auto [owner, is_new] = first_owner.try_emplace(face, static_cast<int>(i));
-      const int a = std::min(body[owner->second], body[i]), b = std::max(body[owner->second], body[i]);
-      if (!is_new)
-        std::replace(body.begin(), body.end(), b, a);
-    }
-  return body;
-}
-
-void check_hanging_together(const CadModel &model, const FrameSpecification &specification)
-{
-  const std::vector<int> body = bodies_of(model.solids);
-  const std::set<int>    bodies(body.begin(), body.end());
-  if (bodies.size() <= 1)
-    return;
-  std::string list;
-  bool        touch = false;
-  for (std::size_t i = 0; i < model.solids.size(); ++i)
-  {
-    const Solid &solid = model.solids[i];
-    list += "\n  body " + std::to_string(std::distance(bodies.begin(), bodies.find(body[i])) + 1) + ": \"" +
-            solid.name + "\", " + text(solid.volume) + " m^3, from " + text(solid.min) + " to " + text(solid.max);
-    for (std::size_t j = 0; j < i; ++j)
-      touch |= body[i] != body[j] && boxes_touch(solid, model.solids[j], 1e-6 * model.diagonal());
-  }
-  throw std::invalid_argument(
-      specification.place + ": " + specification.cad + " holds " + std::to_string(bodies.size()) +
-      " bodies that do not hang together by common faces" +
-      (touch ? " (some touch or overlap, but each has its own copy of the face, so their meshes would not be joined)"
-             : "") +
-      "; unite them to one solid in the CAD program (boolean union), or export the frame alone. Bodies, lengths in m:" +
-      list);
-}
-
 } // namespace
 
 double CadModel::diagonal() const
@@ -171,6 +129,22 @@ double CadModel::volume() const
 {
   return std::accumulate(solids.begin(), solids.end(), 0.,
                          [](double sum, const Solid &solid) { return sum + solid.volume; });
+}
+
+Solid measured_solid(int tag, double unit)
+{
+  Solid            solid;
+  std::vector<int> above;
+  solid.tag = tag;
+  gmsh::model::getAdjacencies(3, tag, above, solid.faces);
+  auto &[x0, y0, z0] = solid.min;
+  auto &[x1, y1, z1] = solid.max;
+  gmsh::model::getBoundingBox(3, tag, x0, y0, z0, x1, y1, z1);
+  solid.min = unit * solid.min;
+  solid.max = unit * solid.max;
+  gmsh::model::occ::getMass(3, tag, solid.volume);
+  solid.volume *= unit * unit * unit;
+  return solid;
 }
 
 bool boxes_touch(const Solid &a, const Solid &b, double tolerance)
@@ -185,12 +159,14 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
 {
   const CadFile file = check_cad_file(source);
   CadModel      model;
-  model.meshed = file == CadFile::mesh || file == CadFile::triangles;
+  model.meshed = is_mesh(file) || file == CadFile::triangles;
   model.unit   = source.unit > 0. ? source.unit : 1.;
   if (file == CadFile::step && source.unit > 0.)
     gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
 
-  session.run([&] { gmsh::open(source.path); }, source.place + ": gmsh cannot read " + source.path + ": ",
+  name_faces_of_step();
+  session.run([&] { file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(source.path); },
+              source.place + ": gmsh cannot read " + source.path + ": ",
               "; it may be damaged: export the model again, and see whether gmsh opens it.");
   model.meshed = model.meshed || (file == CadFile::geo && has_cells());
   if (!model.meshed)
@@ -212,21 +188,33 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
   return model;
 }
 
-CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
 {
   const CadSource source{specification.cad, specification.unit, specification.place};
-  if (check_cad_file(source) == CadFile::triangles)
+  const CadFile   file = check_cad_file(source);
+  if (file == CadFile::triangles)
     throw std::invalid_argument(source.place + ": " + source.path +
                                 " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "
                                 "or give a mesh of tetrahedra as .msh.");
   if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
     gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);
-  if (!model.meshed) // a mesh is judged by its cells
-  {
-    check_hanging_together(model, specification);
-    model.faces = outer_faces(model.unit, model.diagonal());
-  }
+  if (model.meshed) // judged by its cells
+    return model;
+  if (file == CadFile::geo && (specification.mesh.gap > 0. || specification.mesh.defeature > 0.))
+    throw std::invalid_argument(specification.mesh.place + ": gap and defeature are for STEP and BREP files; " +
+                                source.path +
+                                " is a script that can do both itself: Geometry.ToleranceBoolean = ...; "
+                                "BooleanFragments{ Volume{:}; Delete; }{}, and HealShapes.");
+  check_shells(model, source);
+  if (file != CadFile::geo) // a script says itself what it joins, and its groups would not outlive it
+    join_solids(model, specification, session);
+  model.faces = outer_faces(model.unit, model.diagonal());
+  if (file == CadFile::step && attributes == FaceAttributes::read)
+    add_step_attributes(model.faces, source);
+  check_bodies(model, specification);
+  if (file != CadFile::geo)
+    defeature(model, specification, session);
   return model;
 }
 

@@ -5,13 +5,15 @@
 #include "fem/frame_specification.h"
 #include "fem/gmsh_session.h"
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace gestell::fem
 {
 
-/// A closed body of the CAD model, or a group of tetrahedra in a mesh file; lengths in metres.
+/// A closed body of the CAD model, or a group of cells in a mesh file; lengths in metres.
 struct Solid
 {
   int              tag = 0;
@@ -21,14 +23,23 @@ struct Solid
   std::vector<int> faces; ///< tags of its boundary
 };
 
+/// Names that a mesh file gives to nodes and to faces of cells beside its volumes and surfaces; nodes by gmsh's tags.
+struct MeshGroups
+{
+  std::map<std::string, std::vector<std::size_t>>              nodes;
+  std::map<std::string, std::vector<std::vector<std::size_t>>> faces; ///< corners of each face
+};
+
 /// What a CAD or mesh file holds; the geometry itself (and the mesh, if it came with one) stays in gmsh.
 struct CadModel
 {
-  double             unit   = 1.;    ///< length of gmsh's unit [m]
-  bool               meshed = false; ///< came as a mesh (.msh): volumes and faces are not known yet
-  std::vector<Solid> solids;
-  std::vector<Face>  faces; ///< between the solids and the outside; faces between two solids are not among them
-  Vector3            min{}, max{};
+  double                   unit   = 1.;    ///< length of gmsh's unit [m]
+  bool                     meshed = false; ///< came as a mesh (.msh): volumes and faces are not known yet
+  std::vector<Solid>       solids;
+  std::vector<Face>        faces; ///< between the solids and the outside; faces between two solids are not among them
+  Vector3                  min{}, max{};
+  MeshGroups               groups;
+  std::vector<std::string> notes; ///< what a user should know of the file, such as solids that were joined
 
   double diagonal() const;
   double volume() const;
@@ -47,15 +58,26 @@ struct CadModel
  */
 CadModel open_cad(const CadSource &source, const GmshSession &session);
 
+/// A solid of gmsh's geometry, without name.  @param unit  length of gmsh's unit [m]
+Solid measured_solid(int tag, double unit);
+
 /// Whether the boxes around two solids touch or overlap.
 bool boxes_touch(const Solid &a, const Solid &b, double tolerance);
 
+/// Whether colours and layers of faces are looked for, which means to read a STEP file a second time.
+enum class FaceAttributes
+{
+  read,
+  left
+};
+
 /**
- * Reads the .step, .stp, .brep, .geo (OpenCASCADE kernel) or .msh file of a frame into gmsh, as open_cad() does, with
- * its outer faces.
+ * Reads the .step, .stp, .brep, .geo (OpenCASCADE kernel), .msh or .inp file of a frame into gmsh, as open_cad() does,
+ * with its outer faces.  Solids of STEP and BREP files are joined where they touch, see join_solids().
  *
- * @throws std::invalid_argument as open_cad(), or if its solids do not hang together by common faces.
+ * @throws std::invalid_argument as open_cad(), check_shells(), join_solids() and check_bodies().
  */
-CadModel read_cad(const FrameSpecification &specification, const GmshSession &session);
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session,
+                  FaceAttributes attributes = FaceAttributes::left);
 
 } // namespace gestell::fem

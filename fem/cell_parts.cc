@@ -101,7 +101,11 @@ FramePart frame_part(const QuadraticMesh &mesh, const CellMaterials &materials, 
   take_cells(mesh.hexahedra, cells, number, result.mesh.hexahedra);
   result.materials.materials = materials.materials;
   for (const int cell : cells)
+  {
     result.materials.of_cell.push_back(materials.of_cell[cell]);
+    if (!mesh.curved.empty())
+      result.mesh.curved.push_back(mesh.curved[cell]);
+  }
   result.kinematics = kinematics.of_nodes(nodes);
   return result;
 }

@@ -13,7 +13,6 @@
 #include "fem/weighing.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace gestell::fem
 {
@@ -89,6 +88,8 @@ BlockMatrix stiffness_at_supports(const Ingredients &of)
     const int *nodes = of.mesh.nodes(cell);
     if (std::none_of(nodes, nodes + of.mesh.nodes_per_cell(), [&](int node) { return clamped[node]; }))
       continue;
+    if (!of.mesh.curved.empty())
+      near.curved.push_back(of.mesh.curved[cell]);
     if (of.mesh.hexahedra.empty())
       near.cells.push_back(of.mesh.cells[cell]);
     else
@@ -187,11 +188,7 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
 Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
                                           const CellAssembly *ranks)
 {
-  const CellMaterials materials = cell_materials(mesh, specification);
-  if (specification.stress && !mesh.hexahedra.empty())
-    throw std::invalid_argument(specification.place +
-                                ": stresses are told of tetrahedra only, but this mesh has hexahedra; leave out "
-                                "[output.stress], or mesh with tetrahedra.");
+  const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = number_nodes(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   Constraints                       constraints(quadratic.n_nodes());

@@ -75,19 +75,20 @@ CellStiffness tetrahedron_stiffness(const QuadraticMesh &mesh, int cell, const M
   return C;
 }
 
-CellStiffness hexahedron_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
+/// By quadrature, for cells of n nodes whose geometry is interpolated as their displacements are.
+template <int n, typename Points>
+CellStiffness isoparametric_stiffness(const Eigen::Matrix<double, 3, n> &X, const Points &points,
+                                      const Material &material)
 {
-  const double                lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
-  const double                mu     = material.E / (2. * (1. + material.nu));
-  const hexahedron::Positions X      = positions(mesh, cell);
-  constexpr int               n      = hexahedron::n_nodes;
+  const double lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
+  const double mu     = material.E / (2. * (1. + material.nu));
 
   CellStiffness C = CellStiffness::Zero(3 * n, 3 * n);
-  for (const auto &point : hexahedron::quadrature(3))
+  for (const auto &point : points)
   {
-    const Eigen::Matrix3d       J      = hexahedron::jacobian(X, point.dN);
-    const hexahedron::Gradients G      = point.dN * J.inverse();
-    const double                volume = point.weight * J.determinant();
+    const Eigen::Matrix3d             J      = X * point.dN;
+    const Eigen::Matrix<double, n, 3> G      = point.dN * J.inverse();
+    const double                      volume = point.weight * J.determinant();
     for (int a = 0; a < n; ++a)
       for (int b = a; b < n; ++b)
       {
@@ -104,14 +105,14 @@ CellStiffness hexahedron_stiffness(const QuadraticMesh &mesh, int cell, const Ma
   return C;
 }
 
-CellMass hexahedron_mass(const QuadraticMesh &mesh, int cell, const Material &material)
+template <int n, typename Points>
+CellMass isoparametric_mass(const Eigen::Matrix<double, 3, n> &X, const Points &points, const Material &material)
 {
-  const hexahedron::Positions X = positions(mesh, cell);
-  CellMass                    M = CellMass::Zero(hexahedron::n_nodes, hexahedron::n_nodes);
-  for (const auto &point : hexahedron::quadrature(3))
+  CellMass M = CellMass::Zero(n, n);
+  for (const auto &point : points)
   {
-    const double mass = material.rho * point.weight * hexahedron::jacobian(X, point.dN).determinant();
-    M += mass * point.N * point.N.transpose();
+    const Eigen::Matrix3d J = X * point.dN;
+    M += material.rho * point.weight * J.determinant() * point.N * point.N.transpose();
   }
   return 0.5 * (M + M.transpose());
 }
@@ -138,14 +139,19 @@ BlockMatrix assemble(int block_size, const QuadraticMesh &mesh, const Matrix &ma
 
 CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
 {
-  return mesh.hexahedra.empty() ? tetrahedron_stiffness(mesh, cell, material)
-                                : hexahedron_stiffness(mesh, cell, material);
+  if (!mesh.hexahedra.empty())
+    return isoparametric_stiffness<hexahedron::n_nodes>(positions(mesh, cell), hexahedron::quadrature(3), material);
+  if (mesh.is_curved(cell))
+    return isoparametric_stiffness<10>(positions(mesh, cell), reference_integrals().tetrahedron, material);
+  return tetrahedron_stiffness(mesh, cell, material);
 }
 
 CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material)
 {
   if (!mesh.hexahedra.empty())
-    return hexahedron_mass(mesh, cell, material);
+    return isoparametric_mass<hexahedron::n_nodes>(positions(mesh, cell), hexahedron::quadrature(3), material);
+  if (mesh.is_curved(cell))
+    return isoparametric_mass<10>(positions(mesh, cell), reference_integrals().tetrahedron, material);
   const double determinant = std::abs(jacobian(mesh, mesh.cells[cell]).determinant());
   return material.rho * determinant * reference_integrals().mass;
 }

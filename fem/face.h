@@ -32,7 +32,8 @@ struct Face
   FaceKind                 kind = FaceKind::other;
   std::string              type;   ///< gmsh's word: "Plane", "Cylinder", "BSpline surface", ...
   std::string              name;   ///< label in the STEP file, "" if it has none
-  std::vector<std::string> groups; ///< physical groups the face belongs to
+  std::vector<std::string> groups; ///< physical groups, layers and colours ("#ff8000") the face belongs to
+  std::vector<int>         edges;  ///< tags of the curves around it: faces that share one are neighbours
   double                   area = 0.;
   Vector3                  min{}, max{}, centre{};
   Vector3                  direction{};     ///< plane: outward normal; cylinder: axis, first component != 0 positive

@@ -115,18 +115,30 @@ struct CutSpecification
   std::string place;
 };
 
+/// What becomes of the common part of solids that overlap.
+enum class Overlaps
+{
+  refused,
+  once ///< it belongs to the solid that comes first in the file
+};
+
 struct MeshOptions
 {
   double                        size = 0.;    ///< [m]
   std::map<std::string, double> surface_size; ///< [m] on named surfaces, graded outwards
   double                        max_cells = 2e6;
+  double                        gap       = 0.; ///< [m]: solids at most that far apart are joined
+  int                           bodies    = 1;  ///< expected number of bodies that do not hang together
+  double                        defeature = 0.; ///< [m]: faces and edges smaller than this are removed
+  Overlaps                      overlaps  = Overlaps::refused;
+  bool                          curved    = false; ///< sides follow the geometry
   std::string                   place;
 };
 
 /// All that defines a frame made from CAD or from a mesh.
 struct FrameSpecification
 {
-  std::string cad;       ///< .step .stp .brep .geo .msh; absolute path
+  std::string cad;       ///< .step .stp .brep .geo .msh .inp; absolute path
   double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
   MeshOptions mesh;
   Material    material; ///< of all solids but those in `materials`

@@ -3,6 +3,8 @@
 #include "fem/face.h"
 #include "fem/mesh.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace gestell::fem
@@ -19,8 +21,10 @@ std::vector<Face> outer_faces(double unit, double diagonal);
 /**
  * The surfaces of a mesh without geometry, from the skin's triangles: normals are those of the facets.
  *
- * @param skin_surface  for each triangle of mesh.skin the tag of its surface in gmsh, 0 if it has none
+ * @param skin_surface  for each triangle of mesh.skin the tag of its surface, 0 if it has none
+ * @param divided       groups of the surfaces that gmsh does not know, see divide_skin()
  */
-std::vector<Face> faces_of_skin(const Mesh &mesh, const std::vector<int> &skin_surface);
+std::vector<Face> faces_of_skin(const Mesh &mesh, const std::vector<int> &skin_surface,
+                                const std::map<int, std::vector<std::string>> &divided);
 
 } // namespace gestell::fem

@@ -2,16 +2,17 @@
 
 #include "fem/hexahedral_mesh.h"
 #include "fem/hexahedron.h"
+#include "fem/mesh_nodes.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
-#include <unordered_map>
 
 namespace gestell::fem
 {
@@ -39,45 +40,7 @@ void for_each_element(int dim, int tag, const Visit &visit)
   }
 }
 
-/// gmsh's nodes, numbered as cells ask for them.
-class Nodes
-{
-public:
-  explicit Nodes(double unit)
-  {
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(all_, coordinates, parameters, -1, -1, false, false);
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      position_[all_[i]] = {unit * coordinates[3 * i], unit * coordinates[3 * i + 1], unit * coordinates[3 * i + 2]};
-  }
-
-  int index(std::size_t tag, std::vector<Point3> &points)
-  {
-    const auto [entry, is_new] = index_.try_emplace(tag, static_cast<int>(points.size()));
-    if (is_new)
-    {
-      points.push_back(position_.at(tag));
-      tags_.push_back(tag);
-    }
-    return entry->second;
-  }
-
-  /// -1 for a node no cell uses.
-  int index(std::size_t tag) const
-  {
-    const auto entry = index_.find(tag);
-    return entry == index_.end() ? -1 : entry->second;
-  }
-
-  const std::vector<std::size_t> &tags() const { return tags_; }
-
-private:
-  std::vector<std::size_t>                all_, tags_;
-  std::unordered_map<std::size_t, Point3> position_;
-  std::unordered_map<std::size_t, int>    index_;
-};
-
-void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Mesh &mesh)
+void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes, Mesh &mesh)
 {
   for (const Solid &solid : model.solids)
   {
@@ -92,7 +55,7 @@ void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Me
                              "it without recombination, or make every solid transfinite.");
                        std::array<int, 8> cell;
                        for (int i = 0; i < 8; ++i)
-                         cell[i] = nodes.index(corner[i], mesh.points);
+                         cell[i] = nodes.index(corner[i], mesh.points, head);
                        if (corner_quality(mesh, cell) < 0.) // mirrored
                          for (int i = 0; i < 4; ++i)
                            std::swap(cell[i], cell[i + 4]);
@@ -167,15 +130,23 @@ std::vector<CellFace> outer_faces(const Mesh &mesh, std::vector<int> &parent, co
   return outer;
 }
 
-void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::string &head)
+void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)
 {
-  for (int cell = 1; cell < static_cast<int>(mesh.hexahedra.size()); ++cell)
-    if (root(parent, cell) != root(parent, 0))
-      throw std::invalid_argument(
-          head + ": the cells at " + text(mesh.points[mesh.hexahedra[0][0]]) + " m and at " +
-          text(mesh.points[mesh.hexahedra[cell][0]]) +
-          " m do not hang together by common faces (solids that only touch must share their nodes: fragment them "
-          "before meshing, and give edges that lie upon each other the same number of nodes).");
+  std::map<int, int> first; // root of each body to one of its cells
+  for (int cell = 0; cell < static_cast<int>(mesh.hexahedra.size()); ++cell)
+    first.try_emplace(root(parent, cell), cell);
+  const int found = static_cast<int>(first.size());
+  if (found == wanted || wanted == 0)
+    return;
+  const auto at = [&](int cell) { return text(mesh.points[mesh.hexahedra[cell][0]]) + " m"; };
+  throw std::invalid_argument(
+      head + ": the mesh consists of " + std::to_string(found) + " bodies, one at " + at(first.begin()->second) +
+      (found > 1 ? " and one at " + at(std::next(first.begin())->second) : "") +
+      ", that do not hang together by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
+      (found > wanted ? touching_nodes(mesh) +
+                            "; fragment solids before meshing, and give edges that lie upon each other the same number "
+                            "of nodes."
+                      : "; set it to that number."));
 }
 
 } // namespace
@@ -200,20 +171,22 @@ bool holds_hexahedra(const CadModel &model)
   return found;
 }
 
-ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head)
+ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
-  Nodes         nodes(model.unit);
+  MeshNodes     nodes(model.unit, options.gap);
   read_cells(model, head, nodes, mesh);
   result.node = nodes.tags();
 
   std::vector<int> parent(mesh.hexahedra.size());
   std::iota(parent.begin(), parent.end(), 0);
   const std::vector<CellFace> outer = outer_faces(mesh, parent, head);
-  check_one_body(mesh, parent, head);
+  check_bodies(mesh, parent, options.bodies, head);
+  if (model.meshed)
+    note_nodes(mesh, nodes);
 
-  const Nodes        &known = nodes;
+  const MeshNodes    &known = nodes;
   std::map<Quad, int> surface_of; // sorted corners to tag
   gmsh::vectorpair    surfaces;
   gmsh::model::getEntities(surfaces, 2);

@@ -15,8 +15,8 @@ bool holds_hexahedra(const CadModel &model);
  * halves, the surface of each half in `skin_surface`.  Of cells of higher order only the corners are kept.
  *
  * @throws std::invalid_argument if there are cells of other kinds beside hexahedra, a solid has none, more than two
- * cells share a face, or the cells do not all hang together by common faces.
+ * cells share a face, or there is another number of bodies than wanted.
  */
-ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head);
+ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, const ExtractionOptions &options);
 
 } // namespace gestell::fem

@@ -10,8 +10,8 @@ namespace gestell::fem
 
 using Point3 = std::array<double, 3>; ///< [m]
 
-/// Mesh of a frame in tetrahedra or in hexahedra, straight edges, SI.  Faces are ordered so that their normal points
-/// outwards.
+/// Mesh of a frame in tetrahedra or in hexahedra, SI; edges are straight but for those with a middle.  Faces are
+/// ordered so that their normal points outwards.
 struct Mesh
 {
   std::vector<Point3>             points;
@@ -22,6 +22,11 @@ struct Mesh
   std::vector<std::array<int, 4>>
                            skin_quads; ///< of hexahedra; quadrilateral i = abcd has triangles 2 i = abc, 2 i + 1 = acd
   std::vector<std::string> solids;     ///< names, as in the CAD file where it has them
+
+  /// Of tetrahedra: middles of edges that are curved, by the points at their ends, the smaller first.
+  std::map<std::array<int, 2>, Point3> middles;
+
+  std::vector<std::string> notes; ///< what a user should know of the geometry and the mesh
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;

@@ -18,7 +18,7 @@ namespace
 constexpr int fields_once = 6; // fields whose stresses are held in memory at a time
 
 /// eta_K^2 for every field: both stresses are polynomials that values at the nodes hold.
-Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, int cell, const Eigen::MatrixXd &u,
+Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u,
                            const Stresses &smooth)
 {
   Stresses error    = nodal_stresses(mesh, material, cell, u);
@@ -28,8 +28,8 @@ Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, 
   for (Eigen::Index a = 0; a < error.cols(); ++a)
     error.col(a) -= smooth.col(mesh.nodes(cell)[a]);
   const Stresses     weighted = error * volume;
-  Eigen::RowVectorXd eta2     = Eigen::RowVectorXd::Zero(u.cols());
-  for (Eigen::Index field = 0; field < u.cols(); ++field)
+  Eigen::RowVectorXd eta2     = Eigen::RowVectorXd::Zero(u.rows() / 3);
+  for (Eigen::Index field = 0; field < eta2.size(); ++field)
     for (Eigen::Index a = 0; a < error.cols(); ++a)
       eta2[field] +=
           energy_product(error.col(a).segment<6>(6 * field), weighted.col(a).segment<6>(6 * field), material);
@@ -61,10 +61,10 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
   Eigen::MatrixXd                     result(mesh_.n_cells(), q.cols());
   for (int first = 0; first < q.cols(); first += fields_once)
   {
-    const int       fields = std::min<int>(fields_once, static_cast<int>(q.cols()) - first);
-    Eigen::MatrixXd u(3 * mesh_.n_nodes(), fields);
+    const int   fields = std::min<int>(fields_once, static_cast<int>(q.cols()) - first);
+    NodalFields u(3 * fields, mesh_.n_nodes());
     for (int field = 0; field < fields; ++field)
-      u.col(field) = kinematics_.expand(q.col(first + field));
+      u.middleRows<3>(3 * field) = kinematics_.expand(q.col(first + field)).reshaped(3, mesh_.n_nodes());
     for (const auto &cells : alike)
     {
       const Material &material = materials_[cells.front()];

@@ -1,12 +1,14 @@
 #include "fem/mesh_extraction.h"
 
 #include "fem/hexahedral_extraction.h"
+#include "fem/mesh_nodes.h"
 #include "fem/mesh_quality.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -17,6 +19,9 @@ namespace gestell::fem
 
 namespace
 {
+
+constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
+constexpr double same_place    = 1e-8; // of the model: nodes that close lie upon each other
 
 using Triangle = std::array<int, 3>;
 
@@ -39,50 +44,10 @@ struct CellFace
   }
 };
 
-/// gmsh's node tags and what became of them.
-class Nodes
-{
-public:
-  Nodes()
-  {
-    std::vector<std::size_t> tags;
-    std::vector<double>      coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
-    for (std::size_t i = 0; i < tags.size(); ++i)
-      position_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
-  }
+/// Corners between which gmsh's further nodes of a quadratic tetrahedron stand.
+constexpr std::array<std::array<int, 2>, 6> quadratic_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
 
-  /// Index of the point in `points`, which grows by the nodes that cells use.
-  int index(std::size_t tag, std::vector<Point3> &points, double unit)
-  {
-    const auto [entry, is_new] = index_.try_emplace(tag, static_cast<int>(points.size()));
-    if (is_new)
-      points.push_back(unit * position_.at(tag));
-    return entry->second;
-  }
-
-  /// Tag of each point.
-  std::vector<std::size_t> tags() const
-  {
-    std::vector<std::size_t> tags(index_.size());
-    for (const auto &[tag, index] : index_)
-      tags[index] = tag;
-    return tags;
-  }
-
-  /// Index of a node that a cell uses, -1 for others.
-  int index(std::size_t tag) const
-  {
-    const auto entry = index_.find(tag);
-    return entry == index_.end() ? -1 : entry->second;
-  }
-
-private:
-  std::map<std::size_t, Point3> position_;
-  std::map<std::size_t, int>    index_;
-};
-
-/// Calls visit(corner tags) for every element of the entity; only simplices of the dimension are let through.
+/// Calls visit(tags, their number) for every element of the entity; only simplices of the dimension are let through.
 template <typename Visit>
 void for_each_simplex(int dim, int tag, const std::string &head, const Visit &visit)
 {
@@ -100,21 +65,37 @@ void for_each_simplex(int dim, int tag, const std::string &head, const Visit &vi
           head + " holds elements of type \"" + name +
           "\"; only tetrahedra with triangles on the surfaces are read: mesh it without recombination.");
     for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
-      visit(&nodes[i][j]);
+      visit(&nodes[i][j], n);
   }
 }
 
-void read_cells(const CadModel &model, const std::string &head, Nodes &nodes, Mesh &mesh)
+/// Of a quadratic tetrahedron the middles of edges that are not straight.
+void keep_middles(Mesh &mesh, const std::array<int, 4> &cell, const std::size_t *tags, MeshNodes &nodes,
+                  const std::string &head)
+{
+  for (int e = 0; e < 6; ++e)
+  {
+    const int     a = cell[quadratic_edges[e][0]], b = cell[quadratic_edges[e][1]];
+    const Point3  middle = nodes.position(tags[e], head);
+    const Vector3 side   = mesh.points[b] - mesh.points[a];
+    if (norm(middle - 0.5 * (mesh.points[a] + mesh.points[b])) > straight_edge * norm(side))
+      mesh.middles[{std::min(a, b), std::max(a, b)}] = middle;
+  }
+}
+
+void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes, Mesh &mesh)
 {
   for (const Solid &solid : model.solids)
   {
     const std::size_t before = mesh.cells.size();
     for_each_simplex(3, solid.tag, head,
-                     [&](const std::size_t *corner)
+                     [&](const std::size_t *corner, int n)
                      {
                        std::array<int, 4> cell;
                        for (int i = 0; i < 4; ++i)
-                         cell[i] = nodes.index(corner[i], mesh.points, model.unit);
+                         cell[i] = nodes.index(corner[i], mesh.points, head);
+                       if (n == 10)
+                         keep_middles(mesh, cell, corner + 4, nodes, head);
                        if (six_volumes(mesh, cell) < 0.)
                          std::swap(cell[2], cell[3]);
                        mesh.cells.push_back(cell);
@@ -151,6 +132,42 @@ int root(std::vector<int> &parent, int i)
   return i;
 }
 
+/// The corner of the cell that is not on the face.
+const Point3 &apex(const Mesh &mesh, const CellFace &face)
+{
+  const auto &cell = mesh.cells[face.cell];
+  return mesh.points[cell[6 - outward[face.face][0] - outward[face.face][1] - outward[face.face][2]]];
+}
+
+/// Cells on either side of a face lie apart, however their corners are numbered; flat ones are judged elsewhere.
+bool lie_apart(const Mesh &mesh, const CellFace &first, const CellFace &second)
+{
+  const Point3 &a = mesh.points[first.key[0]], &b = mesh.points[first.key[1]], &c = mesh.points[first.key[2]];
+  const Vector3 normal    = cross(b - a, c - a);
+  const double  in_first  = dot(normal, apex(mesh, first) - a);
+  const double  in_second = dot(normal, apex(mesh, second) - a);
+  const double  flat      = 1e-9 * std::pow(norm(normal), 1.5); // area times a height of 1e-9 sides
+  return in_first * in_second <= 0. || std::abs(in_first) < flat || std::abs(in_second) < flat;
+}
+
+void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, const std::string &head)
+{
+  std::size_t     n_folded = 0;
+  const CellFace *where    = nullptr;
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].key == faces[i + 1].key && !lie_apart(mesh, faces[i], faces[i + 1]))
+    {
+      ++n_folded;
+      where = &faces[i];
+    }
+  if (n_folded > 0)
+    throw std::invalid_argument(head + ": " + std::to_string(n_folded) +
+                                " pairs of neighbouring cells lie on the same side of their common face, one at " +
+                                text(mesh.points[where->key[0]]) +
+                                " m: cells are turned inside out (negative Jacobian); a node may have been moved "
+                                "through its neighbours. Mesh again.");
+}
+
 /// Pairs of equal faces join cells, single faces are the skin.
 std::vector<CellFace> join(const std::vector<CellFace> &faces, std::vector<int> &parent, const std::string &head)
 {
@@ -174,7 +191,19 @@ std::vector<CellFace> join(const std::vector<CellFace> &faces, std::vector<int> 
   return skin;
 }
 
-void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::string &head)
+double extent(const Mesh &mesh)
+{
+  Vector3 low = mesh.points.front(), high = low;
+  for (const Point3 &point : mesh.points)
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d]  = std::min(low[d], point[d]);
+      high[d] = std::max(high[d], point[d]);
+    }
+  return norm(high - low);
+}
+
+void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)
 {
   std::map<int, std::pair<std::size_t, std::set<int>>> bodies; // root to number of cells, solids
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -183,7 +212,8 @@ void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::strin
     ++n;
     solids.insert(mesh.cell_solid[c]);
   }
-  if (bodies.size() <= 1)
+  const int found = static_cast<int>(bodies.size());
+  if (found == wanted || wanted == 0)
     return;
   std::string list;
   std::size_t shown = 0;
@@ -195,29 +225,60 @@ void check_one_body(const Mesh &mesh, std::vector<int> &parent, const std::strin
         list += " \"" + mesh.solids[solid] + "\"";
       list += ", one at " + text(mesh.points[mesh.cells[cell][0]]) + " m";
     }
-  throw std::invalid_argument(head + ": the mesh consists of " + std::to_string(bodies.size()) +
-                              " bodies that do not hang together by common faces of cells (solids that only touch must "
-                              "share their nodes: unite or fragment them before meshing):" +
+  const std::string touching = found > wanted ? touching_nodes(mesh) : "";
+  throw std::invalid_argument(head + ": the mesh consists of " + std::to_string(found) +
+                              (found == 1 ? " body that hangs" : " bodies that hang") +
+                              " together by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
+                              (touching.empty()
+                                   ? "; set it to that number where that is meant, or unite the solids before meshing:"
+                                   : touching + ":") +
                               list);
 }
 
 } // namespace
 
-ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, Bodies bodies)
+std::string touching_nodes(const Mesh &mesh)
+{
+  const double size  = extent(mesh);
+  const auto   pairs = coincident(mesh.points, same_place * size);
+  if (pairs.empty())
+    return "";
+  return ". " + std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+         text(mesh.points[pairs.front().first]) +
+         " m: solids touch there without being joined. Merge them where they are meant to be one (mesh.gap = \"" +
+         text(1e3 * 10. * same_place * size) + " mm\"), or set mesh.bodies where they are not";
+}
+
+void note_nodes(Mesh &mesh, const MeshNodes &nodes)
+{
+  if (nodes.n_merged() > 0)
+    mesh.notes.push_back(std::to_string(nodes.n_merged()) + " nodes are taken for one with another, as mesh.gap says");
+  if (const auto n_unused = nodes.n_unused(); n_unused > 0)
+    mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
+  if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())
+    mesh.notes.push_back(std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+                         text(mesh.points[pairs.front().first]) +
+                         " m: the cells there are not joined (a slit); mesh.gap merges them");
+}
+
+ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
   if (holds_hexahedra(model))
-    return extract_hexahedra(model, head);
+    return extract_hexahedra(model, head, options);
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
-  Nodes         nodes;
+  MeshNodes     nodes(model.unit, options.gap);
   read_cells(model, head, nodes, mesh);
   result.node = nodes.tags();
 
   std::vector<int> parent(mesh.cells.size());
   std::iota(parent.begin(), parent.end(), 0);
-  const std::vector<CellFace> skin = join(sorted_faces(mesh), parent, head);
-  if (bodies == Bodies::one)
-    check_one_body(mesh, parent, head);
+  const std::vector<CellFace> faces = sorted_faces(mesh);
+  const std::vector<CellFace> skin  = join(faces, parent, head);
+  require_unfolded(mesh, faces, head);
+  check_bodies(mesh, parent, options.bodies, head);
+  if (model.meshed)
+    note_nodes(mesh, nodes);
 
   std::map<Triangle, int> surface_of; // sorted triangle to tag
   gmsh::vectorpair        surfaces;
@@ -225,7 +286,7 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, Bodie
   for (const auto &[dim, tag] : surfaces)
     for_each_simplex(
         2, tag, head,
-        [&, tag = tag](const std::size_t *corner) {
+        [&, tag = tag](const std::size_t *corner, int) {
           surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
         });
   for (const CellFace &face : skin)

@@ -1,12 +1,17 @@
 #include "fem/mesher.h"
 
+#include "fem/curved_sides.h"
 #include "fem/gmsh_faces.h"
 #include "fem/gmsh_session.h"
 #include "fem/hexahedral_mesh.h"
+#include "fem/memory_estimate.h"
 #include "fem/mesh_extraction.h"
+#include "fem/mesh_groups.h"
 #include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
 #include "fem/point_freedom.h"
+#include "fem/shared_faces.h"
+#include "fem/small_features.h"
 #include "fem/surface_selection.h"
 #include "fem/vector3.h"
 
@@ -23,6 +28,7 @@ namespace
 
 constexpr double cells_by_default = 25000.;
 constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
+constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
 
 enum class MissingSize
 {
@@ -35,7 +41,9 @@ struct MeshedModel
   CadModel      model;
   Selection     selection;
   ExtractedMesh extracted;
-  double        size = 0.; ///< [m]
+  double        size           = 0.; ///< [m]
+  double        expected_cells = 0.;
+  std::string   smallest; ///< edges and faces
 };
 
 std::string head_of(const FrameSpecification &specification)
@@ -48,6 +56,7 @@ Selection select_all(const CadModel &model, const FrameSpecification &specificat
   Selection selection;
   for (const auto &[name, selector] : specification.surfaces)
     selection[name] = select_faces(model.faces, selector, model.diagonal());
+  require_faces_of_one_owner(selection, model.faces, specification);
   return selection;
 }
 
@@ -64,6 +73,33 @@ void generate(const FrameSpecification &specification, const GmshSession &sessio
               head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
+/// Refuses a mesh whose frame would not fit into the memory, before it is made.
+void judge_memory(MeshedModel &result, const MeshOptions &options)
+{
+  const auto sizes       = resolve_surface_sizes(options, result.selection);
+  result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
+  const double available = available_memory();
+  double       fitting   = result.expected_cells;
+  while (fitting > 1000. && reduction_memory(coordinates_of(fitting)) > available)
+    fitting *= 0.9;
+  require_memory(result.expected_cells, available, options.place,
+                 "Use size = " + text(size_for_cells(result.model, fitting)) +
+                     " m or more, larger sizes on surfaces, or a machine with more memory.");
+}
+
+/// Notes what forces elements far smaller than the size.
+void judge_features(MeshedModel &result, const MeshOptions &options)
+{
+  const double        limit    = much_smaller * options.size;
+  const SmallFeatures features = small_features(result.model, limit);
+  result.smallest              = describe(features);
+  if (features.n_short_edges + features.n_narrow_faces > 0)
+    result.model.notes.push_back(
+        std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
+        " faces are much smaller than elements (below " + text(1e3 * limit) + " mm; " + result.smallest +
+        ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
+}
+
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
                    MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
@@ -73,12 +109,17 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   result.size      = options.size;
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
+  judge_memory(result, options);
+  judge_features(result, options);
   if (!refined.empty())
     set_refined_sizes(SizeField(refined, options.size), result.model.unit);
   generate(specification, session, progress);
-  result.extracted = extract_mesh(result.model, head_of(specification));
-  if (result.extracted.mesh.hexahedra.empty())
-    improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
+  if (!result.extracted.mesh.hexahedra.empty())
+    return;
+  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (options.curved)
+    follow_geometry(result.extracted, result.model);
 }
 
 /// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
@@ -106,17 +147,22 @@ void measure_solids(CadModel &model, const Mesh &mesh)
 void read_mesh(MeshedModel &result, const FrameSpecification &specification)
 {
   const MeshOptions &options = specification.mesh;
+  if (options.defeature > 0.)
+    throw std::invalid_argument(options.place + ": defeature = " + text(options.defeature) + " m, but " +
+                                specification.cad + " is a mesh already; remove it, or give the geometry.");
   if (!options.surface_size.empty())
     throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
                                 specification.cad + " is a mesh already; remove the size, or give the geometry.");
-  result.extracted = extract_mesh(result.model, head_of(specification));
+  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
   const Mesh &mesh = result.extracted.mesh;
   if (mesh.n_cells() > options.max_cells)
     throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
   measure_solids(result.model, mesh);
-  result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface);
+  unfold(result.extracted.mesh);
+  const auto divided = divide_skin(result.extracted, result.model.groups);
+  result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
   result.selection   = select_all(result.model, specification);
 }
 
@@ -137,7 +183,7 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
 }
 
 template <typename Cell>
-void require_thick(const Mesh &mesh, const Cell &cell, double q, const std::string &head)
+void require_thick(const Mesh &mesh, const Cell &cell, double q, const std::string &head, const std::string &way_out)
 {
   if (q >= flattest)
     return;
@@ -145,20 +191,30 @@ void require_thick(const Mesh &mesh, const Cell &cell, double q, const std::stri
   for (const int point : cell)
     centre = centre + (1. / static_cast<double>(cell.size())) * mesh.points[point];
   throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
-                              ", needed " + text(flattest) +
-                              "); choose another mesh.size, or a smaller one on the surface there.");
+                              ", needed " + text(flattest) + "); " + way_out);
 }
 
-void check_flatness(const Mesh &mesh, const std::string &head)
+void check_flatness(const Mesh &mesh, bool meshed, const std::string &head)
 {
+  const std::string way_out = meshed ? "its volume is nearly zero, or less: mend it in the program that made the mesh."
+                                     : "choose another mesh.size, or a smaller one on the surface there.";
   for (const auto &cell : mesh.cells)
-    require_thick(mesh, cell, quality(mesh, cell), head);
+    require_thick(mesh, cell, quality(mesh, cell), head, way_out);
   for (const auto &cell : mesh.hexahedra)
-    require_thick(mesh, cell, corner_quality(mesh, cell), head);
+    require_thick(mesh, cell, corner_quality(mesh, cell), head, way_out);
 }
 
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const MeshProgress &progress,
-                       const std::vector<SizePoint> &refined = {})
+/// Colours and layers are wanted where a surface is asked for by name.
+FaceAttributes wanted_attributes(const FrameSpecification &specification)
+{
+  for (const auto &surface : specification.surfaces)
+    if (surface.second.group)
+      return FaceAttributes::read;
+  return FaceAttributes::left;
+}
+
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
+                       const MeshProgress &progress, const std::vector<SizePoint> &refined = {})
 {
   const GmshSession session;
   MeshedModel       result;
@@ -166,13 +222,15 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     progress("reading CAD", -1.);
   const auto work = [&]
   {
-    result.model = read_cad(specification, session);
+    result.model = read_cad(specification, session, attributes);
     if (result.model.meshed)
       read_mesh(result, specification);
     else
       mesh_geometry(result, specification, session, missing, progress, refined);
-    check_flatness(result.extracted.mesh, head_of(specification));
+    check_flatness(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
+    auto &notes = result.extracted.mesh.notes;
+    notes.insert(notes.begin(), result.model.notes.begin(), result.model.notes.end());
   };
   session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
   return result;
@@ -183,12 +241,13 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
 Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
                const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, progress, refined).extracted.mesh;
+  return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
+      .extracted.mesh;
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
 {
-  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, progress);
+  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;
   GeometryReport report;
   report.solids   = meshed.model.solids;
@@ -197,6 +256,12 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   report.min      = meshed.model.min;
   report.max      = meshed.model.max;
   report.size     = meshed.size;
+  report.notes    = mesh.notes;
+
+  report.expected_cells = meshed.expected_cells;
+  report.smallest       = meshed.smallest;
+  report.walls          = wall_thickness(mesh);
+  report.hexahedra      = !mesh.hexahedra.empty();
   for (Face &face : report.faces)
     face.samples.clear();
 
@@ -213,8 +278,7 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
     count(quality(mesh, cell));
   for (const auto &cell : mesh.hexahedra)
     count(corner_quality(mesh, cell));
-  for (const auto &piece : tetrahedra_of(mesh))
-    report.volume += six_volumes(mesh, piece) / 6.;
+  report.volume = curved_volume(mesh);
   return report;
 }
 

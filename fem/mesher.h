@@ -4,6 +4,7 @@
 #include "fem/frame_specification.h"
 #include "fem/mesh.h"
 #include "fem/size_field.h"
+#include "fem/wall_thickness.h"
 
 #include <functional>
 #include <map>
@@ -20,9 +21,9 @@ using MeshProgress = std::function<void(const std::string &phase, double share)>
  * Mesh of the frame with its named surfaces.
  *
  * STEP, BREP and .geo are meshed with linear tetrahedra of specification.mesh.size, smaller on
- * surfaces that ask for it.  A .msh file is taken as it is: mesh.size has no meaning then, and selectors act on its
- * surfaces (of the mesh, with their physical groups) by their triangles.  Equal input gives an equal mesh; no file is
- * written; gmsh is left finalised.
+ * surfaces that ask for it.  A .msh or .inp file is taken as it is: mesh.size has no meaning then, and selectors act on
+ * its surfaces (of the mesh, with their groups) by their triangles, see divide_skin().  Equal input gives an equal
+ * mesh; no file is written; gmsh is left finalised.
  *
  * @param refined  sizes at points, in place of mesh.size where they are smaller; see refine().
  * @throws std::invalid_argument for bad input, see read_cad, select_faces, set_mesh_sizes, extract_mesh.
@@ -37,13 +38,18 @@ struct GeometryReport
   std::vector<Face>                       faces;    ///< outer faces, without samples
   std::map<std::string, std::vector<int>> surfaces; ///< named in the specification: tags of their faces
   Vector3                                 min{}, max{};
-  double                                  size          = 0.; ///< of the elements [m]; 0 for a mesh file
-  int                                     n_points      = 0;
-  int                                     n_cells       = 0;
-  int                                     n_coordinates = 0;  ///< displacements with quadratic elements
-  double                                  volume        = 0.; ///< of the mesh [m^3]
-  double                                  worst_quality = 0.; ///< 1 regular, 0 flat; see quality()
-  double                                  mean_quality  = 0.;
+  double                                  size           = 0.; ///< of the elements [m]; 0 for a mesh file
+  int                                     n_points       = 0;
+  int                                     n_cells        = 0;
+  int                                     n_coordinates  = 0;  ///< displacements with quadratic elements
+  double                                  volume         = 0.; ///< of the mesh [m^3]
+  double                                  worst_quality  = 0.; ///< 1 regular, 0 flat; see quality()
+  double                                  mean_quality   = 0.;
+  double                                  expected_cells = 0.; ///< judged before meshing; 0 for a mesh file
+  std::string                             smallest;            ///< edge and face of the geometry
+  WallThickness                           walls;
+  bool                                    hexahedra = false;
+  std::vector<std::string>                notes; ///< what a user should know of the file
 };
 
 /// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.

@@ -147,7 +147,7 @@ void measure_geometry(Part &part, VolumeIntegrals &sum, const CadModel &model, c
 
 void measure_cells(Part &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
-  const Mesh mesh = extract_mesh(model, head_of(source), Bodies::any).mesh;
+  const Mesh mesh = extract_mesh(model, head_of(source), {0}).mesh;
   for (const auto &[a, b, c, d] : tetrahedra_of(mesh))
     sum.add_tetrahedron(vector(mesh.points[a]), vector(mesh.points[b]), vector(mesh.points[c]), vector(mesh.points[d]));
   part.solids = mesh.solids;
@@ -194,7 +194,7 @@ Part measure_part(const CadSource &source)
     VolumeIntegrals sum;
     if (file == CadFile::triangles)
       measure_triangles(part, sum, model, source);
-    else if (file == CadFile::mesh)
+    else if (is_mesh(file))
       measure_cells(part, sum, model, source);
     else
       measure_geometry(part, sum, model, source, session);

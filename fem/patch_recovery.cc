@@ -41,20 +41,21 @@ Stress stress_of(const Eigen::Matrix3d &gradient, const Material &material)
   return s;
 }
 
-/// Stresses of all fields at one point of a cell; column `at` of the result.
-void stresses_at(const ReferenceCell::Point &point, const QuadraticMesh &mesh, const Material &material, int cell,
-                 const Eigen::MatrixXd &u, Eigen::Ref<Eigen::VectorXd> result)
+/// Stresses of all fields at points of a cell, one in each column of the result.
+void stresses_at(const ReferenceCell::Points &points, const QuadraticMesh &mesh, const Material &material, int cell,
+                 const NodalFields &u, Eigen::Ref<Stresses> result)
 {
-  const int            *nodes = mesh.nodes(cell);
-  const Eigen::MatrixXd X     = positions(mesh, cell);
-  const Eigen::Matrix3d J     = X * point.dN;
-  const Eigen::MatrixXd slope = point.dN * J.inverse(); // dN_a / dx_j
-  for (int field = 0; field < u.cols(); ++field)
+  const int  *nodes = mesh.nodes(cell);
+  NodalFields of_cell(u.rows(), mesh.nodes_per_cell());
+  for (int a = 0; a < mesh.nodes_per_cell(); ++a)
+    of_cell.col(a) = u.col(nodes[a]);
+  const Eigen::MatrixXd slopes = of_cell * points.dN; // du_i / dxi_d of point k in column 3 k + d
+  const Eigen::MatrixXd J      = positions(mesh, cell) * points.dN;
+  for (int k = 0; k < points.size(); ++k)
   {
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // du_i / dx_j
-    for (int a = 0; a < slope.rows(); ++a)
-      gradient += u.col(field).segment<3>(3 * nodes[a]) * slope.row(a);
-    result.segment<6>(6 * field) = stress_of(gradient, material);
+    const Eigen::Matrix3d inverse = J.block<3, 3>(0, 3 * k).inverse();
+    for (int field = 0; field < u.rows() / 3; ++field)
+      result.col(k).segment<6>(6 * field) = stress_of(slopes.block<3, 3>(3 * field, 3 * k) * inverse, material);
   }
 }
 
@@ -71,21 +72,19 @@ struct Samples
   Stresses        stress;
 };
 
-Samples sample(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,
-               const Eigen::MatrixXd &u)
+Samples sample(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells, const NodalFields &u)
 {
   const ReferenceCell &reference = reference_cell(mesh);
   Samples              result;
-  result.per_cell = static_cast<int>(reference.samples.size());
+  result.per_cell = reference.samples.size();
   result.x.resize(3, cells.size() * result.per_cell);
-  result.stress.resize(6 * u.cols(), cells.size() * result.per_cell);
+  result.stress.resize(2 * u.rows(), cells.size() * result.per_cell);
   for (std::size_t i = 0; i < cells.size(); ++i)
-    for (int k = 0; k < result.per_cell; ++k)
-    {
-      const auto at    = static_cast<Eigen::Index>(i) * result.per_cell + k;
-      result.x.col(at) = positions(mesh, cells[i]) * reference.samples[k].N;
-      stresses_at(reference.samples[k], mesh, material, cells[i], u, result.stress.col(at));
-    }
+  {
+    const auto first                            = static_cast<Eigen::Index>(i) * result.per_cell;
+    result.x.middleCols(first, result.per_cell) = positions(mesh, cells[i]) * reference.samples.N;
+    stresses_at(reference.samples, mesh, material, cells[i], u, result.stress.middleCols(first, result.per_cell));
+  }
   return result;
 }
 
@@ -138,73 +137,105 @@ class PatchFit
 public:
   PatchFit(const Samples &samples, const std::vector<int> &patch, const Eigen::Vector3d &centre) : centre_(centre)
   {
-    const int      n     = samples.per_cell;
-    Eigen::Array3d reach = Eigen::Array3d::Constant(std::numeric_limits<double>::min());
-    for (const int cell : patch)
-      for (int k = 0; k < n; ++k)
-        reach = reach.max((samples.x.col(cell * n + k) - centre_).array().abs());
-    scale_ = reach.inverse();
+    const int        n = samples.per_cell;
+    Eigen::Matrix3Xd x(3, n * patch.size());
+    Stresses         stress(samples.stress.rows(), x.cols());
+    for (std::size_t i = 0; i < patch.size(); ++i)
+    {
+      x.middleCols(n * i, n)      = samples.x.middleCols(n * patch[i], n).colwise() - centre_;
+      stress.middleCols(n * i, n) = samples.stress.middleCols(n * patch[i], n);
+    }
+    scale_ = x.array().abs().rowwise().maxCoeff().max(std::numeric_limits<double>::min()).inverse();
 
-    Eigen::Matrix<double, monomials, monomials> normal = Eigen::Matrix<double, monomials, monomials>::Zero();
-    Eigen::MatrixXd                             right  = Eigen::MatrixXd::Zero(monomials, samples.stress.rows());
-    for (const int cell : patch)
-      for (int k = 0; k < n; ++k)
-      {
-        const Monomials p = at(samples.x.col(cell * n + k));
-        normal += p * p.transpose();
-        right += p * samples.stress.col(cell * n + k).transpose();
-      }
+    const Columns                               P      = monomials_of(x);
+    Eigen::Matrix<double, monomials, monomials> normal = P * P.transpose();
     normal.diagonal().tail<6>() *= 1. + ridge; // z^2 is a constant to samples at z = +-a: then it is left out
-    coefficients_ = normal.ldlt().solve(right);
+    coefficients_ = normal.ldlt().solve(P * stress.transpose()).transpose();
   }
 
-  Eigen::VectorXd operator()(const Eigen::Vector3d &x) const { return coefficients_.transpose() * at(x); }
+  /// Fitted stresses at places [3 x k], one in each column.
+  Stresses operator()(const Eigen::Matrix3Xd &x) const { return coefficients_ * monomials_of(x.colwise() - centre_); }
 
 private:
-  Monomials at(const Eigen::Vector3d &x) const { return monomials_at(((x - centre_).array() * scale_).matrix()); }
+  using Columns = Eigen::Matrix<double, monomials, Eigen::Dynamic>;
+
+  Columns monomials_of(const Eigen::Matrix3Xd &r) const
+  {
+    Columns P(monomials, r.cols());
+    for (Eigen::Index k = 0; k < r.cols(); ++k)
+      P.col(k) = monomials_at((r.col(k).array() * scale_).matrix());
+    return P;
+  }
 
   Eigen::Vector3d centre_;
   Eigen::Array3d  scale_;
-  Eigen::MatrixXd coefficients_; // [monomials x 6 fields]
+  Eigen::MatrixXd coefficients_; // [6 fields x monomials]
+};
+
+/// The nodes that take a part of their stress from the fit around a corner, and how large a part.
+class NodesOfCorner
+{
+public:
+  explicit NodesOfCorner(const QuadraticMesh &mesh) : mesh_(mesh), seen_(mesh.n_nodes(), -1) {}
+
+  void collect(const CellsAround &around, int corner)
+  {
+    const ReferenceCell &reference = reference_cell(mesh_);
+    nodes.clear();
+    share.clear();
+    for (int k = around.begin[corner]; k < around.begin[corner + 1]; ++k)
+    {
+      const int *of_cell = mesh_.nodes(around.list[around.cells[k]]);
+      for (int a = 0; a < reference.n_nodes; ++a)
+      {
+        const std::vector<int> &amid = reference.between[a];
+        if (seen_[of_cell[a]] == corner ||
+            std::none_of(amid.begin(), amid.end(), [&](int c) { return of_cell[reference.corners[c]] == corner; }))
+          continue;
+        seen_[of_cell[a]] = corner;
+        nodes.push_back(of_cell[a]);
+        share.push_back(1. / static_cast<double>(amid.size()));
+      }
+    }
+  }
+
+  std::vector<int>    nodes;
+  std::vector<double> share;
+
+private:
+  const QuadraticMesh &mesh_;
+  std::vector<int>     seen_; // by which corner
 };
 
 } // namespace
 
-Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const Eigen::MatrixXd &u)
+Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u)
 {
   const auto &nodes = reference_cell(mesh).nodes;
-  Stresses    result(6 * u.cols(), nodes.size());
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    stresses_at(nodes[a], mesh, material, cell, u, result.col(a));
+  Stresses    result(2 * u.rows(), nodes.size());
+  stresses_at(nodes, mesh, material, cell, u, result);
   return result;
 }
 
 Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,
-                            const Eigen::MatrixXd &u)
+                            const NodalFields &u)
 {
-  const ReferenceCell &reference = reference_cell(mesh);
-  const Samples        samples   = sample(mesh, material, cells, u);
-  const CellsAround    around    = cells_around(mesh, cells);
-  Stresses             result    = Stresses::Zero(6 * u.cols(), mesh.n_nodes());
-  std::vector<int>     seen(mesh.n_nodes(), -1); // by which corner
+  const Samples     samples = sample(mesh, material, cells, u);
+  const CellsAround around  = cells_around(mesh, cells);
+  Stresses          result  = Stresses::Zero(2 * u.rows(), mesh.n_nodes());
+  NodesOfCorner     takers(mesh);
   for (int corner = 0; corner < mesh.n_nodes(); ++corner)
   {
     if (around.begin[corner] == around.begin[corner + 1])
       continue; // no corner
-    const PatchFit fit(samples, patch_of(mesh, around, corner, reference.samples.size()), point(mesh, corner));
-    for (int k = around.begin[corner]; k < around.begin[corner + 1]; ++k)
-    {
-      const int *nodes = mesh.nodes(cells[around.cells[k]]);
-      for (int a = 0; a < reference.n_nodes; ++a)
-      {
-        const std::vector<int> &amid = reference.between[a];
-        if (seen[nodes[a]] == corner ||
-            std::none_of(amid.begin(), amid.end(), [&](int c) { return nodes[reference.corners[c]] == corner; }))
-          continue;
-        seen[nodes[a]] = corner;
-        result.col(nodes[a]) += fit(point(mesh, nodes[a])) / static_cast<double>(amid.size());
-      }
-    }
+    const PatchFit fit(samples, patch_of(mesh, around, corner, samples.per_cell), point(mesh, corner));
+    takers.collect(around, corner);
+    Eigen::Matrix3Xd x(3, takers.nodes.size());
+    for (std::size_t k = 0; k < takers.nodes.size(); ++k)
+      x.col(k) = point(mesh, takers.nodes[k]);
+    const Stresses fitted = fit(x);
+    for (std::size_t k = 0; k < takers.nodes.size(); ++k)
+      result.col(takers.nodes[k]) += takers.share[k] * fitted.col(k);
   }
   return result;
 }

@@ -13,8 +13,11 @@ namespace gestell::fem
 /// Stresses xx yy zz xy yz zx [Pa] of several fields: six rows per field, one column per point.
 using Stresses = Eigen::MatrixXd;
 
-/// Stresses of displacements u [3 n_nodes x fields] at the nodes of one cell, as the cell alone has them [6 f x nodes].
-Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const Eigen::MatrixXd &u);
+/// Displacements [m] of several fields: three rows per field, one column per node of the mesh.
+using NodalFields = Eigen::MatrixXd;
+
+/// Stresses at the nodes of one cell, as the cell alone has them [6 f x nodes].
+Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u);
 
 /**
  * Continuous stresses sigma* of the cells of one material at their nodes [6 f x n_nodes], 0 at others: superconvergent
@@ -27,7 +30,7 @@ Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int
  * Source: Zienkiewicz & Zhu, Int. J. Num. Meth. Eng. 33, 1992, 1331-1364.
  */
 Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,
-                            const Eigen::MatrixXd &u);
+                            const NodalFields &u);
 
 /// s : C^-1 : t  [J/m^3] of an isotropic material.
 double energy_product(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>> &s,

@@ -128,6 +128,15 @@ QuadraticMesh quadratic_mesh(const Mesh &mesh)
       edge_nodes.emplace(edge_key(cell->vertex_index(a), cell->vertex_index(b)), numbers[4 + e]);
       for (int d = 0; d < 3; ++d)
         result.points[numbers[4 + e]][d] = 0.5 * (cell->vertex(a)[d] + cell->vertex(b)[d]);
+      if (mesh.middles.empty())
+        continue;
+      const int  i = cell->vertex_index(a), j = cell->vertex_index(b);
+      const auto middle = mesh.middles.find({std::min(i, j), std::max(i, j)});
+      if (middle == mesh.middles.end())
+        continue;
+      result.points[numbers[4 + e]] = middle->second;
+      result.curved.resize(mesh.cells.size(), 0);
+      result.curved[cell->index()] = 1;
     }
   }
 

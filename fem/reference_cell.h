@@ -12,22 +12,25 @@ namespace gestell::fem
 /// Shape functions of one kind of cell at the points stresses are looked at.
 struct ReferenceCell
 {
-  struct Point
+  struct Points
   {
-    Eigen::VectorXd              N;  // [n_nodes]
-    Eigen::Matrix<double, -1, 3> dN; // [n_nodes x 3] dN_a / dxi_d
+    Eigen::MatrixXd N;  // [n_nodes x points]
+    Eigen::MatrixXd dN; // [n_nodes x 3 points] dN_a / dxi_d of point k in column 3 k + d
+
+    int  size() const { return static_cast<int>(N.cols()); }
+    void add(const Eigen::VectorXd &values, const Eigen::Matrix<double, -1, 3> &slopes);
   };
   int                           n_nodes = 0;
   std::vector<int>              corners; ///< local nodes
   std::vector<std::vector<int>> between; ///< of each node the corners (as counted in `corners`) it stands amid
-  std::vector<Point>            samples; ///< where stresses are best: Gauss's points one order below full integration
-  std::vector<Point>            nodes;
+  Points                        samples; ///< where stresses are best: Gauss's points one order below full integration
+  Points                        nodes;
 };
 
 /// Of the cells of a mesh: tetrahedra with 10 nodes or hexahedra with 27.
 const ReferenceCell &reference_cell(const QuadraticMesh &mesh);
 
 /// Nodes of a cell as columns [3 x n_nodes].
-Eigen::Matrix<double, 3, Eigen::Dynamic> positions(const QuadraticMesh &mesh, int cell);
+Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const QuadraticMesh &mesh, int cell);
 
 } // namespace gestell::fem

@@ -36,6 +36,17 @@ ReferenceIntegrals integrate()
                 volume.weight(p) * tetrahedron.shape_grad(a, x)[i] * tetrahedron.shape_grad(b, x)[j];
       }
 
+  for (unsigned int p = 0; p < volume.size(); ++p)
+  {
+    result.tetrahedron.push_back({volume.weight(p), {}, {}});
+    for (int a = 0; a < 10; ++a)
+    {
+      result.tetrahedron.back().N[a] = tetrahedron.shape_value(a, volume.point(p));
+      for (int i = 0; i < 3; ++i)
+        result.tetrahedron.back().dN(a, i) = tetrahedron.shape_grad(a, volume.point(p))[i];
+    }
+  }
+
   const auto &corners = tetrahedron.get_unit_support_points(); // the first four
   for (int k = 0; k < 4; ++k)
     for (int a = 0; a < 10; ++a)
@@ -49,6 +60,17 @@ ReferenceIntegrals integrate()
       for (int b = 0; b < 6; ++b)
         result.triangle_mass(a, b) +=
             area.weight(p) * triangle.shape_value(a, area.point(p)) * triangle.shape_value(b, area.point(p));
+
+  for (unsigned int p = 0; p < area.size(); ++p)
+  {
+    result.triangle.push_back({area.weight(p), {}, {}});
+    for (int a = 0; a < 6; ++a)
+    {
+      result.triangle.back().N[a] = triangle.shape_value(a, area.point(p));
+      for (int i = 0; i < 2; ++i)
+        result.triangle.back().dN(a, i) = triangle.shape_grad(a, area.point(p))[i];
+    }
+  }
 
   // Symmetric to the last bit, as the solvers of symmetric matrices read one triangle only.
   result.mass          = 0.5 * (result.mass + result.mass.transpose()).eval();

@@ -1,6 +1,8 @@
 #include "fem/skin_stress.h"
 
 #include "fem/elasticity.h"
+#include "fem/hexahedron.h"
+#include "fem/reference_cell.h"
 
 #include <Eigen/LU>
 
@@ -25,14 +27,30 @@ Lame lame(const Material &material)
           material.E / (2. * (1. + material.nu))};
 }
 
+Triple sorted(Triple corners)
+{
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Corners of the triangles that may stand for a face of a cell: local nodes, of a quadrilateral along both diagonals.
+std::vector<Triple> face_triangles(const QuadraticMesh &mesh)
+{
+  if (mesh.hexahedra.empty())
+    return {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
+  std::vector<Triple> triangles;
+  for (const auto &face : hexahedron::faces)
+    for (int left_out = 0; left_out < 4; ++left_out)
+    {
+      const auto corner = [&](int k) { return hexahedron::corners[face[(left_out + k) % 4]]; };
+      triangles.push_back({corner(1), corner(2), corner(3)});
+    }
+  return triangles;
+}
+
 /// The triangles of the skin and the cells they belong to.
 std::map<Triple, int> owners(const QuadraticMesh &mesh)
 {
-  const auto sorted = [](Triple corners)
-  {
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
   std::vector<char>     on_skin(mesh.n_nodes(), 0);
   std::map<Triple, int> owner;
   for (const auto &face : mesh.skin)
@@ -41,23 +59,70 @@ std::map<Triple, int> owners(const QuadraticMesh &mesh)
     for (int k = 0; k < 3; ++k)
       on_skin[face[k]] = 1;
   }
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-    for (int opposite = 0; opposite < 4; ++opposite)
+  const std::vector<Triple> triangles = face_triangles(mesh);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    for (const auto &[a, b, c] : triangles)
     {
-      Triple corners{};
-      int    n = 0;
-      for (int k = 0; k < 4; ++k)
-        if (k != opposite && on_skin[mesh.cells[cell][k]])
-          corners[n++] = mesh.cells[cell][k];
-      if (n < 3)
+      const int *nodes = mesh.nodes(cell);
+      if (!on_skin[nodes[a]] || !on_skin[nodes[b]] || !on_skin[nodes[c]])
         continue;
-      if (const auto found = owner.find(sorted(corners)); found != owner.end())
-        found->second = static_cast<int>(cell);
+      if (const auto found = owner.find(sorted({nodes[a], nodes[b], nodes[c]})); found != owner.end())
+        found->second = cell;
     }
   std::map<Triple, int> in_order; // as the skin names its corners
   for (const auto &face : mesh.skin)
     in_order[{face[0], face[1], face[2]}] = owner.at(sorted({face[0], face[1], face[2]}));
   return in_order;
+}
+
+/// dN_a/dx at the corners of a cell, as far as stresses are to be trusted there.
+struct CornerGradients
+{
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;
+
+  double               volume = 0.;
+  std::vector<Weights> of_corner; // in the order of ReferenceCell::corners
+};
+
+CornerGradients tetrahedron_gradients(const QuadraticMesh &mesh, int cell)
+{
+  const auto     &nodes = mesh.cells[cell];
+  Eigen::Matrix3d J;
+  for (int k = 0; k < 3; ++k)
+    for (int d = 0; d < 3; ++d)
+      J(d, k) = mesh.points[nodes[k + 1]][d] - mesh.points[nodes[0]][d];
+  const Eigen::Matrix3d inverse = J.inverse();
+  CornerGradients       result;
+  result.volume = std::abs(J.determinant()) / 6.;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const auto           &dN = reference_integrals().corner_gradients[corner];
+    const Eigen::Matrix3d slope =
+        mesh.is_curved(cell) ? Eigen::Matrix3d((positions(mesh, cell) * dN).inverse()) : inverse;
+    result.of_corner.push_back(dN * slope);
+  }
+  return result;
+}
+
+/// Trilinear through the 2 x 2 x 2 points of Gauss, where the stresses of this element are best.
+CornerGradients hexahedron_gradients(const QuadraticMesh &mesh, int cell)
+{
+  const hexahedron::Positions X = positions(mesh, cell);
+  CornerGradients             result;
+  result.of_corner.assign(8, CornerGradients::Weights::Zero(hexahedron::n_nodes, 3));
+  for (const auto &point : hexahedron::quadrature(2))
+  {
+    const Eigen::Matrix3d          J      = hexahedron::jacobian(X, point.dN);
+    const CornerGradients::Weights slopes = point.dN * J.inverse();
+    result.volume += point.weight * J.determinant();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      // xi_g = +-1/sqrt(3), so that xi_c xi_g / xi_g^2 = 3 xi_c xi_g
+      const Eigen::Array3d xi = hexahedron::node_position(hexahedron::corners[corner]).array() * point.xi.array();
+      result.of_corner[corner] += (0.5 * (1. + 3. * xi)).prod() * slopes;
+    }
+  }
+  return result;
 }
 
 /// Gathers the rows of a StressRecovery cell by cell.
@@ -68,8 +133,8 @@ public:
       : mesh_(mesh), material_of_(material_of), column_of_(mesh.n_nodes(), -1)
   {
     place_points();
-    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-      add(static_cast<int>(cell));
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      add(cell);
   }
 
   StressRecovery recovery(const Kinematics &kinematics, const RigidNodes &rigid)
@@ -104,7 +169,7 @@ private:
     {
       const int cell = owner.at({face[0], face[1], face[2]});
       if (cell < 0)
-        throw std::invalid_argument("skin_stress: a triangle of the skin is no face of a tetrahedron");
+        throw std::invalid_argument("skin_stress: a triangle of the skin is no part of a face of a cell");
       const Lame         moduli = lame(material_of_(cell));
       std::array<int, 3> triangle{};
       for (int k = 0; k < 3; ++k)
@@ -130,30 +195,27 @@ private:
 
   void add(int cell)
   {
-    const auto &nodes = mesh_.cells[cell];
-    if (std::none_of(nodes.begin(), nodes.begin() + 4, [&](int node) { return on_skin_[node]; }))
+    const int              *nodes   = mesh_.nodes(cell);
+    const std::vector<int> &corners = reference_cell(mesh_).corners;
+    if (std::none_of(corners.begin(), corners.end(), [&](int corner) { return on_skin_[nodes[corner]]; }))
       return;
-    Eigen::Matrix3d J;
-    for (int k = 0; k < 3; ++k)
-      for (int d = 0; d < 3; ++d)
-        J(d, k) = mesh_.points[nodes[k + 1]][d] - mesh_.points[nodes[0]][d];
-    const Eigen::Matrix3d inverse = J.inverse();
-    const double          volume  = std::abs(J.determinant()) / 6.;
-    const Lame            moduli  = lame(material_of_(cell));
-    for (int corner = 0; corner < 4; ++corner)
+    const CornerGradients gradients =
+        mesh_.hexahedra.empty() ? tetrahedron_gradients(mesh_, cell) : hexahedron_gradients(mesh_, cell);
+    const Lame moduli = lame(material_of_(cell));
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
     {
-      const auto point = point_of_.find({nodes[corner], moduli[0], moduli[1]});
+      const auto point = point_of_.find({nodes[corners[corner]], moduli[0], moduli[1]});
       if (point == point_of_.end())
         continue;
-      const int  i       = point->second;
-      const auto weights = (reference_integrals().corner_gradients[corner] * inverse).eval(); // [10 x 3] dN_a/dx
-      volume_[i] += volume;
-      for (int a = 0; a < 10; ++a)
+      const int   i       = point->second;
+      const auto &weights = gradients.of_corner[corner];
+      volume_[i] += gradients.volume;
+      for (Eigen::Index a = 0; a < weights.rows(); ++a)
         for (int l = 0; l < 3; ++l)
           if (weights(a, l) != 0.)
           {
             const int column = 3 * column_of(nodes[a]) + l;
-            mean_.emplace_back(i, column, volume * weights(a, l));
+            mean_.emplace_back(i, column, gradients.volume * weights(a, l));
             if (owner_of_[i] == cell)
               of_one_.emplace_back(i, column, weights(a, l));
           }
@@ -179,13 +241,13 @@ private:
       std::vector<char> held(mesh_.n_nodes(), 0);
       for (const int node : rigid[r].second)
         held[node] = 1;
-      for (std::size_t cell = 0; cell < mesh_.cells.size(); ++cell)
+      for (int cell = 0; cell < mesh_.n_cells(); ++cell)
       {
-        const auto &nodes = mesh_.cells[cell];
-        if (std::none_of(nodes.begin(), nodes.end(), [&](int node) { return held[node]; }))
+        const int *nodes = mesh_.nodes(cell);
+        if (std::none_of(nodes, nodes + mesh_.nodes_per_cell(), [&](int node) { return held[node]; }))
           continue;
-        const Lame moduli = lame(material_of_(static_cast<int>(cell)));
-        for (int k = 0; k < 4; ++k)
+        const Lame moduli = lame(material_of_(cell));
+        for (const int k : reference_cell(mesh_).corners)
           if (const auto point = point_of_.find({nodes[k], moduli[0], moduli[1]});
               point != point_of_.end() && result_.beside[point->second] < 0)
             result_.beside[point->second] = static_cast<int>(r);

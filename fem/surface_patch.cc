@@ -44,6 +44,42 @@ std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &sur
   return triangles;
 }
 
+/// Whether a side is off the middle of its ends by more than rounding.
+bool is_curved(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  const auto node = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
+  for (int k = 0; k < 3; ++k)
+    if (const Eigen::Vector3d side = node((k + 1) % 3) - node(k);
+        (node(3 + k) - node(k) - 0.5 * side).norm() > 1e-10 * side.norm())
+      return true;
+  return false;
+}
+
+/// Area, int x dA and int N_a N_b dA of a triangle with curved sides.
+struct CurvedTriangle
+{
+  double                      area   = 0.;
+  Eigen::Vector3d             moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 6, 6> mass   = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+CurvedTriangle curved_triangle(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  Eigen::Matrix<double, 3, 6> X;
+  for (int a = 0; a < 6; ++a)
+    X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[face[a]].data());
+  CurvedTriangle result;
+  for (const auto &point : reference_integrals().triangle)
+  {
+    const Eigen::Matrix<double, 3, 2> tangents = X * point.dN;
+    const double dA = point.weight * Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
+    result.area += dA;
+    result.moment += dA * X * point.N;
+    result.mass += dA * point.N * point.N.transpose();
+  }
+  return result;
+}
+
 double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
 {
   const auto corner = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
@@ -90,6 +126,14 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   };
   for (const std::array<int, 6> &face : patch.faces)
   {
+    if (!mesh.curved.empty() && is_curved(mesh, face))
+    {
+      const CurvedTriangle triangle = curved_triangle(mesh, face);
+      patch.area += triangle.area;
+      patch.centroid += triangle.moment;
+      add(face, triangle.mass);
+      continue;
+    }
     const double area = triangle_area(mesh, face);
     patch.area += area;
     for (int k = 0; k < 3; ++k)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -192,6 +194,45 @@ std::string groups_of(const std::vector<Face> &faces)
   return list.empty() ? "The model names no group and no face." : "The model names " + list + ".";
 }
 
+/// Faces that share an edge hang together, as the halves of a bore: the number of such pieces.
+std::size_t number_of_pieces(const std::vector<const Face *> &faces)
+{
+  std::vector<std::size_t>   piece(faces.size());
+  std::map<int, std::size_t> first_at; // edge to face
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    piece[i] = i;
+    for (const int edge : faces[i]->edges)
+      if (const auto [other, is_new] = first_at.try_emplace(edge, i); !is_new)
+        std::replace(piece.begin(), piece.end(), piece[i], piece[other->second]);
+  }
+  return std::set<std::size_t>(piece.begin(), piece.end()).size();
+}
+
+/// Faces the box cuts through, though they meet all other conditions.
+std::string cut_by_box(const std::vector<Face> &faces, const SurfaceSelector &selector, double tolerance)
+{
+  if (!selector.box)
+    return "";
+  SurfaceSelector others = selector;
+  others.box.reset();
+  const auto inside = [&](const Face::Sample &sample)
+  {
+    for (int d = 0; d < 3; ++d)
+      if (sample.point[d] < selector.box->min[d] - tolerance || sample.point[d] > selector.box->max[d] + tolerance)
+        return false;
+    return true;
+  };
+  std::string list;
+  for (const Face &face : faces)
+    if (violation(face, others) <= tolerance && violation(face, *selector.box) > tolerance)
+      if (const auto n = std::count_if(face.samples.begin(), face.samples.end(), inside); n > 0)
+        list += (list.empty() ? " " : ", ") + std::to_string(face.tag);
+  return list.empty() ? ""
+                      : " The box cuts through face" + list +
+                            ": selectors take whole faces; enlarge the box, or split the face in the CAD program.";
+}
+
 } // namespace
 
 std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelector &selector, double diagonal)
@@ -209,19 +250,20 @@ std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelec
     std::vector<const Face *> here;
     std::copy_if(fitting.begin(), fitting.end(), std::back_inserter(here),
                  [&](const Face *face) { return holds(*face, selector, tolerance); });
-    if (here.size() == wanted)
+    if (here.size() == wanted || number_of_pieces(here) == wanted)
       fitting = here;
   }
 
   if (fitting.empty())
     throw std::invalid_argument(selector.place + ": no face fits (" + wish(selector) + ") within " +
                                 text(tolerance * 1e3) + " mm." + (selector.group ? " " + groups_of(faces) : "") +
+                                cut_by_box(faces, selector, tolerance) +
                                 " Nearest faces, lengths in m:" + candidates(faces, selector));
-  if (wanted > 0 && fitting.size() != wanted)
+  if (wanted > 0 && fitting.size() != wanted && number_of_pieces(fitting) != wanted)
     throw std::invalid_argument(
         selector.place + ": " + std::to_string(fitting.size()) + " faces fit (" + wish(selector) +
-        "), but faces = " + std::to_string(wanted) +
-        "; narrow the selection, say by a box, or set faces. Candidates, lengths in m:" + candidates(faces, selector));
+        "), but faces = " + std::to_string(wanted) + "; narrow the selection, say by a box, or set faces." +
+        cut_by_box(faces, selector, tolerance) + " Candidates, lengths in m:" + candidates(faces, selector));
   std::vector<int> tags;
   for (const Face *face : fitting)
     tags.push_back(face->tag);

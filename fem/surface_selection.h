@@ -18,6 +18,8 @@ namespace gestell::fem
  * `through` gives a plane or an axis.  Only if more faces fit than `selector.faces` asks for, it is also read as a
  * place: those faces count whose extent (along the axis; within the plane) holds the point, if their number is right.
  *
+ * Faces that share an edge may count as one: a bore of two halves is one face to its user.
+ *
  * @throws std::invalid_argument with the candidates if no face fits or their number is another one than `faces`.
  */
 std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelector &selector, double diagonal);

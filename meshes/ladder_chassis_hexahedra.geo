@@ -1,7 +1,11 @@
 // The chassis of ladder_chassis.geo in hexahedra: all its plates stand at right angles, so that the planes of their sides
-// divide it into bricks, each with one layer of cells through its thickness.
+// divide it into bricks, each with `layers` of cells through its thickness.
 //
-// The script meshes by itself; Mesh.MeshSizeMax, which is mesh.size of the scene, is the largest side of a cell.
+// The script meshes by itself; Mesh.MeshSizeMax, which is mesh.size of the scene, is the largest side of a cell.  Along the
+// edges of every plate, where stresses change fast, cells are an eighth of it wide.
+
+layers = 1;                    // of cells through every plate, at least
+edge   = Mesh.MeshSizeMax / 8; // width of the cells along edges
 
 // ---- dimensions, as in ladder_chassis.geo ---------------------------------------------------------------------------
 length        = 3600;
@@ -15,16 +19,42 @@ cross_top     = 150;
 cross_flange  = 60;
 cross_plate   = 10;
 pad           = 16;
+thickest      = 16; // plate: what is wider is no thickness
 
 cross_at() = {0, 840, 1680, 2520, 3590};
 axle_at()  = {500, 3000};
 engine_at  = 2200;
 
 // ---- the planes that divide it --------------------------------------------------------------------------------------
-xs() = {0, 10, 60, 440, 560, 840, 850, 900, 1680, 1690, 1740, 2150, 2250, 2520, 2530, 2580, 2940, 3060, 3540, 3590, 3600};
-ys() = {-half_width, -half_width + web_plate, -half_width + flange, half_width - flange, half_width - web_plate, half_width};
-zs() = {-pad, 0, flange_plate, cross_bottom, cross_bottom + cross_plate, cross_top - cross_plate, cross_top,
-        height - flange_plate, height, height + pad};
+sides_x() = {0, 10, 60, 440, 560, 840, 850, 900, 1680, 1690, 1740, 2150, 2250, 2520, 2530, 2580, 2940, 3060, 3540, 3590, 3600};
+sides_y() = {-half_width, -half_width + web_plate, -half_width + flange, half_width - flange, half_width - web_plate, half_width};
+sides_z() = {-pad, 0, flange_plate, cross_bottom, cross_bottom + cross_plate, cross_top - cross_plate, cross_top,
+             height - flange_plate, height, height + pad};
+
+// Between sides that are no plate's, planes along each of them: one narrow cell, one of middle width.
+sides() = {};
+planes() = {};
+Macro AlongEdges
+  planes() = {sides(0)};
+  For i In {1 : #sides() - 1}
+    width = sides(i) - sides(i - 1);
+    If (width > thickest + 1e-3 && width > 10 * edge)
+      planes() += {sides(i - 1) + edge, sides(i - 1) + 4 * edge, sides(i) - 4 * edge, sides(i) - edge};
+    ElseIf (width > thickest + 1e-3 && width > 3 * edge)
+      planes() += {sides(i - 1) + edge, sides(i) - edge};
+    EndIf
+    planes() += {sides(i)};
+  EndFor
+Return
+sides() = {sides_x()};
+Call AlongEdges;
+xs() = {planes()};
+sides() = {sides_y()};
+Call AlongEdges;
+ys() = {planes()};
+sides() = {sides_z()};
+Call AlongEdges;
+zs() = {planes()};
 nx = #xs() - 1;
 ny = #ys() - 1;
 nz = #zs() - 1;
@@ -71,6 +101,12 @@ For p In {0 : n - 1}
   made_yz(p) = 0; made_zx(p) = 0; made_xy(p) = 0;
 EndFor
 
+Macro Cells // along an edge of length `width`
+  cells = Ceil(width / Mesh.MeshSizeMax - eps);
+  If (width < thickest + eps && cells < layers)
+    cells = layers;
+  EndIf
+Return
 Macro MakePoint // p
   If (!made_point(p))
     made_point(p) = 1;
@@ -84,7 +120,8 @@ Macro MakeX
     made_x(p) = 1;
     Line(1 + p) = {1 + p, 2 + p};
     ii = p - px * Floor((p + 0.5) / px);
-    Transfinite Curve{1 + p} = 1 + Ceil((xs(ii + 1) - xs(ii)) / Mesh.MeshSizeMax - eps);
+    width = xs(ii + 1) - xs(ii);  Call Cells;
+    Transfinite Curve{1 + p} = 1 + cells;
   EndIf
 Return
 Macro MakeY
@@ -92,7 +129,8 @@ Macro MakeY
     made_y(p) = 1;
     Line(1 + n + p) = {1 + p, 1 + px + p};
     jj = Floor((p + 0.5) / px) - py * Floor((p + 0.5) / (px * py));
-    Transfinite Curve{1 + n + p} = 1 + Ceil((ys(jj + 1) - ys(jj)) / Mesh.MeshSizeMax - eps);
+    width = ys(jj + 1) - ys(jj);  Call Cells;
+    Transfinite Curve{1 + n + p} = 1 + cells;
   EndIf
 Return
 Macro MakeZ
@@ -100,7 +138,8 @@ Macro MakeZ
     made_z(p) = 1;
     Line(1 + 2 * n + p) = {1 + p, 1 + px * py + p};
     kk = Floor((p + 0.5) / (px * py));
-    Transfinite Curve{1 + 2 * n + p} = 1 + Ceil((zs(kk + 1) - zs(kk)) / Mesh.MeshSizeMax - eps);
+    width = zs(kk + 1) - zs(kk);  Call Cells;
+    Transfinite Curve{1 + 2 * n + p} = 1 + cells;
   EndIf
 Return
 

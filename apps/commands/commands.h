@@ -30,6 +30,11 @@ struct MeshCommandOptions
   std::string size; ///< a length such as "80 mm", plain numbers in m; empty: chosen for some 25 000 cells
   std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
   double      max_cells = 2e6;
+  std::string gap;                   ///< a length: solids at most that far apart are joined
+  std::string defeature;             ///< a length: smaller faces and edges are removed
+  std::string overlaps  = "refused"; ///< or "once"
+  int         bodies    = 1;         ///< expected
+  bool        selectors = false;     ///< surfaces as entries of a scene
 };
 
 /// What `gestell chart` compares; empty lists: chosen for the scene.
@@ -62,8 +67,9 @@ struct ModesCommandOptions
   std::string              speed;                         ///< of the excitation; empty: that of the scene's start
   int                      orders          = 10;          ///< multiples of it that are looked at
   std::string              band            = "5 %";       ///< how near an order comes to count
-  double                   converge        = 0.; ///< relative error the mesh may leave; 0: the scene's mesh as it is
-  int                      frequencies     = 4;  ///< lowest elastic ones of the frame that `converge` watches
+  double                   converge        = 0.;    ///< relative error the mesh may leave; 0: the scene's mesh as it is
+  int                      frequencies     = 4;     ///< lowest elastic ones of the frame that `converge` watches
+  std::string              watch           = "all"; ///< or "frequencies": compliances of interfaces are left out
   int                      max_coordinates = 1000000; ///< of the finest mesh
 };
 

@@ -4,6 +4,7 @@
 #include "apps/output/result_folder.h"
 #include "coupling/mesh_service.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -38,6 +39,23 @@ void add_row(std::string &table, const std::string &name, const coupling::MeshCo
   table += '\n';
 }
 
+double largest_bound(const coupling::MeshConvergence &convergence, const std::string &kind)
+{
+  double largest = 0.;
+  for (const auto &quantity : convergence.quantities)
+    if (quantity.name.rfind(kind, 0) == 0)
+      largest = std::max(largest, quantity.bound());
+  return largest;
+}
+
+/// "frequencies within 0.7 %, compliances within 1.5 %"
+std::string reached(const coupling::MeshConvergence &convergence)
+{
+  const double compliances = largest_bound(convergence, "compliance");
+  return "frequencies within " + percent(largest_bound(convergence, "frequency")) +
+         (compliances > 0. ? ", compliances within " + percent(compliances) : "");
+}
+
 } // namespace
 
 coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes, ProgressLine &progress)
@@ -50,6 +68,7 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandO
   options.tolerance       = modes.converge;
   options.n_frequencies   = modes.frequencies;
   options.max_coordinates = modes.max_coordinates;
+  options.compliances     = modes.watch == "all";
   return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options,
                                            [&progress](const std::string &phase, double share)
                                            { progress.show(phase, share); });
@@ -81,19 +100,15 @@ void print_convergence(const coupling::MeshConvergence &convergence, double tole
               << (std::isnan(quantity.order) ? "-" : short_text(quantity.order, 2)) << quantity.name << " ["
               << quantity.unit << "]" << std::right << '\n';
   }
-  std::cout << (convergence.converged ? "within " : "not within ") << percent(tolerance)
-            << (convergence.converged ? ", uncertainty included" : ": " + convergence.stopped) << '\n';
+  std::cout << reached(convergence) << ", uncertainty included: " << (convergence.converged ? "" : "not all ")
+            << "within " << percent(tolerance) << (convergence.converged ? "" : "; " + convergence.stopped) << '\n';
 }
 
 std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &convergence, double tolerance)
 {
-  double bound = 0.;
-  for (const auto &quantity : convergence.quantities)
-    bound = std::max(bound, quantity.bound());
   if (convergence.converged)
     return {};
-  return {"mesh: frequencies and compliances are within " + percent(bound) + " only, not within " + percent(tolerance) +
-          ": " + convergence.stopped};
+  return {"mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " + convergence.stopped};
 }
 
 void write_convergence(const std::filesystem::path &folder, const coupling::MeshConvergence &convergence)

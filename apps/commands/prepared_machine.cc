@@ -26,12 +26,14 @@ coupling::Progress progress_of(ProgressLine &line)
   return [&line](const std::string &phase, double share) { line.show(phase, share); };
 }
 
-/// M, B, C of a frame made from geometry or given by matrices.
-fem::FrameMatrices frame_matrices(const Scene &scene, ProgressLine &progress)
+/// A frame made from geometry or given by matrices, with its reduced companion.
+coupling::MeshService::Unreduced unreduced_frame(const Scene &scene, ProgressLine &progress)
 {
-  if (scene.frame.source == FrameSource::matrices)
-    return scene.frame.matrices;
-  return coupling::frame_service().assemble(scene.frame.geometry, progress_of(progress));
+  const coupling::ReductionOptions &options = scene.reduction.options;
+  if (scene.frame.source == FrameSource::geometry)
+    return coupling::mesh_service().assemble(scene.frame.geometry, options, progress_of(progress));
+  const fem::FrameMatrices &given = scene.frame.matrices;
+  return {given, coupling::frame_service().reduce(given, options, progress_of(progress))};
 }
 } // namespace
 
@@ -94,9 +96,8 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
     break;
   case FramePath::sparse:
   {
-    fem::FrameMatrices frame = frame_matrices(scene, progress);
-    prepared.companion =
-        build_machine(scene, coupling::frame_service().reduce(frame, scene.reduction.options, progress_of(progress)));
+    auto [frame, reduced] = unreduced_frame(scene, progress);
+    prepared.companion    = build_machine(scene, reduced);
     if (frame.modal_damping_ratio.any())
     {
       const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
@@ -136,6 +137,13 @@ coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepar
 {
   const coupling::InitialState state = initial_state(scene, prepared.small());
   return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+}
+
+std::string mesh_text(const FrameRequest &frame)
+{
+  return frame.source == FrameSource::matrices
+             ? "the frame is given by matrices; of the error of a mesh they may come from nothing is known"
+             : "";
 }
 
 ModelFacts model_facts(const PreparedMachine &prepared)
@@ -203,6 +211,7 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.command       = command;
   result.model         = model_facts(prepared);
   result.model.damping = damping_text(scene.frame);
+  result.model.mesh    = mesh_text(scene.frame);
   result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
   const coupling::Linearisation how{scene.modes.open, geometric};
   const Eigen::VectorXd         q = modes_configuration(scene, small);

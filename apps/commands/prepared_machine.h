@@ -41,6 +41,9 @@ coupling::FrameOrigin frame_origin(const Scene &scene);
 /// The reduced frame of a scene with geometry or large matrices; from_cache tells whether it was there already.
 coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache);
 
+/// What is to be said where no mesh is known whose error could be told: of frames given by matrices; else empty.
+std::string mesh_text(const FrameRequest &frame);
+
 /// What is known about the model, for summary and report.
 ModelFacts model_facts(const PreparedMachine &prepared);
 

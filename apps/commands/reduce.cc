@@ -89,6 +89,7 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   facts.frame_mass   = frame.mass;
   facts.free_motions = static_cast<int>((frame.frequencies_hz.array() == 0.).count());
   facts.damping      = damping_text(scene.frame);
+  facts.mesh         = mesh_text(scene.frame);
   for (const std::string &line : frame_lines(facts))
     std::cout << "  " << line << '\n';
   for (const std::string &note : frame.notes)

@@ -75,6 +75,8 @@ std::vector<std::string> frame_lines(const ModelFacts &model)
     lines.push_back(free_line(model));
   if (!model.damping.empty())
     lines.push_back("damping: " + model.damping);
+  if (!model.mesh.empty())
+    lines.push_back("mesh: " + model.mesh);
   return lines;
 }
 

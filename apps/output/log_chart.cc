@@ -14,7 +14,8 @@ namespace
 {
 
 constexpr double left = 58., right = 10., bottom = 40., head = 30., panel_title = 20., legend_row = 16.;
-constexpr double letter = 6.6; ///< width of a 12 px letter, on average
+constexpr double letter      = 6.6; ///< width of a 12 px letter, on average
+constexpr int    not_a_power = -100;
 
 struct Axis
 {
@@ -74,14 +75,48 @@ struct Area
   double left, right, top, bottom;
 };
 
+/// Less than two powers of ten in sight are told apart by 2 and 5 between them, written in full.
+bool short_axis(const Axis &axis)
+{
+  return axis.end - axis.begin < 2.;
+}
+
+/// Calls draw(value, exponent) for the ticks of a logarithmic axis; exponent not_a_power where it is to be
+/// written in full.
+template <typename Draw>
+void log_ticks(const Axis &axis, int every, const Draw &draw)
+{
+  constexpr double rounding = 1e-9;
+  for (int e = static_cast<int>(std::floor(axis.begin - rounding)); e <= axis.end + rounding; ++e)
+    for (const double part : {1., 2., 5.})
+    {
+      const double value = part * std::pow(10., e);
+      const double v     = std::log10(value);
+      if (v < axis.begin - rounding || v > axis.end + rounding)
+        continue;
+      if (short_axis(axis))
+        draw(value, not_a_power);
+      else if (part == 1. && e % every == 0)
+        draw(value, e);
+    }
+}
+
+std::string log_label(double x, double y, double value, int exponent, const std::string &anchor)
+{
+  return exponent == not_a_power ? svg_text(x, y, short_text(value, 6), "tick", anchor)
+                                 : power_label(x, y, exponent, anchor);
+}
+
 std::string x_axis(const LogChart &chart, const Axis &x, const Area &area)
 {
   std::string svg;
-  for (int e = static_cast<int>(std::ceil(x.begin - 1e-9)); e <= x.end + 1e-9; ++e)
-  {
-    const double px = x.at(std::pow(10., e));
-    svg += path("grid", px, area.top, px, area.bottom) + power_label(px, area.bottom + 16., e, "middle");
-  }
+  log_ticks(x, 1,
+            [&](double value, int exponent)
+            {
+              const double px = x.at(value);
+              svg += path("grid", px, area.top, px, area.bottom) +
+                     log_label(px, area.bottom + 16., value, exponent, "middle");
+            });
   return svg + svg_text(0.5 * (area.left + area.right), area.bottom + 33., chart.x_label, "label", "middle");
 }
 
@@ -89,12 +124,13 @@ std::string y_axis(const LogChart &chart, const Axis &y, const Area &area)
 {
   std::string svg;
   if (chart.log_y)
-  {
-    const int every = static_cast<int>(std::ceil((y.end - y.begin) / 8.));
-    for (int e = static_cast<int>(std::ceil(y.begin - 1e-9)); e <= y.end + 1e-9; ++e)
-      if (const double py = y.at(std::pow(10., e)); e % every == 0)
-        svg += path("grid", area.left, py, area.right, py) + power_label(area.left - 6., py + 4., e, "end");
-  }
+    log_ticks(y, static_cast<int>(std::ceil((y.end - y.begin) / 8.)),
+              [&](double value, int exponent)
+              {
+                const double py = y.at(value);
+                svg += path("grid", area.left, py, area.right, py) +
+                       log_label(area.left - 6., py + 4., value, exponent, "end");
+              });
   else
     for (const double value : nice_ticks(chart.y_begin, chart.y_end, 6))
       svg += path("grid", area.left, y.at(value), area.right, y.at(value)) +

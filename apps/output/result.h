@@ -33,6 +33,7 @@ struct ModelFacts
   fem::FrameFacts frame;            ///< of a frame made of cells
   int             free_motions = 0; ///< modes of the frame of frequency zero
   std::string     damping;          ///< of the frame, for people
+  std::string     mesh; ///< what nobody knows of the frame's mesh, for people; else a warning tells its error
 };
 
 /// Modes along a coordinate, and what excites them there.

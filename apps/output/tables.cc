@@ -60,6 +60,8 @@ void write_frame(JsonWriter &json, const ModelFacts &model)
     json.text("", name);
   json.end_array();
   json.text("damping", model.damping);
+  if (!model.mesh.empty())
+    json.text("mesh", model.mesh);
 }
 
 void write_model(JsonWriter &json, const ModelFacts &model)

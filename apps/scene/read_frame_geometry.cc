@@ -180,19 +180,28 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
   mesh.place     = table.place();
   mesh.size      = is_mesh_file ? table.positive("size", kind::length, 0.) : table.positive("size", kind::length);
   mesh.max_cells = table.positive("max_cells", kind::number, mesh.max_cells);
-  std::vector<std::string> known{"size", "max_cells"};
+  mesh.gap       = table.not_negative("gap", kind::length, 0.);
+  mesh.bodies    = table.integer("bodies", 1);
+  mesh.defeature = table.not_negative("defeature", kind::length, 0.);
+  mesh.curved    = table.boolean("curved", false);
+  mesh.overlaps =
+      table.choice("overlaps", {"refused", "once"}, "refused") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  if (mesh.bodies < 1)
+    throw table.error("bodies", "needs the number of bodies expected, 1 or more");
+  const std::vector<std::string> own{"size", "max_cells", "gap", "bodies", "defeature", "overlaps", "curved"};
+  std::vector<std::string>       known = own;
   for (const auto &entry : frame.surfaces)
     known.push_back(entry.first);
   for (const auto &key : table.keys())
   {
-    if (key == "size" || key == "max_cells")
+    if (std::find(own.begin(), own.end(), key) != own.end())
       continue;
     bool any = false;
     for (const auto &entry : frame.surfaces)
       if (matches(key, entry.first))
         mesh.surface_size[entry.first] = table.positive(key, kind::length), any = true;
     if (!any)
-      throw table.error(key, "is neither 'size' nor 'max_cells' nor the name of a surface" +
+      throw table.error(key, "is neither " + coupling::listed(own) + " nor the name of a surface" +
                                  coupling::suggestion(key, known));
   }
   return mesh;
@@ -268,7 +277,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
 
   auto ending = std::filesystem::path(specification.cad).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh"};
+  const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh", ".inp"};
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + coupling::listed(endings));
   specification.unit      = frame.positive("unit", kind::length, 0.);
@@ -293,9 +302,9 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   for (const auto &table : frame.tables("cut"))
     specification.cuts.push_back(read_cut(table));
   check_overlaps(frame, specification);
-  specification.mesh = ending == ".msh" && !frame.has("mesh")
-                           ? fem::MeshOptions{}
-                           : read_mesh(frame.table("mesh"), specification, ending == ".msh");
+  const bool is_mesh = ending == ".msh" || ending == ".inp";
+  specification.mesh =
+      is_mesh && !frame.has("mesh") ? fem::MeshOptions{} : read_mesh(frame.table("mesh"), specification, is_mesh);
   return specification;
 }
 

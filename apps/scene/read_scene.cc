@@ -39,6 +39,11 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
       throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
   }
   request.options.frequency = table->positive("frequency", kind::frequency, 0.);
+  request.options.inner =
+      table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "fixed-interface"
+          ? coupling::InnerModes::interface_held
+          : coupling::InnerModes::interface_free;
+  request.options.inertia_relief = table->boolean("inertia_relief", false);
   return request;
 }
 
@@ -102,8 +107,10 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   if (start.rule != StartRule::steady)
   {
     if (start.rule == StartRule::rest)
-      start.drift = table->boolean("drift", false);
-
+    {
+      start.drift          = table->boolean("drift", false);
+      start.inertia_relief = table->boolean("inertia_relief", false);
+    }
     start.q = read_optional_coordinates(*table, "q", names, false, false, true);
     start.v = read_optional_coordinates(*table, "v", names, true, false, true);
     return start;

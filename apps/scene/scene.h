@@ -267,7 +267,8 @@ struct StartRequest
   StartRule               rule = StartRule::given;
   std::vector<NamedValue> q, v; ///< given
   coupling::SteadyStart   steady;
-  bool                    drift = false; ///< rest: with the quasi-static velocity
+  bool                    drift          = false; ///< rest: with the quasi-static velocity
+  bool                    inertia_relief = false; ///< rest: inertia takes loads along motions that nothing holds
   std::string             place;
 };
 

@@ -150,8 +150,9 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     try
     {
       if (scene.start.rule == StartRule::rest)
-        state = coupling::static_equilibrium(machine, state,
-                                             scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none);
+        state = coupling::static_equilibrium(
+            machine, state, scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none,
+            scene.start.inertia_relief ? coupling::Floating::relieved : coupling::Floating::refused);
     }
     catch (const std::invalid_argument &e)
     {

@@ -32,7 +32,10 @@ constexpr double cancelled  = 1e-10;                     // as in supported_mode
 constexpr double singular   = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
 constexpr double aim        = 0.6;                       // of the tolerance: what a mesh is made for
 constexpr double least_fall = 0.2, greatest_fall = 0.45; // of the error from mesh to mesh
-constexpr double finest = 1e-3;                          // smallest element over the size of the first mesh
+constexpr double finest      = 1e-3;                     // smallest element over the size of the first mesh
+constexpr double filled      = 0.9;                      // of the coordinates allowed, where a mesh is cut down to them
+constexpr double growth      = 1.2; // of coordinates, at least: less shows no difference between meshes
+constexpr int    most_trials = 4;
 
 void require(bool holds, const std::string &message)
 {
@@ -82,7 +85,7 @@ MatrixXd compliance(const ReducedFrame &frame)
 std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
 {
   const DenseModes     modes   = dense_modes(frame.C, frame.M, cancelled);
-  const auto           n_rigid = (modes.omega.array() == 0.).count();
+  const auto           n_rigid = (frame.frequencies_hz.array() == 0.).count(); // as the full frame counts them
   std::vector<Watched> result;
   for (Eigen::Index j = n_rigid; j < modes.omega.size() && j < n_rigid + count; ++j)
     result.push_back({"frequency " + std::to_string(j - n_rigid + 1), "Hz", modes.V.col(j),
@@ -135,8 +138,9 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;
   result.watched    = watch_frequencies(result.frame, options.n_frequencies);
-  for (Watched &compliance : watch_compliances(result.frame))
-    result.watched.push_back(std::move(compliance));
+  if (options.compliances)
+    for (Watched &compliance : watch_compliances(result.frame))
+      result.watched.push_back(std::move(compliance));
 
   MatrixXd fields(matrices.M.rows(), result.watched.size());
   for (std::size_t j = 0; j < result.watched.size(); ++j)
@@ -191,55 +195,109 @@ void check(const fem::FrameSpecification &specification, const ConvergenceOption
                                             ".geo), or mesh finer where it was made.");
 }
 
+/// The meshes of a convergence, one after the other.
+class Meshes
+{
+public:
+  Meshes(const fem::FrameSpecification &specification, const ConvergenceOptions &options)
+      : specification_(specification), options_(options), first_size_(specification.mesh.size)
+  {
+    specification_.mesh.max_cells = options.max_coordinates; // judged by its coordinates
+  }
+
+  const fem::FrameSpecification &specification() const { return specification_; }
+  const std::string             &stopped() const { return stopped_; }
+
+  fem::Mesh first(const Progress &progress) const { return fem::make_mesh(specification_, progress, {}); }
+
+  /**
+   * A mesh with `fall` of the error of the last one, or as much as the coordinates allowed have room for; none where
+   * that is no more than the last one had, and stopped() says so.
+   */
+  std::optional<fem::Mesh> next(const Computed &last, bool hexahedra, double fall, const Progress &progress)
+  {
+    const double last_size = specification_.mesh.size;
+    for (int trial = 1;; ++trial)
+    {
+      fem::Mesh    mesh = hexahedra ? finer_everywhere(last_size, fall, progress) : finer(last, fall, progress);
+      const double n    = 3. * fem::number_of_nodes(mesh);
+      if (n <= options_.max_coordinates)
+        return mesh;
+      const double least = growth * last.level.n_coordinates, wanted = filled * options_.max_coordinates;
+      if (trial == most_trials || wanted < least)
+      {
+        stopped_ = "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
+                   std::to_string(options_.max_coordinates) + " allowed";
+        return {};
+      }
+      // error ~ n^-k
+      const double k = std::log(fall) / std::log(last.level.n_coordinates / n);
+      fall           = std::pow(last.level.n_coordinates / wanted, k);
+    }
+  }
+
+private:
+  fem::Mesh finer(const Computed &last, double fall, const Progress &progress) const
+  {
+    fem::Refinement refinement;
+    refinement.error    = fall;
+    refinement.largest  = first_size_;
+    refinement.smallest = finest * first_size_;
+    return fem::make_mesh(specification_, progress, fem::refine(*last.mesh_error, last.eta2, refinement));
+  }
+
+  /// Of a script that meshes by itself.
+  fem::Mesh finer_everywhere(double size, double fall, const Progress &progress)
+  {
+    specification_.mesh.size = size * std::pow(fall, 1. / (2. * fem::order_of_refinement));
+    return fem::make_mesh(specification_, progress, {});
+  }
+
+  fem::FrameSpecification   specification_;
+  const ConvergenceOptions &options_;
+  double                    first_size_;
+  std::string               stopped_;
+};
+
 } // namespace
 
 MeshConvergence converge_mesh(fem::FrameSpecification specification, const ReductionOptions &reduction,
                               const ConvergenceOptions &options, const Progress &progress)
 {
   check(specification, options);
-  const double                first_size = specification.mesh.size;
-  MeshConvergence             result;
-  Computed                    last;
-  std::vector<fem::SizePoint> sizes;
-  specification.mesh.max_cells = options.max_coordinates; // judged by its coordinates
-  for (int number = 1;; ++number)
+  int        number = 1;
+  const auto phases = [&](const std::string &phase, double share)
   {
-    const std::string head   = "mesh " + std::to_string(number) + ": ";
-    const Progress    phases = [&](const std::string &phase, double share)
-    {
-      if (progress)
-        progress(head + phase, share);
-    };
-    const double    begin = double(std::clock()) / CLOCKS_PER_SEC;
-    const fem::Mesh mesh  = fem::make_mesh(specification, phases, sizes);
-    if (const double n = 3. * fem::number_of_nodes(mesh); n > options.max_coordinates && number > 1)
-    {
-      result.stopped = "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
-                       std::to_string(options.max_coordinates) + " allowed";
-      break;
-    }
-    last             = compute(specification, mesh, reduction, options, phases);
-    last.level.size  = specification.mesh.size;
-    last.level.cpu_s = double(std::clock()) / CLOCKS_PER_SEC - begin;
+    if (progress)
+      progress("mesh " + std::to_string(number) + ": " + phase, share);
+  };
+  const auto cpu_seconds = [] { return double(std::clock()) / CLOCKS_PER_SEC; };
+
+  Meshes                   meshes(specification, options);
+  MeshConvergence          result;
+  Computed                 last;
+  double                   begin = cpu_seconds();
+  std::optional<fem::Mesh> mesh  = meshes.first(phases);
+  while (mesh)
+  {
+    last             = compute(meshes.specification(), *mesh, reduction, options, phases);
+    last.level.size  = meshes.specification().mesh.size;
+    last.level.cpu_s = cpu_seconds() - begin;
     result.levels.push_back(last.level);
     result.quantities  = extrapolate_all(result.levels, last.watched);
     const double bound = largest_bound(result.quantities);
     result.converged   = number > 1 && bound <= options.tolerance;
     if (result.converged)
       break;
-    if (number == options.max_meshes)
+    if (number++ == options.max_meshes)
     {
-      result.stopped = std::to_string(number) + " meshes were allowed";
+      result.stopped = std::to_string(options.max_meshes) + " meshes were allowed";
       break;
     }
-    fem::Refinement refinement;
-    refinement.error    = std::clamp(aim * options.tolerance / bound, least_fall, greatest_fall);
-    refinement.largest  = first_size;
-    refinement.smallest = finest * first_size;
-    if (mesh.hexahedra.empty())
-      sizes = fem::refine(*last.mesh_error, last.eta2, refinement);
-    else // a script's own mesh: all of it finer
-      specification.mesh.size *= std::pow(refinement.error, 1. / (2. * fem::order_of_refinement));
+    begin             = cpu_seconds();
+    const double fall = std::clamp(aim * options.tolerance / bound, least_fall, greatest_fall);
+    mesh              = meshes.next(last, !mesh->hexahedra.empty(), fall, phases);
+    result.stopped    = meshes.stopped();
   }
   result.frame = std::move(last.frame);
   return result;

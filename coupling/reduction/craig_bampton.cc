@@ -3,6 +3,7 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/enough_modes.h"
 #include "coupling/reduction/fixed_modes.h"
+#include "coupling/reduction/inner_shapes.h"
 #include "coupling/reduction/interior_response.h"
 #include "fem/rigid_motions.h"
 
@@ -199,32 +200,71 @@ struct Statics
   ReductionBasis   basis; // no modes yet
   MatrixXd         load;  // [n x 3] of a unit acceleration, or [n x 0]
   InteriorResponse response;
+  FreeModes        free;   // if they are asked for
+  MatrixXd         relief; // shapes [n x 6, 3 or 0]
 };
 
-Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
-                 const ReductionOptions &options, const Progress &progress)
+/// A basis with all its shapes, and what is known of the modes of the supported frame.
+struct Shapes
 {
-  ReductionBasis basis = statics.basis;
-  ReducedFrame   reduced;
-  SupportedModes refined;
+  ReductionBasis  basis;
+  ReducedMatrices star;
+  SupportedModes  refined, damped; // for the estimate of the error, and for modal damping
+  double          limit;           // [rad/s] highest frequency the model is meant for
+};
+
+Shapes held_shapes(const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
+                   const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+{
+  Shapes shapes{statics.basis, {}, {}, {}, 0.};
   if (options.n_modes < 0)
-    refined = enough_modes(basis, fixed, statics.response, frame, options, progress, reduced.notes);
+    shapes.refined = enough_modes(shapes.basis, fixed, statics.response, frame, options, progress, notes);
   else
   {
     tell(progress, "fixed-interface modes");
     const LowestModes modes = fixed.lowest(options.n_modes);
-    basis.set_modes(frame.M, modes.V, modes.omega);
+    shapes.basis.set_modes(frame.M, modes.V, modes.omega);
   }
   tell(progress, "reduced matrices");
-  ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+  shapes.star = reduced_matrices(shapes.basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-    refined = supported_modes(basis, star, statics.response);
-  const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), refined);
+    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response);
+  shapes.damped = shapes.refined;
+  shapes.limit  = highest_of_interest(options, shapes.refined);
+  if (append_shapes(shapes.basis, frame, statics.relief) > 0)
+  {
+    shapes.star   = reduced_matrices(shapes.basis, frame.B, frame.C);
+    shapes.damped = ritz_modes(shapes.star);
+  }
+  return shapes;
+}
+
+Shapes free_shapes(const Statics &statics, const fem::FrameMatrices &frame, const ReductionOptions &options)
+{
+  Shapes   shapes{statics.basis, {}, {}, {}, 0.};
+  MatrixXd W(frame.M.rows(), statics.free.W.cols() + statics.relief.cols());
+  W << statics.free.W, statics.relief;
+  append_shapes(shapes.basis, frame, std::move(W));
+  shapes.star    = reduced_matrices(shapes.basis, frame.B, frame.C);
+  shapes.refined = shapes.damped = ritz_modes(shapes.star); // exact as far as modes were kept
+  const auto   kept              = statics.free.omega.size();
+  const double highest           = kept > 0 ? statics.free.omega[kept - 1] : 0.;
+  shapes.limit                   = std::min(highest, highest_of_interest(options, shapes.refined));
+  return shapes;
+}
+
+Reduction reduce(Shapes shapes, std::vector<std::string> notes, const Statics &statics, const fem::FrameMatrices &frame)
+{
+  const ReductionBasis &basis = shapes.basis;
+  ReducedMatrices      &star  = shapes.star;
+  ReducedFrame          reduced;
+  reduced.notes              = std::move(notes);
+  const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), shapes.refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
-  reduced.frequency_limit_hz = highest_of_interest(options, refined) / two_pi;
+  reduced.frequency_limit_hz = shapes.limit / two_pi;
   if (frame.modal_damping_ratio.any())
-    add_modal_damping(star.B, refined, frame.modal_damping_ratio);
+    add_modal_damping(star.B, shapes.damped, frame.modal_damping_ratio);
 
   reduced.M = star.M;
   reduced.B = star.B;
@@ -246,7 +286,7 @@ Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatr
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   describe(reduced, frame, basis);
   add_stress(reduced.stress, frame.stress, basis.T, static_beyond_modes);
-  return {std::move(reduced), std::move(basis)};
+  return {std::move(reduced), std::move(shapes.basis)};
 }
 
 } // namespace
@@ -261,12 +301,25 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   tell(progress, "constraint modes");
   Statics statics{basis_without_modes(held, frame, q1),
                   frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
-                  {}};
+                  {},
+                  {VectorXd(0), MatrixXd(frame.M.rows(), 0)},
+                  MatrixXd(frame.M.rows(), 0)};
   statics.response = interior_response(held, statics.basis, frame.M, statics.load);
+  if (options.inertia_relief)
+    statics.relief = inertia_relief_shapes(held, frame, q1);
+  if (options.inner == InnerModes::interface_free)
+  {
+    tell(progress, "modes with the interface free");
+    statics.free = free_modes(statics.basis, held, frame, options);
+    tell(progress, "reduced matrices");
+    return reduce(free_shapes(statics, frame, options), {}, statics, frame);
+  }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
   {
-    Reduction reduced = reduce(statics, fixed, frame, options, progress);
+    std::vector<std::string> notes;
+    Shapes                   shapes  = held_shapes(statics, fixed, frame, options, progress, notes);
+    Reduction                reduced = reduce(std::move(shapes), std::move(notes), statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
       continue;

@@ -20,16 +20,24 @@ public:
   ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                       const Progress &progress) override
   {
+    return assemble(frame, options, progress).reduced;
+  }
+
+  Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                     const Progress &progress) override
+  {
     use_one_blas_thread();
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    const auto [matrices, mesh_error, rows] = fem::discretise_with_mesh_error(mesh, frame, team_assembly());
-    Reduction reduced                       = craig_bampton_with_basis(matrices, options, progress, rows.get());
+    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame, team_assembly());
+    Reduction           reduced =
+        craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
-    reduced.frame.notes.push_back(mesh_statement(reduced, *mesh_error, mesh));
-    return std::move(reduced.frame);
+    reduced.frame.notes.insert(reduced.frame.notes.begin(), mesh.notes.begin(), mesh.notes.end());
+    reduced.frame.notes.push_back(mesh_statement(reduced, *discretisation.mesh_error, mesh));
+    return {std::move(discretisation.matrices), std::move(reduced.frame)};
   }
 
   MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,

@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// Estimated relative errors that the mesh leaves in the lowest elastic frequencies of a reduced frame, at most twelve
-/// up to its frequency limit [k]; docs/theory/mesh_error.md (3).
+/// Estimated relative errors that the mesh leaves in elastic frequencies of a reduced frame [k]: at most six, from the
+/// first to the last within its frequency limit; docs/theory/mesh_error.md (3).
 Eigen::VectorXd modal_mesh_error(const Reduction &reduced, const fem::MeshError &mesh_error);
 
 /**

@@ -32,6 +32,7 @@ void send(const fem::Ranks &ranks, const Share &share, int to)
     constants.push_back({material.E, material.nu, material.rho});
   ranks.send(mesh.points, to);
   ranks.send(mesh.cells, to);
+  ranks.send(mesh.curved, to);
   ranks.send(mesh.hexahedra, to);
   ranks.send(constants, to);
   ranks.send(materials.of_cell, to);
@@ -49,6 +50,7 @@ Share receive(const fem::Ranks &ranks)
   auto &[mesh, materials, lists] = share.part;
   mesh.points                    = ranks.receive<fem::Point3>(0);
   mesh.cells                     = ranks.receive<std::array<int, 10>>(0);
+  mesh.curved                    = ranks.receive<char>(0);
   mesh.hexahedra                 = ranks.receive<std::array<int, 27>>(0);
   for (const auto &[E, nu, rho] : ranks.receive<std::array<double, 3>>(0))
     materials.materials.push_back({E, nu, rho, ""});

@@ -174,5 +174,59 @@ TEST(StaticStart, WhatFallsForEverIsRefusedByName)
   }
 }
 
+/// Three masses of 1, 2 and 3 kg on springs of 1 and 2 kN/m, one behind the other along x; nothing holds them.
+SceneRun pulled_chain(const std::string &start)
+{
+  return run(R"(
+[frame]
+mass = [[1, 0, 0], [0, 2, 0], [0, 0, 3]]
+stiffness = [[1000, -1000, 0], [-1000, 3000, -2000], [0, -2000, 2000]]
+[frame.interface.a]
+rows = { ux = 1 }
+[frame.interface.b]
+rows = { ux = 2 }
+[frame.interface.c]
+rows = { ux = 3 }
+[element.pull]
+type = "force"
+from = "frame.c"
+to = "ground"
+direction = [1, 0, 0]
+constant = 12
+)" + start + "[run]\nstep = \"1 ms\"\nend = \"0.5 s\"\n[output]\npicture_step = 0\n" +
+             "signals = { a = \"frame.a.ux\", b = \"frame.b.ux\", c = \"frame.c.ux\" }\n");
+}
+
+TEST(StaticStart, OfAMachineThatFloatsIsRelievedByItsInertia)
+{
+  // 12 N accelerate 6 kg by 2 m/s^2: the springs carry 2 N and 6 N, the centre of mass stays.
+  const auto   motion = pulled_chain("[start]\nrule = \"static\"\ninertia_relief = true\n");
+  const double ab = 2. / 1000., bc = 6. / 2000.;
+  EXPECT_EQ(motion.result.failure, "");
+  EXPECT_NEAR(motion.at(0, 2) - motion.at(0, 1), ab, 1e-12);
+  EXPECT_NEAR(motion.at(0, 3) - motion.at(0, 2), bc, 1e-12);
+  EXPECT_NEAR(motion.at(0, 1) + 2. * motion.at(0, 2) + 3. * motion.at(0, 3), 0., 1e-12);
+  for (std::size_t row = 0; row < motion.n_rows(); row += 50) // it flies off without vibration
+  {
+    EXPECT_NEAR(motion.at(row, 2) - motion.at(row, 1), ab, 1e-9);
+    EXPECT_NEAR(motion.at(row, 3) - motion.at(row, 2), bc, 1e-9);
+  }
+  EXPECT_TRUE(told(motion, "nothing holds the machine in 1 motion"));
+  EXPECT_TRUE(told(motion, "mean acceleration of [2, 0, 0] m/s^2"));
+}
+
+TEST(StaticStart, OfAMachineThatFloatsIsRefusedWithoutRelief)
+{
+  try
+  {
+    pulled_chain("[start]\nrule = \"static\"\n");
+    FAIL() << "nothing holds it";
+  }
+  catch (const std::invalid_argument &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("inertia_relief = true"), std::string::npos) << error.what();
+  }
+}
+
 } // namespace
 } // namespace gestell::tests

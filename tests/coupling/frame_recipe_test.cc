@@ -90,6 +90,11 @@ TEST_F(ContentKey, ChangesWithEveryValue)
   with([](Frame &f, Options &) { f.rayleigh_mass = 2.; });
   with([](Frame &f, Options &) { f.rayleigh_stiffness = 1e-5; });
   with([](Frame &f, Options &) { f.mesh.max_cells = 1e6; });
+  with([](Frame &f, Options &) { f.mesh.gap = 1e-4; });
+  with([](Frame &f, Options &) { f.mesh.bodies = 2; });
+  with([](Frame &f, Options &) { f.mesh.defeature = 1e-3; });
+  with([](Frame &f, Options &) { f.mesh.overlaps = fem::Overlaps::once; });
+  with([](Frame &f, Options &) { f.mesh.curved = true; });
   with([](Frame &f, Options &) { f.surfaces["feet"].plane = {{0., 0., -1.}, {0., 0., 1.}}; });
   with([](Frame &f, Options &) { f.surfaces["feet"].box = {{0., 0., -1.}, {0., 0., 1.}}; });
   with([](Frame &f, Options &) { f.surfaces["feet"].group = "feet"; });

@@ -50,6 +50,28 @@ TEST(Extrapolation, CoversTheLimitWhereTwoPowersAreMixed)
   EXPECT_LT(std::abs(result.limit - 10.), 10. * result.uncertainty);
 }
 
+TEST(Extrapolation, OfFourMeshesTrustsTheirValuesMoreThanAnEstimateThatFallsTooSlowly)
+{
+  // The estimate stands still, as that of one layer of cells through a wall nearly does; the values show k = 1.2.
+  std::vector<MeshValue> meshes;
+  for (const double n : {1e3, 2e3, 4e3, 8e3})
+    meshes.push_back({n, mesh(n, 1.2).value, 0.05});
+  const auto   result = extrapolate(meshes);
+  const double error  = meshes.back().value / 10. - 1.;
+  EXPECT_NEAR(result.limit, 10., 1e-9);
+  EXPECT_NEAR(result.uncertainty, 0.5 * error, 1e-9) << "half of the correction";
+  meshes.pop_back();
+  EXPECT_GT(extrapolate(meshes).uncertainty, 5. * error) << "three meshes have the estimate alone to compare with";
+}
+
+TEST(Extrapolation, OfValuesThatSettleFasterThanAnyOrderDoubtsAsMuchAsTheyStillMove)
+{
+  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 10.01, 0.15}, {4e3, 10., 0.1}});
+  EXPECT_TRUE(std::isnan(result.order));
+  EXPECT_NEAR(result.limit, 9.99, 1e-9) << "k = 1: what is left is the last step";
+  EXPECT_NEAR(result.uncertainty, 0.01 / 9.99, 1e-9);
+}
+
 TEST(Extrapolation, OfValuesThatShowNoOrderFallsBackOnTheEstimate)
 {
   const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 11., 0.1}, {4e3, 11.5, 0.05}});

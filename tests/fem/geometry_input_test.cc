@@ -151,13 +151,7 @@ TEST(Bodies, ThatLieApartAreRefusedByName)
 {
   EXPECT_THAT(refusal(specification(two_boxes(200.), 0.05)),
               AllOf(StartsWith(frame), HasSubstr("2 bodies that do not hang together"), HasSubstr("body 2"),
-                    HasSubstr("boolean union")));
-}
-
-TEST(Bodies, ThatTouchOrOverlapWithoutACommonFaceAreRefused)
-{
-  EXPECT_THAT(refusal(specification(two_boxes(100.), 0.05)), HasSubstr("some touch or overlap"));
-  EXPECT_THAT(refusal(specification(two_boxes(50.), 0.05)), HasSubstr("some touch or overlap"));
+                    HasSubstr("mesh.bodies = 2")));
 }
 
 TEST(Bodies, OfAMeshWithoutCommonNodesAreRefused)
@@ -252,6 +246,18 @@ TEST(Selection, WithoutAFaceListsTheNearestOnes)
   EXPECT_THAT(refusal(s),
               AllOf(StartsWith("scene.toml:8: frame.surface: no face fits"), HasSubstr("cylinder of radius 0.12 m"),
                     HasSubstr("through (0 0.52 2.56), radius 0.12"), HasSubstr("off by 20 mm")));
+}
+
+TEST(Selection, OfOneFaceForTwoInterfacesIsRefusedBeforeMeshing)
+{
+  FrameSpecification s = specification(box(), 0.2);
+  s.surfaces["top"]    = plane({0., 0., 1.}, {0., 0., 1.});
+  s.surfaces["lid"]    = plane({0., 0., 1.}, {0.5, 0.5, 1.});
+  s.interfaces         = {{"press", {"top"}, InterfaceCoupling::rigid, {}, "scene.toml:9: frame.interface.press"},
+                          {"motor", {"lid"}, InterfaceCoupling::average, {}, "scene.toml:12: frame.interface.motor"}};
+  EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:12: frame.interface.motor"), HasSubstr("\"lid\""),
+                                HasSubstr("\"top\" of interface \"press\""), HasSubstr("the same face"),
+                                HasSubstr("normal (0 0 1)")));
 }
 
 TEST(Selection, OfAnotherNumberOfFacesThanWantedListsThem)

@@ -1,7 +1,9 @@
 #include "fem/skin_stress.h"
 
 #include "fem/discretisation.h"
+#include "fem/hexahedral_mesh.h"
 #include "tests/fem/box_mesh.h"
+#include "tests/fem/brick_mesh.h"
 #include "tests/fem/statics.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +53,7 @@ Vector3d place(const fem::FrameMatrices &frame, std::size_t i)
 template <typename Field>
 VectorXd nodal(const fem::Mesh &mesh, const Field &field)
 {
-  const auto nodes = fem::quadratic_mesh(mesh).points;
+  const auto nodes = fem::number_nodes(mesh).points;
   VectorXd   q(3 * nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     q.segment<3>(3 * Eigen::Index(i)) = field(Vector3d(nodes[i].data()));
@@ -102,21 +104,23 @@ TEST(SkinStress, OfALinearStrainIsExactOnAnyMesh)
     H << 1e-4 * x[2], 0., 1e-4 * x[0], -1e-4 * x[1], 4e-4 * x[1] - 1e-4 * x[0], 0., 1e-5, 3e-4 * x[2], 3e-4 * x[1];
     return H;
   };
-  const auto     mesh  = bar_mesh(2);
-  const auto     frame = fem::discretise(mesh, free_bar(0.3));
-  const VectorXd q     = nodal(mesh, field);
-  const double   scale = E * 4e-4;
-  EXPECT_LT(largest_error(frame, q, [&](const Vector3d &x) { return hooke(gradient(x), 0.3); }), 1e-11 * scale);
-  EXPECT_LT(fem::stresses(frame.stress, q, StressOf::deviation).cwiseAbs().maxCoeff(), 1e-11 * scale);
+  const double scale = E * 4e-4;
+  for (const auto &mesh : {bar_mesh(2), brick_mesh({{8, 2, 2}}, {{length, width, height}})})
+  {
+    const auto     frame = fem::discretise(mesh, free_bar(0.3));
+    const VectorXd q     = nodal(mesh, field);
+    EXPECT_LT(largest_error(frame, q, [&](const Vector3d &x) { return hooke(gradient(x), 0.3); }), 1e-11 * scale);
+    EXPECT_LT(fem::stresses(frame.stress, q, StressOf::deviation).cwiseAbs().maxCoeff(), 1e-11 * scale);
+    EXPECT_EQ(frame.stress.triangles, frame.picture.triangles);
+  }
 }
 
 TEST(SkinStress, ConvergesWithTheSquareOfTheSize)
 {
   const double k     = 3.;
   const auto   field = [&](const Vector3d &x) -> Vector3d { return Vector3d(std::sin(k * x[0]), 0., 0.) * 1e-4; };
-  const auto   error = [&](int n)
+  const auto   error = [&](const fem::Mesh &mesh)
   {
-    const auto mesh = box_mesh({{8 * n, n, n}}, {{length, width, height}});
     return largest_error(fem::discretise(mesh, free_bar(0.3)), nodal(mesh, field),
                          [&](const Vector3d &x)
                          {
@@ -125,7 +129,10 @@ TEST(SkinStress, ConvergesWithTheSquareOfTheSize)
                            return hooke(H, 0.3);
                          });
   };
-  EXPECT_NEAR(std::log2(error(1) / error(2)), 2., 0.3);
+  const auto boxes  = [](int n) { return box_mesh({{8 * n, n, n}}, {{length, width, height}}); };
+  const auto bricks = [](int n) { return brick_mesh({{8 * n, n, n}}, {{length, width, height}}); };
+  EXPECT_NEAR(std::log2(error(boxes(1)) / error(boxes(2))), 2., 0.3);
+  EXPECT_NEAR(std::log2(error(bricks(1)) / error(bricks(2))), 2., 0.3);
 }
 
 TEST(SkinStress, OfAHangingBarIsItsWeightBelow)

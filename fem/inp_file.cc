@@ -1,0 +1,449 @@
+#include "fem/inp_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+/// What an element of a name is made into.
+struct ElementKind
+{
+  enum class Use
+  {
+    solid,
+    surface, ///< names a surface
+    line     ///< left out
+  };
+  std::string      begin; ///< of the name of the type
+  int              n_nodes;
+  Use              use;
+  int              gmsh_type;
+  std::vector<int> order; ///< of the nodes that are taken
+};
+
+const std::vector<ElementKind> &kinds()
+{
+  using Use                                 = ElementKind::Use;
+  static const std::vector<ElementKind> all = {
+      {"C3D10", 10, Use::solid, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}, // gmsh swaps the last two edges
+      {"C3D20", 20, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"C3D4", 4, Use::solid, 4, {0, 1, 2, 3}},
+      {"C3D8", 8, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"CPS3", 3, Use::surface, 0, {0, 1, 2}},
+      {"CPE3", 3, Use::surface, 0, {0, 1, 2}},
+      {"S3", 3, Use::surface, 0, {0, 1, 2}},
+      {"CPS6", 6, Use::surface, 0, {0, 1, 2}},
+      {"CPE6", 6, Use::surface, 0, {0, 1, 2}},
+      {"S6", 6, Use::surface, 0, {0, 1, 2}},
+      {"STRI65", 6, Use::surface, 0, {0, 1, 2}},
+      {"CPS4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPE4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"S4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPS8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPE8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"S8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"T3D2", 2, Use::line, 0, {}},
+      {"T3D3", 3, Use::line, 0, {}},
+  };
+  return all;
+}
+
+/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file.
+const std::vector<std::vector<int>> &faces_of(int gmsh_type)
+{
+  static const std::vector<std::vector<int>> tetrahedron = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  static const std::vector<std::vector<int>> hexahedron  = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                                                            {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  return gmsh_type == 5 ? hexahedron : tetrahedron;
+}
+
+std::string upper(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+std::string trimmed(const std::string &text)
+{
+  const auto blank = " \t\r\n";
+  const auto from  = text.find_first_not_of(blank);
+  return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(blank) - from + 1);
+}
+
+std::vector<std::string> fields_of(const std::string &line)
+{
+  std::vector<std::string> fields;
+  for (std::size_t from = 0; from <= line.size();)
+  {
+    const std::size_t comma = std::min(line.find(',', from), line.size());
+    fields.push_back(trimmed(line.substr(from, comma - from)));
+    from = comma + 1;
+  }
+  while (!fields.empty() && fields.back().empty()) // a line that ends with a comma goes on in the next
+    fields.pop_back();
+  return fields;
+}
+
+/// *KEYWORD, NAME=value, FLAG; names in capitals.
+struct Keyword
+{
+  std::string                        name;
+  std::map<std::string, std::string> parameters;
+
+  explicit Keyword(const std::string &line)
+  {
+    const std::vector<std::string> fields = fields_of(line.substr(1));
+    name                                  = fields.empty() ? "" : upper(fields[0]);
+    for (std::size_t i = 1; i < fields.size(); ++i)
+    {
+      const auto equals = fields[i].find('=');
+      parameters[upper(trimmed(fields[i].substr(0, equals)))] =
+          equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1)));
+    }
+  }
+
+  std::string operator[](const std::string &parameter) const
+  {
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() ? "" : found->second;
+  }
+  bool has(const std::string &parameter) const { return parameters.count(parameter) > 0; }
+
+private:
+  static std::string unquoted(const std::string &text)
+  {
+    return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+  }
+};
+
+class Reader
+{
+public:
+  explicit Reader(const CadSource &source) : source_(source) {}
+
+  InpMesh read()
+  {
+    read_file(source_.path);
+    finish();
+    return std::move(mesh_);
+  }
+
+private:
+  struct Element
+  {
+    const ElementKind       *kind;
+    std::string              set;
+    std::vector<std::size_t> nodes; ///< as in the file
+  };
+  struct Side
+  {
+    std::string surface, of, side; ///< `of`: number or set of elements
+  };
+
+  [[noreturn]] void refuse(const std::string &why) const
+  {
+    throw std::invalid_argument(source_.place + ": " + file_ + ":" + std::to_string(line_) + ": " + why);
+  }
+
+  void read_file(const std::string &path)
+  {
+    const std::string outer_file = file_;
+    const int         outer_line = line_;
+    std::ifstream     in(path);
+    if (!in)
+      refuse("*INCLUDE: " + path + " cannot be read.");
+    file_ = path;
+    line_ = 0;
+    for (std::string line; std::getline(in, line);)
+    {
+      ++line_;
+      line = trimmed(line);
+      if (line.empty() || line.compare(0, 2, "**") == 0)
+        continue;
+      if (line[0] == '*')
+        begin(Keyword(line));
+      else if (keyword_)
+        take(fields_of(line));
+      else
+        refuse("\"" + line.substr(0, 40) + "\" stands before the first keyword; this is no input file of Abaqus.");
+    }
+    end_of_element();
+    file_ = outer_file;
+    line_ = outer_line;
+  }
+
+  void begin(const Keyword &keyword)
+  {
+    end_of_element();
+    keyword_         = keyword;
+    kind_            = nullptr;
+    const auto &name = keyword.name;
+    if (name == "ELEMENT")
+      begin_elements(upper(keyword["TYPE"]));
+    else if (name == "SOLID SECTION")
+      sections_.push_back(upper(keyword["ELSET"]));
+    else if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
+      refuse("*" + name + ": only solid elements are read; model the frame as a solid, or take it as matrices.");
+    else if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
+      refuse("*" + name +
+             ": the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
+             "assemblies in input files).");
+    else if (name == "INCLUDE")
+      read_file((std::filesystem::path(file_).parent_path() / keyword["INPUT"]).string());
+    if (name == "SURFACE" && keyword["TYPE"] != "" && upper(keyword["TYPE"]) != "ELEMENT" &&
+        upper(keyword["TYPE"]) != "NODE")
+      keyword_->name = ""; // analytical ones
+    if (const std::string set = keyword["NSET"]; name == "NODE" && !set.empty())
+      node_set_ = upper(set);
+    else
+      node_set_.clear();
+  }
+
+  void begin_elements(const std::string &type)
+  {
+    for (const ElementKind &kind : kinds())
+      if (type.compare(0, kind.begin.size(), kind.begin) == 0 &&
+          (type.size() == kind.begin.size() || !std::isdigit(static_cast<unsigned char>(type[kind.begin.size()]))))
+        kind_ = &kind;
+    if (kind_ == nullptr)
+      refuse("elements of type " + (type.empty() ? std::string("\"\"") : type) +
+             " are not read; C3D4, C3D10, C3D8 and C3D20 are: mesh the frame with these alone.");
+    set_ = upper((*keyword_)["ELSET"]);
+  }
+
+  void take(const std::vector<std::string> &fields)
+  {
+    const std::string &name = keyword_->name;
+    if (fields.empty())
+      return;
+    if (name == "NODE")
+      take_node(fields);
+    else if (name == "ELEMENT")
+      for (const std::string &field : fields)
+        take_element(number(field));
+    else if (name == "NSET" || name == "ELSET")
+      take_set(fields, name == "NSET" ? node_entries_ : element_entries_);
+    else if (name == "SURFACE" && upper((*keyword_)["TYPE"]) == "NODE")
+      node_entries_[upper((*keyword_)["NAME"])].push_back(upper(fields[0]));
+    else if (name == "SURFACE" && fields.size() > 1)
+      sides_.push_back({upper((*keyword_)["NAME"]), upper(fields[0]), upper(fields[1])});
+    else if (name == "INSTANCE")
+      refuse("*INSTANCE: the instance is moved; write the file flat, with the nodes where they are.");
+  }
+
+  void take_node(const std::vector<std::string> &fields)
+  {
+    const std::size_t node = number(fields[0]);
+    if (!nodes_.insert(node).second)
+      refuse("node " + std::to_string(node) + " comes twice; give each node a number of its own.");
+    mesh_.numbers.push_back(node);
+    for (std::size_t d = 1; d <= 3; ++d)
+      mesh_.coordinates.push_back(d < fields.size() && !fields[d].empty() ? value(fields[d]) : 0.);
+    if (!node_set_.empty())
+      node_entries_[node_set_].push_back(fields[0]);
+  }
+
+  void take_element(std::size_t entry)
+  {
+    if (element_ == 0)
+    {
+      if (entry == 0 || elements_.count(entry) > 0)
+        refuse("element " + std::to_string(entry) + " comes twice; give each element a number of its own.");
+      element_ = entry;
+      order_.push_back(entry);
+      elements_[entry] = {kind_, set_, {}};
+      return;
+    }
+    Element &element = elements_[element_];
+    if (nodes_.count(entry) == 0)
+      refuse("element " + std::to_string(element_) + " has node " + std::to_string(entry) +
+             ", which is not there; *NODE comes before *ELEMENT.");
+    element.nodes.push_back(entry);
+    if (static_cast<int>(element.nodes.size()) == kind_->n_nodes)
+      element_ = 0;
+  }
+
+  void end_of_element()
+  {
+    if (element_ != 0)
+      refuse("element " + std::to_string(element_) + " has " + std::to_string(elements_[element_].nodes.size()) +
+             " nodes, " + std::to_string(kind_->n_nodes) + " are needed; the file may be cut off.");
+  }
+
+  void take_set(const std::vector<std::string> &fields, std::map<std::string, std::vector<std::string>> &sets)
+  {
+    std::vector<std::string> &set = sets[upper((*keyword_)[keyword_->name])];
+    if (!keyword_->has("GENERATE"))
+    {
+      for (const std::string &field : fields)
+        set.push_back(upper(field));
+      return;
+    }
+    const std::size_t first = number(fields[0]), last = fields.size() > 1 ? number(fields[1]) : first;
+    const std::size_t step = fields.size() > 2 ? std::max<std::size_t>(1, number(fields[2])) : 1;
+    for (std::size_t i = first; i <= last; i += step)
+      set.push_back(std::to_string(i));
+  }
+
+  std::size_t number(const std::string &field) const
+  {
+    std::size_t result      = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), result);
+    if (error != std::errc() || end != field.data() + field.size())
+      refuse("\"" + field + "\" is no number of a node or an element.");
+    return result;
+  }
+
+  double value(std::string field) const
+  {
+    std::replace_if(
+        field.begin(), field.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E'); // of Fortran
+    const char *begin       = field.data() + (field[0] == '+');
+    double      result      = 0.;
+    const auto [end, error] = std::from_chars(begin, field.data() + field.size(), result);
+    if (error != std::errc() || end != field.data() + field.size())
+      refuse("\"" + field + "\" is no coordinate.");
+    return result;
+  }
+
+  static std::optional<std::size_t> as_number(const std::string &text)
+  {
+    std::size_t result      = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(result) : std::nullopt;
+  }
+
+  /// Numbers of a set, those of sets it names included.
+  std::set<std::size_t> resolve(const std::string &name, const std::map<std::string, std::vector<std::string>> &sets,
+                                int depth = 0) const
+  {
+    std::set<std::size_t> result;
+    const auto            found = sets.find(name);
+    if (found == sets.end() || depth > 20)
+      return result;
+    for (const std::string &entry : found->second)
+      if (const auto direct = as_number(entry))
+        result.insert(*direct);
+      else
+        result.merge(resolve(entry, sets, depth + 1));
+    return result;
+  }
+
+  void finish()
+  {
+    for (const std::size_t number : order_)
+      if (const std::string &set = elements_.at(number).set; !set.empty())
+        element_entries_[set].push_back(std::to_string(number));
+    for (const auto &[name, entries] : node_entries_)
+    {
+      const std::set<std::size_t> all = resolve(name, node_entries_);
+      mesh_.node_sets[name].assign(all.begin(), all.end());
+    }
+    add_solids();
+    add_surface_elements();
+    for (const Side &side : sides_)
+      add_side(side);
+  }
+
+  void add_solids()
+  {
+    std::unordered_map<std::size_t, std::string> section;
+    for (const std::string &name : sections_)
+      for (const std::size_t number : resolve(name, element_entries_))
+        section[number] = name;
+    std::map<std::pair<std::string, int>, std::size_t> block;
+    for (const std::size_t number : order_)
+    {
+      const Element &element = elements_.at(number);
+      if (element.kind->use != ElementKind::Use::solid)
+        continue;
+      const auto         in      = section.find(number);
+      const std::string &solid   = in == section.end() ? element.set : in->second;
+      const auto [entry, is_new] = block.try_emplace({solid, element.kind->gmsh_type}, mesh_.elements.size());
+      if (is_new)
+        mesh_.elements.push_back({solid, element.kind->gmsh_type, {}, {}});
+      InpMesh::Elements &to = mesh_.elements[entry->second];
+      to.numbers.push_back(number);
+      for (const int node : element.kind->order)
+        to.nodes.push_back(element.nodes[node]);
+    }
+  }
+
+  void add_surface_elements()
+  {
+    std::size_t n_surface = 0, n_lines = 0;
+    for (const std::size_t number : order_)
+    {
+      const Element &element = elements_.at(number);
+      n_lines += element.kind->use == ElementKind::Use::line;
+      if (element.kind->use != ElementKind::Use::surface)
+        continue;
+      ++n_surface;
+      std::vector<std::size_t> corners;
+      for (const int node : element.kind->order)
+        corners.push_back(element.nodes[node]);
+      mesh_.faces[element.set].push_back(corners);
+    }
+    if (n_surface + n_lines > 0)
+      mesh_.notes.push_back(std::to_string(n_surface) + " surface elements without a section name surfaces only, and " +
+                            std::to_string(n_lines) + " lines are left out");
+  }
+
+  void add_side(const Side &side)
+  {
+    const auto            direct = as_number(side.of);
+    std::set<std::size_t> of     = direct ? std::set<std::size_t>{*direct} : resolve(side.of, element_entries_);
+    const auto            s      = side.side.size() == 2 && side.side[0] == 'S' ? side.side[1] - '1' : -1;
+    for (const std::size_t number : of)
+    {
+      const auto element = elements_.find(number);
+      if (element == elements_.end() || element->second.kind->use != ElementKind::Use::solid)
+        continue;
+      const auto &faces = faces_of(element->second.kind->gmsh_type);
+      if (s < 0 || s >= static_cast<int>(faces.size()))
+        refuse("surface \"" + side.surface + "\": " + side.side + " is no side of element " + std::to_string(number) +
+               "; S1 to S" + std::to_string(faces.size()) + " are.");
+      std::vector<std::size_t> corners;
+      for (const int corner : faces[s])
+        corners.push_back(element->second.nodes[corner]);
+      mesh_.faces[side.surface].push_back(corners);
+    }
+  }
+
+  const CadSource                                &source_;
+  InpMesh                                         mesh_;
+  std::string                                     file_;
+  int                                             line_ = 0;
+  std::optional<Keyword>                          keyword_;
+  const ElementKind                              *kind_ = nullptr;
+  std::string                                     set_, node_set_;
+  std::size_t                                     element_ = 0; // being read
+  std::unordered_set<std::size_t>                 nodes_;
+  std::unordered_map<std::size_t, Element>        elements_;
+  std::vector<std::size_t>                        order_; // of the elements
+  std::map<std::string, std::vector<std::string>> node_entries_, element_entries_;
+  std::vector<std::string>                        sections_;
+  std::vector<Side>                               sides_;
+  std::map<std::string, int>                      n_parts_;
+};
+
+} // namespace
+
+InpMesh read_inp(const CadSource &source)
+{
+  return Reader(source).read();
+}
+
+} // namespace gestell::fem

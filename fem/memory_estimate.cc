@@ -1,0 +1,66 @@
+#include "fem/memory_estimate.h"
+
+#include "fem/face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double gib = 1024. * 1024. * 1024.;
+
+/// The number in a file of a control group; infinite for "max" and for no file.
+double number_in(const char *path)
+{
+  std::ifstream in(path);
+  double        value = 0.;
+  return in >> value ? value : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+double reduction_memory(double n_coordinates)
+{
+  return 0.25 * gib + 6e3 * n_coordinates * std::pow(n_coordinates / 150e3, 0.15);
+}
+
+double coordinates_of(double n_tetrahedra)
+{
+  return 4.8 * n_tetrahedra;
+}
+
+double available_memory()
+{
+  double        system = std::numeric_limits<double>::infinity();
+  std::ifstream in("/proc/meminfo");
+  for (std::string key, rest; in >> key; std::getline(in, rest))
+    if (double kib = 0.; key == "MemAvailable:" && in >> kib)
+      system = 1024. * kib;
+  const double allowed = number_in("/sys/fs/cgroup/memory.max");
+  const double used    = number_in("/sys/fs/cgroup/memory.current");
+  return std::isfinite(allowed) && std::isfinite(used) ? std::min(system, std::max(0., allowed - used)) : system;
+}
+
+std::string memory_text(double bytes)
+{
+  return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
+                           : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
+}
+
+void require_memory(double n_tetrahedra, double available, const std::string &place, const std::string &advice)
+{
+  const double n = coordinates_of(n_tetrahedra), needed = reduction_memory(n);
+  if (needed > available)
+    throw std::invalid_argument(place + ": about " + text(n_tetrahedra) + " tetrahedra with " + text(n) +
+                                " coordinates are to be expected, for which mesh and reduction need about " +
+                                memory_text(needed) + "; available are " + memory_text(available) + ". " + advice);
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace gestell::fem
+{
+
+/// What the text of a STEP file (ISO 10303-21) tells of its being whole, which gmsh and OpenCASCADE do not look at.
+struct StepText
+{
+  std::size_t   n_entities    = 0;
+  std::size_t   n_missing     = 0;     ///< references to entities that are not in the file
+  std::uint64_t first_missing = 0;     ///< number of such an entity
+  std::uint64_t named_by      = 0;     ///< and of the one that refers to it
+  bool          has_unit      = false; ///< a unit of length, and a context it is assigned in
+  int           n_solids      = 0;     ///< solids described, once each however often they are placed
+  bool          has_styles    = false; ///< colours or layers
+};
+
+/// Reads the file once, outside of strings and comments; entities of any schema.
+StepText read_step_text(const std::string &path);
+
+} // namespace gestell::fem

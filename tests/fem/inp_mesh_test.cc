@@ -1,0 +1,219 @@
+// Meshes of Abaqus and CalculiX, and what is wrong with meshes: each is told with its place and the way out.
+
+#include "fem/inp_file.h"
+#include "fem/mesh_quality.h"
+#include "fem/mesher.h"
+#include "fem/vector3.h"
+#include "tests/fem/cad_samples.h"
+
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace gestell::fem;
+using namespace gestell::fem::test;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace
+{
+
+/// Nodes of the cube [x, x + 1] x [0, 1]^2, numbered from `first` by bits of x, y, z.
+std::string nodes_of_cube(int first, double x)
+{
+  std::ostringstream text;
+  text << "*NODE\n";
+  for (int i = 0; i < 8; ++i)
+    text << first + i << ", " << x + (i & 1) << ", " << (i >> 1 & 1) << ", " << (i >> 2) << "\n";
+  return text.str();
+}
+
+/// Its six tetrahedra along the diagonal from bit pattern 0 to 7.
+std::string cells_of_cube(int first_cell, int first_node, const std::string &set)
+{
+  std::ostringstream text;
+  text << "*ELEMENT, TYPE=C3D4, ELSET=" << set << "\n";
+  const int paths[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
+  for (int c = 0; c < 6; ++c)
+    text << first_cell + c << ", " << first_node << ", " << first_node + paths[c][0] << ", " << first_node + paths[c][1]
+         << ", " << first_node + 7 << "\n";
+  return text.str();
+}
+
+std::string cube()
+{
+  return "** a cube\n*HEADING\n a cube\n" + nodes_of_cube(1, 0.) + cells_of_cube(1, 1, "Block") +
+         "*NSET, NSET=Foot\n1, 2,\n3, 4\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=steel\n*MATERIAL, NAME=steel\n*ELASTIC\n"
+         "210000, 0.3\n";
+}
+
+double volume(const Mesh &mesh)
+{
+  double sum = 0.;
+  for (const auto &cell : mesh.cells)
+    sum += six_volumes(mesh, cell) / 6.;
+  return sum;
+}
+
+Vector3 area_vector(const Mesh &mesh, const std::string &surface)
+{
+  Vector3 sum{};
+  for (const int t : mesh.surfaces.at(surface))
+  {
+    const auto &[a, b, c] = mesh.skin[t];
+    sum                   = sum + 0.5 * cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+  }
+  return sum;
+}
+
+std::string told_of(const std::string &text)
+{
+  return refusal(specification(write_text("mesh.inp", text), 0.));
+}
+
+TEST(InpMesh, IsTakenWithItsSolidsAndItsNodeSetsAsSurfaces)
+{
+  FrameSpecification s = specification(write_text("cube.inp", cube()), 0.);
+  s.surfaces["foot"]   = group("FOOT");
+  s.surfaces["right"]  = plane({1., 0., 0.}, {1., 0., 0.}); // surfaces come from the skin's sharp edges
+  const Mesh mesh      = make_mesh(s);
+  EXPECT_NEAR(volume(mesh), 1., 1e-14);
+  EXPECT_EQ(mesh.solids, std::vector<std::string>{"BLOCK"});
+  EXPECT_NEAR(norm(area_vector(mesh, "foot") - Vector3{0., 0., -1.}), 0., 1e-14);
+  EXPECT_NEAR(norm(area_vector(mesh, "right") - Vector3{1., 0., 0.}), 0., 1e-14);
+}
+
+TEST(InpMesh, InMillimetresIsScaledByItsUnit)
+{
+  std::string text = nodes_of_cube(1, 0.) + cells_of_cube(1, 1, "A");
+  for (const std::string from : {", 1"}) // 1 becomes 1000
+    for (std::size_t at = text.find(from + "\n"); at < text.find("*ELEMENT"); at = text.find(from + "\n", at + 6))
+      text.replace(at, from.size(), ", 1.0D3");
+  FrameSpecification s = specification(write_text("mm.inp", text), 0.);
+  s.unit               = 1e-3;
+  EXPECT_NEAR(volume(make_mesh(s)), 1e-6, 1e-18); // 1 mm x 1 mm x 1 m
+}
+
+TEST(InpMesh, TakesSurfacesOfElementSides)
+{
+  // Side S1 of a tetrahedron has its first three nodes: 1, 2, 4 and 1, 3, 4 are the bottom.
+  const std::string  surface = "*ELSET, ELSET=LOW, GENERATE\n1, 3, 2\n*SURFACE, NAME=bottom, TYPE=ELEMENT\nLOW, S1\n";
+  FrameSpecification s       = specification(write_text("cube.inp", cube() + surface), 0.);
+  s.surfaces["bottom"]       = group("BOTTOM");
+  EXPECT_NEAR(norm(area_vector(make_mesh(s), "bottom") - Vector3{0., 0., -1.}), 0., 1e-14);
+  EXPECT_THAT(told_of(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is no side of element 1"));
+}
+
+TEST(InpMesh, OfSolidSectionsNamesSolidsByThem)
+{
+  std::string text = nodes_of_cube(1, 0.) + cells_of_cube(1, 1, "ALL") +
+                     "*ELSET, ELSET=HALF, GENERATE\n1, 3\n*ELSET, ELSET=REST\n4, 5, 6\n"
+                     "*SOLID SECTION, ELSET=HALF, MATERIAL=A\n*SOLID SECTION, ELSET=REST, MATERIAL=B\n";
+  const Mesh mesh = make_mesh(specification(write_text("two.inp", text), 0.));
+  EXPECT_EQ(mesh.solids, (std::vector<std::string>{"HALF", "REST"}));
+}
+
+TEST(InpMesh, OfQuadraticTetrahedraComesInTheOrderOfGmsh)
+{
+  // Corners 1-4; in Abaqus node 9 stands between corners 2 and 4, node 10 between 3 and 4; in gmsh it is the reverse.
+  const std::string text = "*Node\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,0\n6,.5,.5,0\n7,0,.5,0\n8,0,0,.5\n"
+                           "9,.5,0,.5\n10,0,.5,.5\n*Element, type=C3D10\n1, 1,2,3,4,5,6,7,\n8,9,10\n";
+  const std::string path = write_text("quadratic.inp", text);
+  const InpMesh     mesh = read_inp({path, 0., "here"});
+  ASSERT_EQ(mesh.elements.size(), 1u);
+  EXPECT_EQ(mesh.elements[0].nodes, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 10, 9}));
+  EXPECT_NEAR(volume(make_mesh(specification(path, 0.))), 1. / 6., 1e-15);
+}
+
+TEST(InpMesh, OfHexahedraIsTaken)
+{
+  const std::string  text = nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D8R\n1, 1,2,4,3,5,6,8,7\n";
+  FrameSpecification s    = specification(write_text("brick.inp", text), 0.);
+  s.surfaces["top"]       = plane({0., 0., 1.}, {0., 0., 1.});
+  const Mesh mesh         = make_mesh(s);
+  EXPECT_EQ(mesh.hexahedra.size(), 1u);
+  EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-14);
+}
+
+TEST(InpMesh, WrittenByGmshIsRead)
+{
+  const std::string  cad = draw("gmsh.inp",
+                                []
+                                {
+                                 gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+                                 gmsh::model::occ::synchronize();
+                                 gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+                                 gmsh::option::setNumber("Mesh.SaveAll", 1);
+                                 gmsh::model::mesh::generate(3);
+                               });
+  FrameSpecification s   = specification(cad, 0.);
+  s.surfaces["top"]      = plane({0., 0., 1.}, {0., 0., 1.});
+  const Mesh mesh        = make_mesh(s);
+  EXPECT_NEAR(volume(mesh), 1., 1e-9);
+  EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-9);
+}
+
+TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
+{
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=B31\n1, 1, 2\n"),
+              AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("mesh.inp:10"), HasSubstr("B31"), HasSubstr("C3D10")));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 99\n"), HasSubstr("has node 99"));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3\n"),
+              AllOf(HasSubstr("has 3 nodes, 4 are needed"), HasSubstr("cut off")));
+  EXPECT_THAT(told_of(cube() + "*NODE\n1, 0, 0, 0\n"), HasSubstr("node 1 comes twice"));
+  EXPECT_THAT(told_of(cube() + cells_of_cube(6, 1, "A")), HasSubstr("element 6 comes twice"));
+  EXPECT_THAT(told_of(cube() + "*SHELL SECTION, ELSET=A\n1.\n"), HasSubstr("only solid elements are read"));
+  EXPECT_THAT(told_of(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
+  EXPECT_THAT(told_of("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
+  EXPECT_THAT(told_of("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
+}
+
+TEST(Mesh, WithANodeMovedThroughItsNeighboursIsRefused)
+{
+  // The middle node of a cube of twelve tetrahedra, moved outside.
+  std::string text        = nodes_of_cube(1, 0.) + "9, 0.5, 0.5, 3\n*ELEMENT, TYPE=C3D4\n";
+  int         cell        = 0;
+  const int   faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (const auto &[a, b, c, d] : faces)
+    for (const auto &[i, j, k] : {std::array<int, 3>{a, b, c}, std::array<int, 3>{a, c, d}})
+      text += std::to_string(++cell) + ", " + std::to_string(i) + ", " + std::to_string(j) + ", " + std::to_string(k) +
+              ", 9\n";
+  EXPECT_THAT(told_of(text), AllOf(HasSubstr("turned inside out"), HasSubstr("negative Jacobian")));
+}
+
+TEST(Mesh, WithAFlatCellIsRefused)
+{
+  const std::string text = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,1,1,0\n*ELEMENT, TYPE=C3D4\n1, 1,2,3,4\n";
+  EXPECT_THAT(told_of(text), AllOf(HasSubstr("flat cell"), HasSubstr("mend it in the program that made the mesh")));
+}
+
+TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
+{
+  const std::string text =
+      nodes_of_cube(1, 0.) + nodes_of_cube(11, 1.) + cells_of_cube(1, 1, "A") + cells_of_cube(11, 11, "B");
+  EXPECT_THAT(told_of(text), AllOf(HasSubstr("2 bodies"), HasSubstr("4 nodes lie upon others"), HasSubstr("mesh.gap")));
+  FrameSpecification s = specification(write_text("two.inp", text), 0.);
+  s.mesh.gap           = 1e-6;
+  const Mesh merged    = make_mesh(s);
+  EXPECT_EQ(merged.points.size(), 12u);
+  EXPECT_NEAR(volume(merged), 2., 1e-14);
+  EXPECT_THAT(merged.notes, Contains(HasSubstr("4 nodes are taken for one with another")));
+  s.mesh.gap    = 0.;
+  s.mesh.bodies = 2;
+  EXPECT_EQ(make_mesh(s).points.size(), 16u);
+}
+
+TEST(Mesh, WithNodesNoCellUsesTellsThem)
+{
+  const std::string text = cube() + "*NODE\n77, 5, 5, 5\n";
+  const Mesh        mesh = make_mesh(specification(write_text("unused.inp", text), 0.));
+  EXPECT_EQ(mesh.points.size(), 8u);
+  EXPECT_THAT(mesh.notes, Contains(HasSubstr("1 nodes of the file belong to no cell")));
+}
+
+} // namespace

@@ -1,0 +1,104 @@
+// Small things of a drawing: told, and removed on request; cost judged before meshing.
+
+#include "fem/memory_estimate.h"
+#include "fem/mesher.h"
+#include "tests/fem/cad_samples.h"
+
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace gestell::fem;
+using namespace gestell::fem::test;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace
+{
+
+/// A block of 100 x 100 x 20 mm with a bore of 2 mm, one of 40 mm, and a fillet of 1 mm at an edge.
+std::string block_with_details()
+{
+  return draw("details.step",
+              []
+              {
+                namespace occ = gmsh::model::occ;
+                gmsh::vectorpair              bored, rounded;
+                std::vector<gmsh::vectorpair> map;
+                occ::addBox(0., 0., 0., 100., 100., 20., 1);
+                occ::addCylinder(50., 50., 0., 0., 0., 20., 20., 2);
+                occ::addCylinder(10., 10., 0., 0., 0., 20., 1., 3);
+                occ::cut({{3, 1}}, {{3, 2}, {3, 3}}, bored, map);
+                occ::synchronize();
+                gmsh::vectorpair edges;
+                gmsh::model::getEntitiesInBoundingBox(99., -1., 19., 101., 101., 21., edges, 1);
+                occ::fillet({bored[0].second}, {edges.at(0).second}, {1.}, rounded);
+              });
+}
+
+TEST(SmallFeatures, AreToldWithTheirPlaceWhereTheyForceSmallElements)
+{
+  const GeometryReport report = report_geometry(specification(block_with_details(), 0.1));
+  EXPECT_THAT(report.smallest, AllOf(HasSubstr("shortest edge"), HasSubstr("narrowest face")));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("mesh.defeature")));
+}
+
+TEST(SmallFeatures, AreRemovedOnRequestAndLargerOnesStay)
+{
+  FrameSpecification s        = specification(block_with_details(), 0.02);
+  const std::size_t  n_before = report_geometry(s).faces.size();
+  EXPECT_EQ(n_before, 9u); // six sides, two bores, the fillet
+  s.mesh.defeature            = 3e-3;
+  s.surfaces["bore"]          = cylinder({0., 0., 1.}, {0.05, 0.05, 0.}, 0.02);
+  const GeometryReport report = report_geometry(s);
+  EXPECT_EQ(report.faces.size(), 7u);
+  ASSERT_EQ(report.solids.size(), 1u);
+  const double whole = 0.1 * 0.1 * 0.02 - std::acos(-1.) * 0.02 * 0.02 * 0.02;
+  EXPECT_NEAR(report.solids[0].volume, whole, 1e-9 * whole);
+  EXPECT_THAT(report.notes, Contains(HasSubstr("mesh.defeature removed 2 of 9 faces; 0 small faces remain")));
+}
+
+TEST(SmallFeatures, ThatAreTheModelItselfAreNotRemoved)
+{
+  FrameSpecification s = specification(block_with_details(), 0.02);
+  s.mesh.defeature     = 0.05; // the block is 20 mm thick
+  EXPECT_THAT(refusal(s), StartsWith("scene.toml:4: frame.mesh: defeature = 0.05 m"));
+}
+
+TEST(SmallFeatures, OfAMeshCannotBeRemoved)
+{
+  const std::string  cad = draw("box.msh",
+                                []
+                                {
+                                 gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+                                 gmsh::model::occ::synchronize();
+                                 gmsh::model::mesh::generate(3);
+                               });
+  FrameSpecification s   = specification(cad, 0.);
+  s.mesh.defeature       = 0.01;
+  EXPECT_THAT(refusal(s), HasSubstr("is a mesh already"));
+}
+
+TEST(Memory, GrowsFasterThanTheNumberOfCoordinates)
+{
+  EXPECT_GT(reduction_memory(1e6) / reduction_memory(5e5), 2.);
+  EXPECT_GT(available_memory(), 1e8); // of any machine that has come this far
+}
+
+TEST(Memory, ThatIsNotThereIsToldBeforeMeshing)
+{
+  const double gib = 1024. * 1024. * 1024.;
+  EXPECT_NO_THROW(require_memory(1e5, 64. * gib, "place", "advice"));
+  EXPECT_NO_THROW(require_memory(1e9, std::numeric_limits<double>::infinity(), "place", "advice"));
+  FrameSpecification s = specification(block_with_details(), 2e-5); // some 1e11 cells
+  s.mesh.max_cells     = 1e15;
+  EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:4: frame.mesh"), HasSubstr("reduction need about"),
+                                HasSubstr("available are"), HasSubstr("Use size = ")));
+}
+
+} // namespace
