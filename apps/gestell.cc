@@ -1,6 +1,7 @@
 // The program gestell: one executable with subcommands.
 
 #include "apps/commands/commands.h"
+#include "apps/commands/team.h"
 #include "apps/version.h"
 #include "coupling/integration/second_order_system.h"
 
@@ -29,6 +30,7 @@ CLI::Validator above_zero()
 }
 
 using namespace gestell::apps;
+namespace coupling = gestell::coupling;
 
 CLI::App *add_command(CLI::App &program, const std::string &name, const std::string &does, const std::string &example,
                       const std::string &input, CommonOptions &options)
@@ -152,9 +154,7 @@ CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityComm
   return command;
 }
 
-} // namespace
-
-int main(int argc, char **argv)
+int run_program(int argc, char **argv)
 {
   CLI::App program{"Gestell computes how a machine and the frame that carries it shake each other.", "gestell"};
   program.set_version_flag("--version", std::string("gestell ") + version);
@@ -199,30 +199,44 @@ int main(int argc, char **argv)
 
   if (options.jobs > 1)
     setenv("OPENBLAS_NUM_THREADS", std::to_string(options.jobs).c_str(), 1);
+  if (run->parsed())
+    return run_command(options);
+  if (modes->parsed())
+    return modes_command(options, modes_options);
+  if (reduce->parsed())
+    return reduce_command(options, reduce_options);
+  if (chart->parsed())
+    return chart_command(options, chart_options);
+  if (check->parsed())
+    return check_command(options);
+  if (stability->parsed())
+    return stability_command(options, stability_options);
+  return mesh_command(options, mesh);
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const bool speaks = coupling::launch().rank == 0; // of all that mpirun started
   try
   {
-    if (run->parsed())
-      return run_command(options);
-    if (modes->parsed())
-      return modes_command(options, modes_options);
-    if (reduce->parsed())
-      return reduce_command(options, reduce_options);
-    if (chart->parsed())
-      return chart_command(options, chart_options);
-    if (check->parsed())
-      return check_command(options);
-    if (stability->parsed())
-      return stability_command(options, stability_options);
-    return mesh_command(options, mesh);
+    MpiRun ranks;
+    if (!ranks.serves())
+      return run_program(argc, argv);
+    ranks.serve();
+    return exit_done;
   }
   catch (const std::invalid_argument &error)
   {
-    std::cerr << "gestell: " << error.what() << '\n';
+    if (speaks)
+      std::cerr << "gestell: " << error.what() << '\n';
     return exit_wrong_input;
   }
   catch (const std::exception &error)
   {
-    std::cerr << "gestell: the computation failed: " << error.what() << '\n';
+    if (speaks)
+      std::cerr << "gestell: the computation failed: " << error.what() << '\n';
     return exit_failed;
   }
 }

@@ -13,4 +13,7 @@ namespace gestell::coupling
  */
 FrameService &frame_service();
 
+/// Ranks of mpirun above 0: what rank 0 orders, done by the plugin.
+void obey_in_frame_service(int order);
+
 } // namespace gestell::coupling

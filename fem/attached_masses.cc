@@ -93,25 +93,45 @@ MassProperties properties_of(const AttachedMass &mass, const Interface &node)
   return {mass.mass, Eigen::Map<const Eigen::Vector3d>(centre.data()), mass.inertia};
 }
 
-void add_masses(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, FrameMatrices &frame)
+namespace
+{
+
+/// Motions of the centre of the mass by those of its node.
+Eigen::Matrix<double, 3, 6> motions_of_centre(const AttachedMass &mass, const Interface &node)
+{
+  return rigid_motions_of_point(mass.centre.value_or(node.position), node.position);
+}
+
+} // namespace
+
+Eigen::SparseMatrix<double> mass_matrix(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes,
+                                        int n)
 {
   std::vector<Eigen::Triplet<double>> entries;
   for (const AttachedMass &mass : masses)
   {
-    const Interface                  &node = node_of(mass, nodes);
-    const Eigen::Matrix<double, 3, 6> R    = rigid_motions_of_point(mass.centre.value_or(node.position), node.position);
+    const Interface                  &node   = node_of(mass, nodes);
+    const Eigen::Matrix<double, 3, 6> R      = motions_of_centre(mass, node);
     Matrix6                           M_node = mass.mass * R.transpose() * R;
     M_node.bottomRightCorner<3, 3>() += mass.inertia;
     for (int i = 0; i < 6; ++i)
-    {
-      frame.acceleration_load.row(node.coordinate[i]) += mass.mass * R.col(i).transpose();
       for (int j = 0; j < 6; ++j)
         entries.emplace_back(node.coordinate[i], node.coordinate[j], 0.5 * (M_node(i, j) + M_node(j, i)));
-    }
   }
-  Eigen::SparseMatrix<double> of_masses(frame.M.rows(), frame.M.cols());
-  of_masses.setFromTriplets(entries.begin(), entries.end());
-  frame.M += of_masses;
+  Eigen::SparseMatrix<double> M(n, n);
+  M.setFromTriplets(entries.begin(), entries.end());
+  return M;
+}
+
+void add_loads(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, Eigen::MatrixXd &load)
+{
+  for (const AttachedMass &mass : masses)
+  {
+    const Interface                  &node = node_of(mass, nodes);
+    const Eigen::Matrix<double, 3, 6> R    = motions_of_centre(mass, node);
+    for (int i = 0; i < 6; ++i)
+      load.row(node.coordinate[i]) += mass.mass * R.col(i).transpose();
+  }
 }
 
 } // namespace gestell::fem

@@ -22,13 +22,15 @@ const Interface &node_of(const AttachedMass &mass, const std::vector<Interface> 
 MassProperties properties_of(const AttachedMass &mass, const Interface &node);
 
 /**
- * Adds the masses to M and to the load of a unit acceleration.  A node at x0 with coordinates p = (u0, theta) carries a
- * rigid body of centre x_c as
+ * What masses add to M [n x n] and to the load of a unit acceleration [n x 3].  A node at x0 with coordinates
+ * p = (u0, theta) carries a rigid body of centre x_c as
  *
  *     M_node = m R^T R + [ 0 0 ; 0 J ],     R = [ I  -(x_c - x0)x ],     load in direction d:  m R^T e_d.
  *
  * @param nodes  of masses and interfaces by the names in nodes_of_masses() and of the interfaces.
  */
-void add_masses(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, FrameMatrices &frame);
+Eigen::SparseMatrix<double> mass_matrix(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes,
+                                        int n);
+void add_loads(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, Eigen::MatrixXd &load);
 
 } // namespace gestell::fem

@@ -46,21 +46,115 @@ std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &spec
   return nodes;
 }
 
-/// Mass, centre and the load of a unit acceleration, with all that is attached; M gets the attached masses.
-void weigh(const QuadraticMesh &mesh, const BlockMatrix &M, const Kinematics &kinematics,
-           const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes, FrameMatrices &frame)
+/// What the matrices of a frame are made of.
+struct Ingredients
 {
-  frame.acceleration_load = acceleration_load(nodal_mass(M), kinematics);
-  frame.facts.whole       = weigh(mesh, M);
-  for (const AttachedMass &mass : masses)
+  const FrameSpecification          &specification;
+  const QuadraticMesh               &mesh;
+  const CellMaterials               &materials;
+  const std::vector<SupportedPatch> &supports;
+  const Kinematics                  &kinematics;
+  const std::vector<Interface>      &nodes;
+};
+
+/// Mass, centre and the load of a unit acceleration: of the cells, and with all that is attached.
+void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::VectorXd &nodal_mass, FrameMatrices &frame)
+{
+  frame.acceleration_load = acceleration_load(nodal_mass, of.kinematics);
+  frame.facts.whole       = cells;
+  for (const AttachedMass &mass : of.specification.masses)
   {
-    frame.facts.whole.add(properties_of(mass, node_of(mass, nodes)));
+    frame.facts.whole.add(properties_of(mass, node_of(mass, of.nodes)));
     frame.facts.parts.push_back({mass.name, "", mass.mass});
   }
-  if (!masses.empty())
-    add_masses(masses, nodes, frame);
+  add_loads(of.specification.masses, of.nodes, frame.acceleration_load);
   frame.mass                                       = frame.facts.whole.mass;
   Eigen::Map<Eigen::Vector3d>(frame.centre.data()) = frame.facts.whole.centre;
+}
+
+/// C of the cells at clamped supports, whose rows there are those of the whole.
+BlockMatrix stiffness_at_supports(const Ingredients &of)
+{
+  std::vector<char> clamped(of.mesh.n_nodes(), 0);
+  for (const SupportedPatch &supported : of.supports)
+    if (supported.support.kind == SupportKind::clamped)
+      for (const int node : supported.patch.nodes)
+        clamped[node] = 1;
+  QuadraticMesh near;
+  CellMaterials materials{of.materials.materials, {}};
+  near.points = of.mesh.points;
+  for (int cell = 0; cell < of.mesh.n_cells(); ++cell)
+  {
+    const int *nodes = of.mesh.nodes(cell);
+    if (std::none_of(nodes, nodes + of.mesh.nodes_per_cell(), [&](int node) { return clamped[node]; }))
+      continue;
+    if (!of.mesh.curved.empty())
+      near.curved.push_back(of.mesh.curved[cell]);
+    if (of.mesh.hexahedra.empty())
+      near.cells.push_back(of.mesh.cells[cell]);
+    else
+      near.hexahedra.push_back(of.mesh.hexahedra[cell]);
+    materials.of_cell.push_back(of.materials.of_cell[cell]);
+  }
+  return assemble_stiffness(near, materials);
+}
+
+void add_support_forces(const Ingredients &of, const BlockMatrix &C, FrameMatrices &frame)
+{
+  for (FrameOutput &output : support_forces(of.supports, C, of.kinematics))
+    frame.outputs.push_back(std::move(output));
+}
+
+/// M, B, C and what is read off them, by this process alone.
+void add_matrices(const Ingredients &of, FrameMatrices &frame)
+{
+  const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
+  Eigen::SparseMatrix<double> rayleigh(kinematics.n_coordinates(), kinematics.n_coordinates());
+  // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
+  {
+    BlockMatrix C            = assemble_stiffness(mesh, materials);
+    frame.facts.rigid_energy = rigid_energy(mesh, C);
+    add_support_forces(of, C, frame);
+    if (specification.rayleigh_stiffness > 0.)
+      rayleigh += specification.rayleigh_stiffness * kinematics.project(C);
+    add_foundations(supports, &Support::stiffness, C);
+    frame.C = kinematics.project(C);
+  }
+  {
+    const BlockMatrix M = assemble_mass(mesh, materials);
+    frame.M             = kinematics.project(M);
+    if (specification.rayleigh_mass > 0.)
+      rayleigh += specification.rayleigh_mass * frame.M;
+    weigh(of, weigh(mesh, M), nodal_mass(M), frame);
+    if (!specification.masses.empty())
+      frame.M += mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
+  }
+  frame.B = kinematics.project(assemble_foundations(supports, &Support::damping, mesh.n_nodes()));
+  if (rayleigh.nonZeros() > 0)
+    frame.B += rayleigh;
+}
+
+/// The same by several ranks; what they keep.
+std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const CellAssembly &ranks, FrameMatrices &frame)
+{
+  const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
+  const auto foundations                                                    = [&](Vector3 Support::*totals)
+  { return of.kinematics.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
+  const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
+  const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
+
+  CellSums sums            = ranks.sum(mesh, materials, kinematics, C_beside, M_beside);
+  frame.C                  = std::move(sums.C);
+  frame.M                  = std::move(sums.M);
+  frame.facts.rigid_energy = sums.rigid_energy;
+  add_support_forces(of, stiffness_at_supports(of), frame);
+  weigh(of, sums.whole, sums.nodal_mass, frame);
+  frame.B = foundations(&Support::damping);
+  if (specification.rayleigh_stiffness > 0.)
+    frame.B += specification.rayleigh_stiffness * (frame.C - C_beside);
+  if (specification.rayleigh_mass > 0.)
+    frame.B += specification.rayleigh_mass * (frame.M - M_beside);
+  return sums.rows;
 }
 
 Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
@@ -86,12 +180,13 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
 
 } // namespace
 
-FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification, const CellAssembly *ranks)
 {
-  return discretise_with_mesh_error(mesh, specification).matrices;
+  return discretise_with_mesh_error(mesh, specification, ranks).matrices;
 }
 
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
+                                          const CellAssembly *ranks)
 {
   const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = number_nodes(mesh);
@@ -110,28 +205,12 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics));
 
-  Eigen::SparseMatrix<double> rayleigh(kinematics.n_coordinates(), kinematics.n_coordinates());
-  // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
-  {
-    BlockMatrix C            = assemble_stiffness(quadratic, materials);
-    frame.facts.rigid_energy = rigid_energy(quadratic, C);
-    for (FrameOutput &output : support_forces(supports, C, kinematics))
-      frame.outputs.push_back(std::move(output));
-    if (specification.rayleigh_stiffness > 0.)
-      rayleigh += specification.rayleigh_stiffness * kinematics.project(C);
-    add_foundations(supports, &Support::stiffness, C);
-    frame.C = kinematics.project(C);
-  }
-  {
-    const BlockMatrix M = assemble_mass(quadratic, materials);
-    frame.M             = kinematics.project(M);
-    if (specification.rayleigh_mass > 0.)
-      rayleigh += specification.rayleigh_mass * frame.M;
-    weigh(quadratic, M, kinematics, specification.masses, nodes, frame);
-  }
-  frame.B = kinematics.project(assemble_damping(supports, quadratic.n_nodes()));
-  if (rayleigh.nonZeros() > 0)
-    frame.B += rayleigh;
+  const Ingredients                  ingredients{specification, quadratic, materials, supports, kinematics, nodes};
+  std::shared_ptr<const RowsOnRanks> rows_on_ranks;
+  if (ranks)
+    rows_on_ranks = add_matrices(ingredients, *ranks, frame);
+  else
+    add_matrices(ingredients, frame);
 
   frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
@@ -140,7 +219,8 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
     frame.stress = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
         rigid_nodes(supports, coupled));
-  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics)};
+  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics),
+          std::move(rows_on_ranks)};
 }
 
 } // namespace gestell::fem

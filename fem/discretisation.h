@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/cell_sums.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
 #include "fem/mesh.h"
@@ -24,16 +25,20 @@ namespace gestell::fem
  * Uses all of the specification but CAD file, mesh options and selectors.  Initialises PETSc
  * (petsc_session()).
  *
+ * @param ranks  sum up the cells' matrices; nullptr: this process does.
  * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
  */
-FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification,
+                         const CellAssembly *ranks = nullptr);
 
-/// The same with what estimates the error the mesh leaves in its fields.
+/// The same with what estimates the error the mesh leaves in its fields, and what several ranks keep.
 struct Discretisation
 {
-  FrameMatrices                    matrices;
-  std::shared_ptr<const MeshError> mesh_error;
+  FrameMatrices                      matrices;
+  std::shared_ptr<const MeshError>   mesh_error;
+  std::shared_ptr<const RowsOnRanks> rows_on_ranks; ///< of C and M, if several ranks have summed them up
 };
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
+                                          const CellAssembly *ranks = nullptr);
 
 } // namespace gestell::fem

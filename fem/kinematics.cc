@@ -43,6 +43,55 @@ Kinematics::Kinematics(const Constraints &constraints)
   G_t_.setFromTriplets(entries.begin(), entries.end());
 }
 
+Kinematics::Kinematics(const Lists &lists)
+    : column_(lists.column), tied_row_(lists.tied_row), tied_(lists.tied), n_free_(lists.n_free),
+      n_coordinates_(lists.n_coordinates)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t row = 0; row + 1 < lists.tie_begin.size(); ++row)
+    for (int k = lists.tie_begin[row]; k < lists.tie_begin[row + 1]; ++k)
+      entries.emplace_back(row, lists.tie_column[k], lists.tie_weight[k]);
+  G_t_.resize(tied_.size(), n_coordinates_);
+  G_t_.setFromTriplets(entries.begin(), entries.end());
+}
+
+Kinematics::Lists Kinematics::of_nodes(const std::vector<int> &nodes) const
+{
+  Lists            lists;
+  std::vector<int> number(n_coordinates_, -1); // among those of the lists
+  const auto       number_of = [&](int coordinate)
+  {
+    if (number[coordinate] < 0)
+    {
+      number[coordinate] = static_cast<int>(lists.coordinates.size());
+      lists.coordinates.push_back(coordinate);
+    }
+    return number[coordinate];
+  };
+  for (const int node : nodes)
+    for (int i = 3 * node; i < 3 * node + 3; ++i)
+      lists.column.push_back(column_[i] < 0 ? -1 : number_of(column_[i]));
+  lists.n_free = static_cast<int>(lists.coordinates.size());
+
+  lists.tie_begin.push_back(0);
+  for (std::size_t k = 0; k < lists.column.size(); ++k)
+  {
+    const int row = tied_row_[3 * nodes[k / 3] + static_cast<int>(k % 3)];
+    lists.tied_row.push_back(row < 0 ? -1 : static_cast<int>(lists.tied.size()));
+    if (row < 0)
+      continue;
+    lists.tied.push_back(static_cast<int>(k));
+    for (decltype(G_t_)::InnerIterator entry(G_t_, row); entry; ++entry)
+    {
+      lists.tie_column.push_back(number_of(static_cast<int>(entry.col())));
+      lists.tie_weight.push_back(entry.value());
+    }
+    lists.tie_begin.push_back(static_cast<int>(lists.tie_column.size()));
+  }
+  lists.n_coordinates = static_cast<int>(lists.coordinates.size());
+  return lists;
+}
+
 int Kinematics::coordinate(int value) const
 {
   const int n = n_displacements();

@@ -47,6 +47,19 @@ class Kinematics
 public:
   explicit Kinematics(const Constraints &constraints);
 
+  /// The same of some nodes alone, as plain lists that can be sent: free coordinates first, in the order of the nodes.
+  struct Lists
+  {
+    int                 n_free = 0, n_coordinates = 0;
+    std::vector<int>    column, tied_row, tied; ///< as the members below
+    std::vector<int>    tie_begin, tie_column;  ///< compressed rows of the tied displacements
+    std::vector<double> tie_weight;
+    std::vector<int>    coordinates; ///< [n_coordinates] what they are in the whole
+  };
+  explicit Kinematics(const Lists &lists);
+  /// @param nodes ascending.
+  Lists of_nodes(const std::vector<int> &nodes) const;
+
   int n_coordinates() const { return n_coordinates_; }
   int n_displacements() const { return static_cast<int>(column_.size()); }
 

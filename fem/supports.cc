@@ -138,7 +138,7 @@ void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Suppor
   matrix.finish();
 }
 
-BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_nodes)
+BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes)
 {
   std::vector<std::array<int, 6>> faces;
   std::vector<std::array<int, 9>> quads;
@@ -149,7 +149,7 @@ BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_
       quads.insert(quads.end(), patch.quads.begin(), patch.quads.end());
     }
   BlockMatrix B = quads.empty() ? BlockMatrix(3, n_nodes, faces) : BlockMatrix(3, n_nodes, quads);
-  add_foundations(supports, &Support::damping, B);
+  add_foundations(supports, totals, B);
   return B;
 }
 

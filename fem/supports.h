@@ -36,8 +36,8 @@ void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints)
  */
 void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix);
 
-/// B of the free frame: dampers of the foundations only.
-BlockMatrix assemble_damping(const std::vector<SupportedPatch> &supports, int n_nodes);
+/// Foundations alone: with their damping, B of the free frame.
+BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes);
 
 /**
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.

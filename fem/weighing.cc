@@ -74,15 +74,19 @@ std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh
   return parts;
 }
 
-double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C)
+Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh)
 {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int i = 0; i < mesh.n_nodes(); ++i)
     middle += point(mesh, i) / mesh.n_nodes();
+  return middle;
+}
 
-  using Motions                      = Eigen::Matrix<double, 3, 6>;
-  const BlockMatrix::Rows     rows   = C.rows();
-  Eigen::Matrix<double, 6, 1> energy = Eigen::Matrix<double, 6, 1>::Zero(), cancelling = energy;
+RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle)
+{
+  using Motions                = Eigen::Matrix<double, 3, 6>;
+  const BlockMatrix::Rows rows = C.rows();
+  RigidEnergies           result;
   for (int i = 0; i < mesh.n_nodes(); ++i)
   {
     Motions force = Motions::Zero(), terms = Motions::Zero();
@@ -94,10 +98,15 @@ double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C)
       terms += block.cwiseAbs() * u.cwiseAbs();
     }
     const Motions u = rigid_motions_of_point(mesh.points[i], middle);
-    energy += u.cwiseProduct(force).colwise().sum();
-    cancelling += u.cwiseAbs().cwiseProduct(terms).colwise().sum();
+    result.energy += u.cwiseProduct(force).colwise().sum();
+    result.cancelling += u.cwiseAbs().cwiseProduct(terms).colwise().sum();
   }
-  return (energy.array().abs() / cancelling.array()).maxCoeff();
+  return result;
+}
+
+double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C)
+{
+  return rigid_energies(mesh, C, middle_of_nodes(mesh)).share();
 }
 
 } // namespace gestell::fem

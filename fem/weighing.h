@@ -27,9 +27,23 @@ Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinem
 std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
                                            const CellMaterials &materials);
 
-/// Largest  u^T C u / |u|^T |C| |u|  over the six rigid motions about the middle of the nodes: rounding, unless an
-/// element is wrong.
+/// Energies u^T C u of the six rigid motions, and |u|^T |C| |u|, whose terms cancel in them; sums over parts of a mesh.
+struct RigidEnergies
+{
+  Eigen::Matrix<double, 6, 1> energy     = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 1> cancelling = Eigen::Matrix<double, 6, 1>::Zero();
+
+  /// Largest quotient: rounding, unless an element is wrong.
+  double share() const { return (energy.array().abs() / cancelling.array()).maxCoeff(); }
+};
+
+Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh);
+
+/// Of the rigid motions about `middle`.
 /// @param C of the free frame, without foundations.
+RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle);
+
+/// Their largest quotient, about the middle of the nodes.
 double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C);
 
 } // namespace gestell::fem

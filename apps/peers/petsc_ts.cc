@@ -190,6 +190,10 @@ private:
     PetscInitialized(&done);
     if (done)
       return;
+    int begun = 0;
+    MPI_Initialized(&begun);
+    if (begun)
+      PETSC_COMM_WORLD = MPI_COMM_SELF; // the other ranks of mpirun take no part
     expect(PetscInitializeNoArguments(), "PetscInitialize");
     PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
     PetscPopSignalHandler();

@@ -1,5 +1,7 @@
 #include "coupling/reduction/basis.h"
 
+#include "coupling/reduction/exact_product.h"
+
 #include <cassert>
 
 namespace gestell::coupling
@@ -76,7 +78,7 @@ ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix
   star.M.bottomLeftCorner(m, n1) = star.M.topRightCorner(n1, m).transpose();
 
   star.C                                    = MatrixXd::Zero(n1 + m, n1 + m);
-  star.C.topLeftCorner(n1, n1)              = symmetric(Psi.transpose() * symmetric_product(C, Psi));
+  star.C.topLeftCorner(n1, n1)              = symmetric(Psi.transpose() * exact_product(C, Psi));
   star.C.bottomRightCorner(m, m).diagonal() = basis.omega0.cwiseAbs2();
 
   star.B = MatrixXd::Zero(n1 + m, n1 + m);

@@ -3,6 +3,7 @@
 #include "coupling/dense_modes.h"
 #include "coupling/mesh_extrapolation.h"
 #include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
 #include "fem/hexahedral_mesh.h"
 #include "fem/mesh_error.h"
@@ -131,8 +132,8 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
 {
   if (progress)
     progress("assembly", -1.);
-  const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, specification);
-  Reduction reduced                 = craig_bampton_with_basis(matrices, reduction, progress);
+  const auto [matrices, mesh_error, rows] = fem::discretise_with_mesh_error(mesh, specification, team_assembly());
+  Reduction reduced                       = craig_bampton_with_basis(matrices, reduction, progress, rows.get());
   Computed  result;
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;

@@ -292,12 +292,12 @@ Reduction reduce(Shapes shapes, std::vector<std::string> notes, const Statics &s
 } // namespace
 
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress)
+                                   const Progress &progress, const fem::RowsOnRanks *rows)
 {
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
-  HeldFrame held(frame, q1);
+  HeldFrame held(frame, q1, rows);
   tell(progress, "constraint modes");
   Statics statics{basis_without_modes(held, frame, q1),
                   frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),

@@ -3,6 +3,11 @@
 #include "coupling/frame_service.h"
 #include "coupling/reduction/basis.h"
 
+namespace gestell::fem
+{
+class RowsOnRanks;
+}
+
 namespace gestell::coupling
 {
 
@@ -31,14 +36,14 @@ namespace gestell::coupling
 ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptions &options,
                            const Progress &progress = {});
 
-/// The same, and T itself.
+/// The same, and T itself; `rows` of C and M if several ranks have them already.
 struct Reduction
 {
   ReducedFrame   frame;
   ReductionBasis basis;
 };
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress = {});
+                                   const Progress &progress = {}, const fem::RowsOnRanks *rows = nullptr);
 
 /// T itself with exactly n_modes modes, for those who need the internal coordinates back.
 ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes);

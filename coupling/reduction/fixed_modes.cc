@@ -81,8 +81,7 @@ void FixedModes::look_for(const LowestModes &known, int count, int block)
 {
   BlockLanczos::Options options = options_;
   options.block                 = block;
-  search_                       = std::make_unique<BlockLanczos>(
-      frame_.M, [this](Eigen::Ref<MatrixXd> X) { held_.solve_in_place(X); }, options, known);
+  search_                       = held_.search(options, known);
   search_->find(count);
 }
 
@@ -102,7 +101,7 @@ void FixedModes::look_for_missing(LowestModes known, int count, double omega)
   }
 }
 
-Inertia FixedModes::count_in(const BlockLanczos::Gap &gap, double &omega) const
+Inertia FixedModes::count_in(const ModeSearch::Gap &gap, double &omega) const
 {
   Inertia best{0, INFINITY};
   for (const double place : places)
@@ -123,8 +122,8 @@ bool FixedModes::confirm()
 {
   if (dense_ || wanted_ == 0)
     return true;
-  const BlockLanczos::Gap gap   = search_->gap_above(wanted_);
-  const LowestModes       found = search_->modes(gap.below);
+  const ModeSearch::Gap gap   = search_->gap_above(wanted_);
+  const LowestModes     found = search_->modes(gap.below);
   search_.reset();
   held_.release();
 

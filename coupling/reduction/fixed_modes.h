@@ -45,19 +45,19 @@ public:
   const std::string &statement() const { return statement_; }
 
 private:
-  Inertia count_in(const BlockLanczos::Gap &gap, double &omega) const;
+  Inertia count_in(const ModeSearch::Gap &gap, double &omega) const;
   void    look_for(const LowestModes &known, int count, int block);
   void    look_for_missing(LowestModes known, int count, double omega);
 
-  HeldFrame                    &held_;
-  const fem::FrameMatrices     &frame_;
-  std::vector<int>              q2_;
-  BlockLanczos::Options         options_;
-  int                           wanted_ = 0;
-  bool                          dense_;
-  LowestModes                   all_; // if dense
-  std::unique_ptr<BlockLanczos> search_;
-  std::string                   statement_;
+  HeldFrame                  &held_;
+  const fem::FrameMatrices   &frame_;
+  std::vector<int>            q2_;
+  BlockLanczos::Options       options_;
+  int                         wanted_ = 0;
+  bool                        dense_;
+  LowestModes                 all_; // if dense
+  std::unique_ptr<ModeSearch> search_;
+  std::string                 statement_;
 };
 
 } // namespace gestell::coupling

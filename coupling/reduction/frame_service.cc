@@ -4,6 +4,7 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/make_mesh_report.h"
 #include "coupling/reduction/openblas.h"
+#include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
 
@@ -29,7 +30,7 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    return fem::discretise(mesh, frame);
+    return fem::discretise(mesh, frame, team_assembly());
   }
 
   ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,

@@ -1,6 +1,8 @@
 #include "coupling/reduction/held_frame.h"
 
 #include "coupling/reduction/free_motion.h"
+#include "coupling/reduction/team_held_frame.h"
+#include "coupling/reduction/team_search.h"
 
 #include <algorithm>
 
@@ -43,44 +45,87 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
   return lower;
 }
 
-SparseCholesky factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+[[noreturn]] void refuse_indefinite(const std::string &where)
+{
+  throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
+                              "definite" +
+                              where + "; it must be symmetric with positive energy for every motion");
+}
+
+std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   try
   {
-    SparseCholesky factor(frame.C, q1);
-    if (factor.pivot_ratio() < suspicious_pivots)
+    auto factor = std::make_unique<SparseCholesky>(frame.C, q1);
+    if (factor->pivot_ratio() < suspicious_pivots)
       require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     return factor;
   }
   catch (const NotPositiveDefinite &failure)
   {
     require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
-    throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
-                                "definite at coordinate " +
-                                std::to_string(failure.row) +
-                                "; it must be symmetric with positive energy for every "
-                                "motion");
+    refuse_indefinite(" at coordinate " + std::to_string(failure.row));
   }
+}
+
+std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMatrices &frame,
+                                            const std::vector<int> &q1, const fem::RowsOnRanks *rows)
+{
+  auto held = std::make_unique<TeamHeldFrame>(team, frame, q1, rows);
+  if (!held->positive() || held->softest() < suspicious_pivots)
+    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
+  if (!held->positive())
+    refuse_indefinite("");
+  return held;
 }
 
 } // namespace
 
-HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-    : frame_(frame), q1_(q1), factor_(factor_held(frame, q1))
+HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows)
+    : frame_(frame), q1_(q1)
 {
+  if (const Team *team = Team::of_this_run())
+    team_ = held_by_team(*team, frame, q1, rows);
+  else
+    factor_ = factor_held(frame, q1);
 }
+
+HeldFrame::~HeldFrame() = default;
 
 void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
+  if (team_)
+    return team_->solve_in_place(X);
   for (const int i : q1_)
     X.row(i).setZero();
-  factor_.solve_in_place(X);
+  factor_->solve_in_place(X);
+}
+
+void HeldFrame::release()
+{
+  if (factor_)
+    factor_->release();
 }
 
 void HeldFrame::restore()
 {
-  if (factor_.released())
-    factor_ = SparseCholesky(frame_.C, q1_);
+  if (factor_ && factor_->released())
+    *factor_ = SparseCholesky(frame_.C, q1_);
+}
+
+Inertia HeldFrame::below(double omega) const
+{
+  if (team_)
+    return {team_->modes_below(omega), 1.};
+  return factor_->inertia(frame_.C, frame_.M, omega * omega);
+}
+
+std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &options, const LowestModes &known) const
+{
+  if (team_)
+    return std::make_unique<TeamSearch>(*team_, known);
+  return std::make_unique<BlockLanczos>(
+      frame_.M, [this](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(X); }, options, known);
 }
 
 Eigen::MatrixXd HeldFrame::constraint_modes() const

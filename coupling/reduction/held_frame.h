@@ -1,26 +1,39 @@
 #pragma once
 
+#include "coupling/reduction/lowest_modes.h"
 #include "coupling/sparse_cholesky.h"
 #include "fem/frame_matrices.h"
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
+
+namespace gestell::fem
+{
+class RowsOnRanks;
+}
 
 namespace gestell::coupling
 {
+
+class TeamHeldFrame;
 
 /**
  * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
  * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
  *
  * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
+ *
+ * Where mpirun started several ranks the factor lies on all of them, and they find the modes together.
  */
 class HeldFrame
 {
 public:
+  /// @param rows of C and M if several ranks have them already; they are dealt out otherwise.
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
-  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows = nullptr);
+  ~HeldFrame();
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
@@ -29,16 +42,20 @@ public:
   Eigen::MatrixXd constraint_modes() const;
 
   /// Gives the memory of the factor back; restore() makes it anew where it is not there.
-  void release() { factor_.release(); }
+  void release();
   void restore();
 
   /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
-  Inertia below(double omega) const { return factor_.inertia(frame_.C, frame_.M, omega * omega); }
+  Inertia below(double omega) const;
+
+  /// For fixed-interface modes; the frame must outlive it.  @param options where one process searches.
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
 
 private:
-  const fem::FrameMatrices &frame_;
-  std::vector<int>          q1_;
-  SparseCholesky            factor_;
+  const fem::FrameMatrices       &frame_;
+  std::vector<int>                q1_;
+  std::unique_ptr<TeamHeldFrame>  team_;   // either this
+  std::unique_ptr<SparseCholesky> factor_; // or that
 };
 
 } // namespace gestell::coupling

@@ -18,6 +18,30 @@ struct LowestModes
   Eigen::VectorXd bound; // [m] an exact frequency lies within omega (1 +- bound)
 };
 
+/// Looks for the lowest modes of (C - omega^2 M) v = 0.
+class ModeSearch
+{
+public:
+  virtual ~ModeSearch() = default;
+
+  /// Goes on until the lowest `count` modes are found and a gap above them, or all modes there are.
+  /// @throws ConvergenceFailure with the number found: M has a lower rank, or too many steps.
+  virtual void find(int count) = 0;
+
+  /// The lowest of those found, in an unbroken sequence.
+  virtual LowestModes modes(int count) const = 0;
+
+  /// Frequencies [rad/s] without a mode, as far as is known, and how many found lie below: for a count by other means.
+  struct Gap
+  {
+    double low, high; // high is infinite where no further mode exists
+    int    below;
+  };
+  /// The first gap above `count` modes.
+  /// @throws std::logic_error before find().
+  virtual Gap gap_above(int count) const = 0;
+};
+
 /**
  * The lowest modes of (C - omega^2 M) v = 0 by block Lanczos for A = C^-1 M in the inner product of M.
  *
@@ -37,7 +61,7 @@ struct LowestModes
  *
  * Source: Grimes, Lewis & Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228-272; Wu & Simon, ibid. 22 (2000) 602-616.
  */
-class BlockLanczos
+class BlockLanczos final : public ModeSearch
 {
 public:
   struct Options
@@ -52,24 +76,11 @@ public:
   BlockLanczos(const Eigen::SparseMatrix<double> &M, InverseStiffness inverse, const Options &options,
                const LowestModes &known = {});
 
-  /// Goes on until the lowest `count` modes are found and a gap above them, or all modes there are.
-  /// @throws ConvergenceFailure with the number found: M has a lower rank, or too many steps.
-  void find(int count);
+  void        find(int count) override;
+  LowestModes modes(int count) const override;
+  Gap         gap_above(int count) const override;
 
-  /// Modes found in an unbroken sequence from the lowest.
-  int         n_found() const;
-  LowestModes modes(int count) const;
-
-  /// Frequencies [rad/s] without a mode, as far as is known, and how many found lie below: for a count by other means.
-  struct Gap
-  {
-    double low, high; // high is infinite where no further mode exists
-    int    below;
-  };
-  /// The first gap above `count` modes.
-  /// @throws std::logic_error before find().
-  Gap gap_above(int count) const;
-
+  int n_found() const;                    ///< in an unbroken sequence from the lowest
   int n_vectors() const { return size_; } ///< of the space
 
 private:

@@ -4,6 +4,7 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/mesh_statement.h"
 #include "coupling/reduction/openblas.h"
+#include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
 
@@ -29,8 +30,9 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
-    Reduction           reduced        = craig_bampton_with_basis(discretisation.matrices, options, progress);
+    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame, team_assembly());
+    Reduction           reduced =
+        craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
     reduced.frame.notes.insert(reduced.frame.notes.begin(), mesh.notes.begin(), mesh.notes.end());

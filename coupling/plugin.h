@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+namespace gestell::coupling
+{
+
+/// The file of a plugin: in the folder of the running program, else in the one that the environment variable
+/// GESTELL_PLUGIN_DIR names; empty if there is none.
+std::filesystem::path find_plugin(const char *library);
+
+/// Loads it, never to be unloaded.  @throws std::invalid_argument with the loader's reason.
+void *load_plugin(const std::filesystem::path &file);
+
+/// The function of this name in a loaded plugin.  @throws std::invalid_argument if there is none.
+void *function_of_plugin(void *plugin, const char *name, const char *library);
+
+} // namespace gestell::coupling

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <slepceps.h>
+
+#include <memory>
+#include <string>
+#include <type_traits>
+
+namespace gestell::coupling
+{
+
+/// PETSc objects that destroy themselves: collectively, where they are of several ranks.
+struct DestroyPetsc
+{
+  void operator()(Mat x) const { MatDestroy(&x); }
+  void operator()(Vec x) const { VecDestroy(&x); }
+  void operator()(VecScatter x) const { VecScatterDestroy(&x); }
+  void operator()(IS x) const { ISDestroy(&x); }
+  void operator()(EPS x) const { EPSDestroy(&x); }
+};
+template <typename T>
+using PetscOwned = std::unique_ptr<std::remove_pointer_t<T>, DestroyPetsc>;
+
+/// While it lives PETSc returns its errors and prints nothing.
+struct QuietPetsc
+{
+  QuietPetsc() { PetscPushErrorHandler(PetscReturnErrorHandler, nullptr); }
+  ~QuietPetsc() { PetscPopErrorHandler(); }
+};
+
+inline void require_petsc(PetscErrorCode code, const char *what)
+{
+  if (code == 0)
+    return;
+  const char *text = nullptr;
+  PetscErrorMessage(code, &text, nullptr);
+  throw std::runtime_error(std::string(what) + ": PETSc failed with error " + std::to_string(code) +
+                           (text ? std::string(": ") + text : std::string()));
+}
+
+} // namespace gestell::coupling

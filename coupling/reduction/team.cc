@@ -1,0 +1,96 @@
+#include "coupling/reduction/team.h"
+
+#include "coupling/integration/second_order_system.h"
+#include "coupling/reduction/team_tasks.h"
+#include "coupling/team_service.h"
+
+#include <memory>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+std::unique_ptr<const Team> &the_team()
+{
+  static std::unique_ptr<const Team> team;
+  return team;
+}
+
+template <typename Task>
+void serve(const fem::Ranks &ranks)
+{
+  Task task;
+  try
+  {
+    Team::carry_out(task, ranks);
+  }
+  catch (const fem::AgreedFailure &)
+  {
+    // rank 0 reports it
+  }
+}
+
+} // namespace
+
+const Team *Team::of_this_run()
+{
+  return the_team().get();
+}
+
+void Team::use()
+{
+  auto team = std::make_unique<const Team>();
+  if (team->ranks().size() > 1)
+    the_team() = std::move(team);
+}
+
+int Team::next_number()
+{
+  static int number = 0;
+  return ++number;
+}
+
+void Team::report(const fem::AgreedFailure &failure)
+{
+  if (failure.kind == fem::AgreedFailure::Kind::wrong_input)
+    throw std::invalid_argument(failure.what());
+  throw ConvergenceFailure(failure.what());
+}
+
+void obey(int order)
+{
+  const fem::Ranks ranks;
+  switch (Order(order))
+  {
+  case Order::assemble:
+    return serve<AssembleTask>(ranks);
+  case Order::forget:
+    return serve<ForgetTask>(ranks);
+  case Order::hold:
+    return serve<HoldTask>(ranks);
+  case Order::release:
+    return serve<ReleaseTask>(ranks);
+  case Order::solve:
+    return serve<SolveTask>(ranks);
+  case Order::modes:
+    return serve<ModesTask>(ranks);
+  case Order::count:
+    return serve<CountTask>(ranks);
+  }
+  ranks.abort("there is no order " + std::to_string(order) + "; all ranks must run the same version of gestell");
+}
+
+} // namespace gestell::coupling
+
+void gestell_use_team()
+{
+  gestell::coupling::Team::use();
+}
+
+void gestell_obey(int order)
+{
+  gestell::coupling::obey(order);
+}

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// A failure that every rank has been told of: none is left waiting for another.
+class AgreedFailure : public std::runtime_error
+{
+public:
+  enum class Kind
+  {
+    none,
+    wrong_input,
+    method
+  };
+  AgreedFailure(Kind kind, const std::string &message) : std::runtime_error(message), kind(kind) {}
+  Kind kind;
+};
+
+/**
+ * The processes that mpirun started.  Rank 0 runs the program; the others wait for its orders.
+ *
+ * An order is a number.  After order(n) rank 0, after next_order() all others call the same function for n; within it
+ * calls of MPI are collective, and no rank leaves them out.  Work of one rank alone that may fail stands in agree().
+ */
+class Ranks
+{
+public:
+  /// Those of a running MPI; one where it does not run.
+  Ranks();
+
+  int             rank() const { return rank_; }
+  int             size() const { return size_; }
+  bool            first() const { return rank_ == 0; }
+  static MPI_Comm comm() { return MPI_COMM_WORLD; }
+
+  /// Rank 0: tells all others.
+  void order(int number) const;
+  /// All others: sleeps until rank 0 tells.
+  int next_order() const;
+
+  /// Does the work of this rank; collective.  @throws AgreedFailure on all ranks if the work of any of them throws.
+  template <typename Work>
+  void agree(const Work &work) const
+  {
+    std::exception_ptr failure;
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
+    settle(failure);
+  }
+
+  /// The value of rank 0 for all.
+  template <typename T>
+  void broadcast(T &value) const
+  {
+    static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
+    MPI_Bcast(&value, sizeof value, MPI_BYTE, 0, comm());
+  }
+  void broadcast(std::string &text) const;
+
+  /// To one other rank, and there.
+  template <typename T>
+  void send(const std::vector<T> &values, int to) const
+  {
+    static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
+    send_bytes(values.data(), values.size(), sizeof(T), to);
+  }
+  template <typename T>
+  std::vector<T> receive(int from) const
+  {
+    std::vector<T> values(announced(from));
+    receive_bytes(values.data(), values.size(), sizeof(T), from);
+    return values;
+  }
+
+  /// Ends all ranks with a message on standard error; exit code 3.  For a failure of one rank the others know nothing
+  /// of.
+  [[noreturn]] void abort(const std::string &message) const;
+
+private:
+  void        settle(const std::exception_ptr &failure) const;
+  void        send_bytes(const void *values, std::size_t count, std::size_t size, int to) const;
+  std::size_t announced(int from) const;
+  void        receive_bytes(void *values, std::size_t count, std::size_t size, int from) const;
+
+  int rank_ = 0, size_ = 1;
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,52 @@
+// Failures among ranks: none is left waiting.  What they find together: modes, and how many there are.
+
+#include "tests/apps/program.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+Answer trial(const std::string &how)
+{
+  return shell("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 300 mpirun --oversubscribe "
+               "--mca mpi_yield_when_idle 1 -np 2 '" GESTELL_BINARY_DIR "/bin/team_trial' " +
+               how);
+}
+
+TEST(Team, WorksTogether)
+{
+  const Answer answer = trial("sound");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("2 ranks took part\nthen 2 ranks took part")) << answer.text;
+}
+
+TEST(Team, IsToldOfAFailureThatAllAgreeOnAndGoesOn)
+{
+  const Answer answer = trial("agreed");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("told: the part of this rank is wrong (rank 1 of 2)")) << answer.text;
+  EXPECT_TRUE(answer.says("then 2 ranks took part")) << answer.text;
+}
+
+TEST(Team, EndsWithAMessageWhereOneRankBreaksDown)
+{
+  const Answer answer = trial("abrupt");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("gestell: the computation failed on rank 1 of 2: this rank broke down")) << answer.text;
+  EXPECT_FALSE(answer.says("took part")) << answer.text;
+}
+
+TEST(Team, CountsTheModesOfAFrameByTheInertiaOfItsFactor)
+{
+  const Answer answer = trial("count");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  for (const char *line : {"0 modes and counted 0\n", "1 modes and counted 1\n", "7 modes and counted 7\n",
+                           "11 modes and counted 11\n", "the rest agrees\n"})
+    EXPECT_TRUE(answer.says(line)) << line << answer.text;
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,112 @@
+// A team of ranks with a task that fails, or does not, in the way the one argument says.  Called by team_test.
+
+#include "coupling/reduction/team.h"
+#include "coupling/reduction/team_held_frame.h"
+#include "tests/reduction/lattice.h"
+
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace
+{
+
+using gestell::coupling::Order;
+using gestell::coupling::Team;
+using gestell::fem::Ranks;
+
+struct Trial
+{
+  static constexpr Order order = Order(1000);
+  std::string            how;
+  int                    sum = 0;
+
+  void run(const Ranks &ranks)
+  {
+    ranks.broadcast(how);
+    ranks.agree(
+        [&]
+        {
+          if (how == "agreed" && ranks.rank() == 1)
+            throw std::invalid_argument("the part of this rank is wrong");
+        });
+    if (how == "abrupt" && ranks.rank() == 1)
+      throw std::runtime_error("this rank broke down");
+    MPI_Reduce(&ranks_of_one, &sum, 1, MPI_INT, MPI_SUM, 0, Ranks::comm()); // where the others wait
+  }
+  static constexpr int ranks_of_one = 1;
+};
+
+/// Finds modes, counts them, and finds them again with the factor that the count gave back.
+void count_modes(const Team &team)
+{
+  gestell::test::Lattice lattice;
+  lattice.nx = 10, lattice.ny = 4, lattice.nz = 10;
+  const auto                             frame = gestell::test::frame_of(lattice);
+  const gestell::coupling::TeamHeldFrame held(team, frame, frame.interface_coordinates());
+  const Eigen::MatrixXd                  none(frame.C.rows(), 0);
+  const gestell::coupling::LowestModes   modes = held.lowest_modes(12, none);
+  const Eigen::VectorXd                 &omega = modes.omega;
+  for (const int below : {0, 1, 7, 11})
+  {
+    const double shift = below > 0 ? 0.5 * (omega(below - 1) + omega(below)) : 0.5 * omega(0);
+    std::cout << below << " modes and counted " << held.modes_below(shift) << std::endl;
+  }
+  const auto rest = held.lowest_modes(5, modes.V.leftCols(7));
+  std::cout << "the rest " << ((rest.omega - omega.tail(5)).norm() < 1e-9 * omega.norm() ? "agrees" : "differs")
+            << std::endl;
+}
+
+int lead(const std::string &how)
+{
+  Team::use();
+  const Team *team = Team::of_this_run();
+  if (how == "count")
+    count_modes(*team);
+  try
+  {
+    Trial trial{how};
+    team->together(trial);
+    std::cout << trial.sum << " ranks took part" << std::endl;
+  }
+  catch (const std::invalid_argument &error)
+  {
+    std::cout << "told: " << error.what() << std::endl;
+  }
+  Trial next{"sound"}; // after a failure all are on speaking terms
+  team->together(next);
+  std::cout << "then " << next.sum << " ranks took part" << std::endl;
+  team->ranks().order(0);
+  return 0;
+}
+
+void follow(const Ranks &ranks)
+{
+  while (const int order = ranks.next_order())
+    try
+    {
+      Trial trial;
+      if (Order(order) == Trial::order)
+        Team::carry_out(trial, ranks);
+      else
+        gestell::coupling::obey(order);
+    }
+    catch (const gestell::fem::AgreedFailure &)
+    {
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  const Ranks ranks;
+  if (ranks.first())
+    lead(argc > 1 ? argv[1] : "sound");
+  else
+    follow(ranks);
+  MPI_Finalize();
+  return 0;
+}
