@@ -41,14 +41,24 @@ Stress stress_of(const Eigen::Matrix3d &gradient, const Material &material)
   return s;
 }
 
+// of a cell, without allocations
+using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 27>;
+using Slopes    = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, 27, 3>;
+
+Positions positions_of(const QuadraticMesh &mesh, int cell)
+{
+  Positions X(3, mesh.nodes_per_cell());
+  for (int a = 0; a < X.cols(); ++a)
+    X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[a]].data());
+  return X;
+}
+
 /// Stresses of all fields at one point of a cell; column `at` of the result.
-void stresses_at(const ReferenceCell::Point &point, const QuadraticMesh &mesh, const Material &material, int cell,
+void stresses_at(const ReferenceCell::Point &point, const Positions &X, const int *nodes, const Material &material,
                  const Eigen::MatrixXd &u, Eigen::Ref<Eigen::VectorXd> result)
 {
-  const int            *nodes = mesh.nodes(cell);
-  const Eigen::MatrixXd X     = positions(mesh, cell);
-  const Eigen::Matrix3d J     = X * point.dN;
-  const Eigen::MatrixXd slope = point.dN * J.inverse(); // dN_a / dx_j
+  const Eigen::Matrix3d J     = X.lazyProduct(point.dN);
+  const Slopes          slope = point.dN.lazyProduct(J.inverse().eval()); // dN_a / dx_j
   for (int field = 0; field < u.cols(); ++field)
   {
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // du_i / dx_j
@@ -80,12 +90,15 @@ Samples sample(const QuadraticMesh &mesh, const Material &material, const std::v
   result.x.resize(3, cells.size() * result.per_cell);
   result.stress.resize(6 * u.cols(), cells.size() * result.per_cell);
   for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const Positions X = positions_of(mesh, cells[i]);
     for (int k = 0; k < result.per_cell; ++k)
     {
       const auto at    = static_cast<Eigen::Index>(i) * result.per_cell + k;
-      result.x.col(at) = positions(mesh, cells[i]) * reference.samples[k].N;
-      stresses_at(reference.samples[k], mesh, material, cells[i], u, result.stress.col(at));
+      result.x.col(at) = X.lazyProduct(reference.samples[k].N);
+      stresses_at(reference.samples[k], X, mesh.nodes(cells[i]), material, u, result.stress.col(at));
     }
+  }
   return result;
 }
 
@@ -152,7 +165,7 @@ public:
       {
         const Monomials p = at(samples.x.col(cell * n + k));
         normal += p * p.transpose();
-        right += p * samples.stress.col(cell * n + k).transpose();
+        right.noalias() += p * samples.stress.col(cell * n + k).transpose();
       }
     normal.diagonal().tail<6>() *= 1. + ridge; // z^2 is a constant to samples at z = +-a: then it is left out
     coefficients_ = normal.ldlt().solve(right);
@@ -172,10 +185,11 @@ private:
 
 Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const Eigen::MatrixXd &u)
 {
-  const auto &nodes = reference_cell(mesh).nodes;
-  Stresses    result(6 * u.cols(), nodes.size());
+  const auto     &nodes = reference_cell(mesh).nodes;
+  Stresses        result(6 * u.cols(), nodes.size());
+  const Positions X = positions_of(mesh, cell);
   for (std::size_t a = 0; a < nodes.size(); ++a)
-    stresses_at(nodes[a], mesh, material, cell, u, result.col(a));
+    stresses_at(nodes[a], X, mesh.nodes(cell), material, u, result.col(a));
   return result;
 }
 

@@ -63,7 +63,7 @@ ReductionBasis basis_without_modes(const HeldFrame &held, const fem::FrameMatric
   ReductionBasis basis;
   basis.q1 = q1;
   basis.T  = held.constraint_modes();
-  basis.MT = symmetric_product(frame.M, basis.T);
+  symmetric_product(frame.M, basis.T, basis.M_Psi);
   return basis;
 }
 
@@ -180,8 +180,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   require_valid(frame, q1, options);
   HeldFrame      held(frame, q1);
   ReductionBasis basis = basis_without_modes(held, frame, q1);
-  const auto     modes = FixedModes(held, frame, q1).lowest(options.n_modes);
-  basis.set_modes(frame.M, modes.V, modes.omega);
+  FixedModes     fixed(held, frame, q1);
+  fixed.find(options.n_modes);
+  const LowestModes modes = fixed.lowest(options.n_modes);
+  basis.set_modes(modes.V, modes.omega);
   return basis;
 }
 
@@ -196,15 +198,14 @@ namespace
 /// What of the reduction does not depend on the modes.
 struct Statics
 {
-  ReductionBasis   basis; // no modes yet
-  MatrixXd         load;  // [n x 3] of a unit acceleration, or [n x 0]
+  MatrixXd         load; // [n x 3] of a unit acceleration, or [n x 0]
   InteriorResponse response;
 };
 
-Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
-                 const ReductionOptions &options, const Progress &progress)
+/// @param basis  with its constraint modes; gets the fixed-interface modes.
+ReducedFrame reduce(ReductionBasis &basis, const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
+                    const ReductionOptions &options, const Progress &progress)
 {
-  ReductionBasis basis = statics.basis;
   ReducedFrame   reduced;
   SupportedModes refined;
   if (options.n_modes < 0)
@@ -212,13 +213,21 @@ Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatr
   else
   {
     tell(progress, "fixed-interface modes");
-    const LowestModes modes = fixed.lowest(options.n_modes);
-    basis.set_modes(frame.M, modes.V, modes.omega);
+    fixed.find(options.n_modes);
+    fixed.finish();
+    basis.set_modes(fixed.found().V.leftCols(options.n_modes), fixed.found().omega.head(options.n_modes));
   }
   tell(progress, "reduced matrices");
   ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
   if (options.n_modes >= 0)
     refined = supported_modes(basis, star, statics.response);
+  if (options.n_modes >= 0 && options.frequency > 0. && basis.n1() > 0 && basis.m() > 0 &&
+      two_pi * options.frequency < basis.omega0(basis.m() - 1))
+  {
+    const InterfaceReceptance receptance(basis, star, statics.response, refined, frame.modal_damping_ratio,
+                                         two_pi * options.frequency);
+    reduced.notes.push_back(receptance_statement(receptance, basis, basis.m(), options.frequency));
+  }
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -246,7 +255,7 @@ Reduction reduce(const Statics &statics, FixedModes &fixed, const fem::FrameMatr
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   describe(reduced, frame, basis);
   add_stress(reduced.stress, frame.stress, basis.T, static_beyond_modes);
-  return {std::move(reduced), std::move(basis)};
+  return reduced;
 }
 
 } // namespace
@@ -259,20 +268,19 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   tell(progress, "factorisation");
   HeldFrame held(frame, q1);
   tell(progress, "constraint modes");
-  Statics statics{basis_without_modes(held, frame, q1),
-                  frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
-                  {}};
-  statics.response = interior_response(held, statics.basis, frame.M, statics.load);
+  ReductionBasis basis = basis_without_modes(held, frame, q1);
+  Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0), {}};
+  statics.response = interior_response(held, basis, frame.M, statics.load);
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
   {
-    Reduction reduced = reduce(statics, fixed, frame, options, progress);
+    ReducedFrame reduced = reduce(basis, statics, fixed, frame, options, progress);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
       continue;
     if (!fixed.statement().empty())
-      reduced.frame.notes.push_back(fixed.statement());
-    return reduced;
+      reduced.notes.push_back(fixed.statement());
+    return {std::move(reduced), std::move(basis)};
   }
   throw ConvergenceFailure(
       "reduction: in " + std::to_string(most_rounds) +
@@ -288,7 +296,9 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   tell(progress, "factorisation");
   HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  const LowestModes modes = FixedModes(free_frame, frame, {}).lowest(n_modes);
+  FixedModes fixed(free_frame, frame, {});
+  fixed.find(n_modes);
+  const LowestModes modes = fixed.lowest(n_modes);
   frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
   frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }
