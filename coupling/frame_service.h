@@ -22,7 +22,7 @@ enum class InnerModes
 struct ReductionOptions
 {
   int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
-  double      tolerance = 0.01; ///< relative error of the frequencies up to `frequency` (automatic number)
+  double      tolerance = 0.01; ///< relative error of the interface's receptance up to `frequency` (automatic number)
   double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
   std::string place;            ///< "press.toml:60: reduction", heads messages
   InnerModes  inner          = InnerModes::interface_held;

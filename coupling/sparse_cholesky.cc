@@ -124,7 +124,7 @@ bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<do
   return true;
 }
 
-constexpr int block_width = 32; // right-hand sides at once: wider gains little and needs more workspace
+constexpr int block_width = 16; // right-hand sides at once: wider gains little and needs more workspace
 
 cholmod_dense columns_at(double *x, int n, int columns)
 {

@@ -23,18 +23,19 @@ MatrixXd symmetric(const MatrixXd &A)
 
 } // namespace
 
-MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X)
+void symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X, MatrixXd &Y)
 {
   assert(A.isCompressed() && A.cols() == X.rows());
   const auto                                   n     = A.cols();
   const int                                   *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
   const auto                                  *a = A.valuePtr();
-  MatrixXd                                     Y(n, X.cols());
   Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
+  Y.resize(n, X.cols());
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)
   {
     const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
-    x.setZero();
+    if (width < lanes)
+      x.setZero();
     x.topRows(width) = X.middleCols(first, width).transpose();
     for (Eigen::Index j = 0; j < n; ++j)
     {
@@ -44,32 +45,35 @@ MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixX
       Y.row(j).segment(first, width) = sum.head(width).transpose();
     }
   }
+}
+
+MatrixXd symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &X)
+{
+  MatrixXd Y;
+  symmetric_product(A, X, Y);
   return Y;
 }
 
-void ReductionBasis::set_modes(const SparseMatrix &M, const MatrixXd &V, const VectorXd &omega)
+void ReductionBasis::set_modes(const Eigen::Ref<const MatrixXd> &V, const VectorXd &omega)
 {
   const Eigen::Index n1 = this->n1(), m = V.cols();
   T.conservativeResize(Eigen::NoChange, n1 + m);
-  MT.conservativeResize(Eigen::NoChange, n1 + m);
-  T.rightCols(m)  = V;
-  MT.rightCols(m) = symmetric_product(M, V);
-  omega0          = omega;
+  T.rightCols(m) = V;
+  omega0         = omega;
 }
 
 void ReductionBasis::truncate(int m)
 {
   assert(m <= this->m());
   T.conservativeResize(Eigen::NoChange, n1() + m);
-  MT.conservativeResize(Eigen::NoChange, n1() + m);
   omega0.conservativeResize(m);
 }
 
 ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix &B, const SparseMatrix &C)
 {
-  const int  n1 = basis.n1(), m = basis.m();
-  const auto Psi   = basis.constraint_modes();
-  const auto M_Psi = basis.MT.leftCols(n1);
+  const int   n1 = basis.n1(), m = basis.m();
+  const auto  Psi   = basis.constraint_modes();
+  const auto &M_Psi = basis.M_Psi;
 
   ReducedMatrices star;
   star.M                         = MatrixXd::Identity(n1 + m, n1 + m);

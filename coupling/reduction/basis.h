@@ -18,7 +18,7 @@ struct ReductionBasis
 {
   std::vector<int> q1;     // interface coordinates, ascending
   Eigen::MatrixXd  T;      // [n x (n1 + m)]
-  Eigen::MatrixXd  MT;     // M T
+  Eigen::MatrixXd  M_Psi;  // M times the constraint modes [n x n1]
   Eigen::VectorXd  omega0; // [m] fixed-interface frequencies (5.5.3/17) [rad/s]
 
   int  n1() const { return int(q1.size()); }
@@ -27,7 +27,7 @@ struct ReductionBasis
   auto fixed_modes() const { return T.rightCols(m()); }
 
   /// In place of those there are.
-  void set_modes(const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega);
+  void set_modes(const Eigen::Ref<const Eigen::MatrixXd> &V, const Eigen::VectorXd &omega);
   void truncate(int m);
 };
 
@@ -58,7 +58,10 @@ ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::Spars
 Eigen::VectorXd project_initial(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &C,
                                 const Eigen::VectorXd &q);
 
-/// A X for a symmetric sparse A (both triangles stored) and several columns, passing through A once per eight of them.
+/// Y <- A X for a symmetric sparse A (both triangles stored) and several columns, passing through A once per eight of
+/// them.
+void            symmetric_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X,
+                                  Eigen::MatrixXd &Y);
 Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X);
 
 } // namespace gestell::coupling

@@ -64,7 +64,7 @@ ReductionBasis basis_without_modes(const HeldFrame &held, const fem::FrameMatric
   ReductionBasis basis;
   basis.q1 = q1;
   basis.T  = held.constraint_modes();
-  basis.MT = symmetric_product(frame.M, basis.T);
+  symmetric_product(frame.M, basis.T, basis.M_Psi);
   return basis;
 }
 
@@ -181,8 +181,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   require_valid(frame, q1, options);
   HeldFrame      held(frame, q1);
   ReductionBasis basis = basis_without_modes(held, frame, q1);
-  const auto     modes = FixedModes(held, frame, q1).lowest(options.n_modes);
-  basis.set_modes(frame.M, modes.V, modes.omega);
+  FixedModes     fixed(held, frame, q1);
+  fixed.find(options.n_modes);
+  const LowestModes modes = fixed.lowest(options.n_modes);
+  basis.set_modes(modes.V, modes.omega);
   return basis;
 }
 
@@ -197,8 +199,7 @@ namespace
 /// What of the reduction does not depend on the modes.
 struct Statics
 {
-  ReductionBasis   basis; // no modes yet
-  MatrixXd         load;  // [n x 3] of a unit acceleration, or [n x 0]
+  MatrixXd         load; // [n x 3] of a unit acceleration, or [n x 0]
   InteriorResponse response;
   FreeModes        free;   // if they are asked for
   MatrixXd         relief; // shapes [n x 6, 3 or 0]
@@ -213,22 +214,32 @@ struct Shapes
   double          limit;           // [rad/s] highest frequency the model is meant for
 };
 
-Shapes held_shapes(const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
+/// @param basis with its constraint modes.
+Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
                    const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
 {
-  Shapes shapes{statics.basis, {}, {}, {}, 0.};
+  Shapes shapes{std::move(basis), {}, {}, {}, 0.};
   if (options.n_modes < 0)
     shapes.refined = enough_modes(shapes.basis, fixed, statics.response, frame, options, progress, notes);
   else
   {
     tell(progress, "fixed-interface modes");
-    const LowestModes modes = fixed.lowest(options.n_modes);
-    shapes.basis.set_modes(frame.M, modes.V, modes.omega);
+    fixed.find(options.n_modes);
+    fixed.finish();
+    shapes.basis.set_modes(fixed.found().V.leftCols(options.n_modes), fixed.found().omega.head(options.n_modes));
   }
   tell(progress, "reduced matrices");
   shapes.star = reduced_matrices(shapes.basis, frame.B, frame.C);
   if (options.n_modes >= 0)
     shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response);
+  const int m = shapes.basis.m();
+  if (options.n_modes >= 0 && options.frequency > 0. && shapes.basis.n1() > 0 && m > 0 &&
+      two_pi * options.frequency < shapes.basis.omega0(m - 1))
+  {
+    const InterfaceReceptance receptance(shapes.basis, shapes.star, statics.response, shapes.refined,
+                                         frame.modal_damping_ratio, two_pi * options.frequency);
+    notes.push_back(receptance_statement(receptance, shapes.basis, m, options.frequency));
+  }
   shapes.damped = shapes.refined;
   shapes.limit  = highest_of_interest(options, shapes.refined);
   if (append_shapes(shapes.basis, frame, statics.relief) > 0)
@@ -239,9 +250,10 @@ Shapes held_shapes(const Statics &statics, FixedModes &fixed, const fem::FrameMa
   return shapes;
 }
 
-Shapes free_shapes(const Statics &statics, const fem::FrameMatrices &frame, const ReductionOptions &options)
+Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::FrameMatrices &frame,
+                   const ReductionOptions &options)
 {
-  Shapes   shapes{statics.basis, {}, {}, {}, 0.};
+  Shapes   shapes{std::move(basis), {}, {}, {}, 0.};
   MatrixXd W(frame.M.rows(), statics.free.W.cols() + statics.relief.cols());
   W << statics.free.W, statics.relief;
   append_shapes(shapes.basis, frame, std::move(W));
@@ -299,30 +311,33 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   tell(progress, "factorisation");
   HeldFrame held(frame, q1, rows);
   tell(progress, "constraint modes");
-  Statics statics{basis_without_modes(held, frame, q1),
-                  frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
+  ReductionBasis basis = basis_without_modes(held, frame, q1);
+  Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
                   {},
                   {VectorXd(0), MatrixXd(frame.M.rows(), 0)},
                   MatrixXd(frame.M.rows(), 0)};
-  statics.response = interior_response(held, statics.basis, frame.M, statics.load);
+  statics.response = interior_response(held, basis, frame.M, statics.load);
   if (options.inertia_relief)
     statics.relief = inertia_relief_shapes(held, frame, q1);
   if (options.inner == InnerModes::interface_free)
   {
     tell(progress, "modes with the interface free");
-    statics.free = free_modes(statics.basis, held, frame, options);
+    statics.free = free_modes(basis, held, frame, options);
     tell(progress, "reduced matrices");
-    return reduce(free_shapes(statics, frame, options), {}, statics, frame);
+    return reduce(free_shapes(std::move(basis), statics, frame, options), {}, statics, frame);
   }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
   {
     std::vector<std::string> notes;
-    Shapes                   shapes  = held_shapes(statics, fixed, frame, options, progress, notes);
+    Shapes                   shapes  = held_shapes(std::move(basis), statics, fixed, frame, options, progress, notes);
     Reduction                reduced = reduce(std::move(shapes), std::move(notes), statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
+    {
+      basis = std::move(reduced.basis);
       continue;
+    }
     if (!fixed.statement().empty())
       reduced.frame.notes.push_back(fixed.statement());
     return reduced;
@@ -341,7 +356,9 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   tell(progress, "factorisation");
   HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  const LowestModes modes = FixedModes(free_frame, frame, {}).lowest(n_modes);
+  FixedModes fixed(free_frame, frame, {});
+  fixed.find(n_modes);
+  const LowestModes modes = fixed.lowest(n_modes);
   frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
   frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace gestell::coupling
@@ -20,6 +21,7 @@ constexpr double growth          = 1.5;
 constexpr double reach           = 1.5; // highest fixed-interface mode over the limit, at least
 constexpr double rule            = 3.5; // the book's
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
+constexpr double allowed_doubt   = 0.1; // of the receptance of the full frame, as a share of the tolerance
 
 } // namespace
 
@@ -67,36 +69,95 @@ std::string percent(double x)
   return out.str();
 }
 
+std::string rounded(double x)
+{
+  std::ostringstream out;
+  out.precision(4);
+  out << x;
+  return out.str();
+}
+
+/// Whether the modes in the basis hold those that are needed, and how many these are.
+struct Judgement
+{
+  bool        good   = false;
+  int         fewest = 0;
+  std::string shortcoming; // if not good
+};
+
+Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &star, const SupportedModes &refined,
+                            double tolerance, double limit)
+{
+  const double error = largest_error(frequency_estimate(star, basis.n1(), basis.m(), refined), refined, limit);
+  if (error > tolerance)
+    return {false, 0, "a frequency error of " + percent(error)};
+  return {true, smallest_number(star, basis.n1(), refined, tolerance, limit), "a frequency that may be missing"};
+}
+
+Judgement judge_receptance(const InterfaceReceptance &receptance, int m, double tolerance)
+{
+  const double doubt  = receptance.uncertainty();
+  const int    fewest = doubt < allowed_doubt * tolerance ? receptance.fewest(tolerance - doubt) : -1;
+  return {fewest >= 0, fewest, "an error of the interface's receptance of " + percent(receptance.error(m) + doubt)};
+}
+
 } // namespace
+
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis, int m,
+                                 double frequency_hz)
+{
+  const auto within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
+  const auto known       = within_rule < basis.m() || basis.m() == 0;
+  return "reduction: " + std::to_string(m) + " fixed-interface modes keep the receptance of the interface up to " +
+         rounded(frequency_hz) + " Hz within " + percent(receptance.error(m) + receptance.uncertainty()) +
+         " of the full frame's; the rule of " + rounded(rule) + " times the highest frequency would take " +
+         (known ? "" : "at least ") + std::to_string(within_rule);
+}
 
 SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const InteriorResponse &response,
                             const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
                             std::vector<std::string> &notes)
 {
-  const int n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
+  const int  n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
+  const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
   {
     if (progress)
       progress("fixed-interface modes", double(m) / most);
+    fixed.find(m);
     const LowestModes modes = fixed.lowest(m);
-    basis.set_modes(frame.M, modes.V, modes.omega);
+    basis.set_modes(modes.V, modes.omega);
     if (progress)
       progress("error estimate", -1.);
     const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
     SupportedModes        refined = supported_modes(basis, star, response);
     const double          within  = highest_of_interest(options, refined);
-    const double          error   = largest_error(frequency_estimate(star, basis.n1(), m, refined), refined, within);
-    const double          highest = m > 0 ? basis.omega0(m - 1) : INFINITY;
+    const double          highest = m > 0 && m < n2 ? basis.omega0(m - 1) : INFINITY;
+    const bool            reaches = highest >= reach * within;
 
-    const bool good = error <= options.tolerance && (highest >= reach * within || m == n2);
-    if (!good && m < most && highest < rule * within)
+    std::optional<InterfaceReceptance> receptance;
+    if (by_receptance && highest > within)
+      receptance.emplace(basis, star, response, refined, frame.modal_damping_ratio, within);
+    Judgement judgement{false, 0, "modes below that frequency out"};
+    if (receptance)
+      judgement = judge_receptance(*receptance, m, options.tolerance);
+    else if (!by_receptance)
+      judgement = judge_frequencies(basis, star, refined, options.tolerance, within);
+    const bool good = judgement.good && reaches;
+    if (!good && m < most && (by_receptance || highest < rule * within))
       continue;
     if (!good)
-      notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave a frequency error of " +
-                      percent(error) + " up to " + std::to_string(within / two_pi) + " Hz, above the tolerance of " +
+      notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave " + judgement.shortcoming +
+                      " up to " + rounded(within / two_pi) + " Hz, above the tolerance of " +
                       percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
     else
-      basis.truncate(smallest_number(star, basis.n1(), refined, options.tolerance, within));
+    {
+      if (receptance)
+        notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency));
+      basis.truncate(judgement.fewest);
+      fixed.find(judgement.fewest); // known by then: that many are to be proved complete
+    }
+    fixed.finish();
     return refined;
   }
 }

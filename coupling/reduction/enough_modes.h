@@ -2,6 +2,7 @@
 
 #include "coupling/frame_service.h"
 #include "coupling/reduction/fixed_modes.h"
+#include "coupling/reduction/interface_receptance.h"
 #include "coupling/reduction/supported_modes.h"
 
 #include <string>
@@ -14,17 +15,22 @@ namespace gestell::coupling
 /// frame.
 double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
 
+/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", and what
+/// the book's rule, modes up to 3.5 times the highest frequency, would take.
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis, int m,
+                                 double frequency_hz);
+
 /**
- * Brings the basis to the smallest number m of modes for which the frequencies of the supported frame up to
- * options.frequency are within options.tolerance.
+ * Brings the basis to the smallest number m of modes that will do.
  *
- * The basis grows by half of its modes at a time until (a) its frequencies up to the limit differ from the refined ones
- * (SupportedModes) by less than the tolerance, and (b) its highest fixed-interface mode lies 1.5 times above the limit,
- * so that no mode is missing.  The last refined frequencies, better by far, are then the measure for the smallest m.
- * The book's rule, modes up to 3.5 times the highest frequency, is where growth stops at the latest; then, and at 200
- * modes, a note tells what was reached.
+ * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
+ * frame's (InterfaceReceptance).  Without, or without an interface: the twelve lowest elastic frequencies of the
+ * supported frame are.
  *
- * options.frequency = 0 asks for the twelve lowest elastic modes of the supported frame.
+ * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
+ * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is
+ * then looked for among the modes there are.  At 200 modes growth
+ * stops, for frequencies at the book's rule, modes up to 3.5 times the highest; then a note tells what was reached.
  *
  * @return the refined modes the choice rests on.
  */

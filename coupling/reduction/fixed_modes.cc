@@ -52,29 +52,47 @@ FixedModes::FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const s
   dense_ = int(q2_.size()) <= dense_limit;
 }
 
-LowestModes FixedModes::lowest(int count)
+void FixedModes::find(int count)
 {
-  const auto n = frame_.M.rows();
-  wanted_      = count;
-  if (count == 0)
-    return {Eigen::VectorXd(0), MatrixXd(n, 0), Eigen::VectorXd(0)};
+  wanted_ = count;
   if (dense_)
   {
-    if (all_.omega.size() == 0)
-      all_ = dense_fixed_modes(frame_, q2_);
-    if (all_.omega.size() < count)
+    if (found_.omega.size() == 0)
+      found_ = dense_fixed_modes(frame_, q2_);
+    if (found_.omega.size() < count)
       throw ConvergenceFailure("fixed-interface modes: " + std::to_string(count) +
                                " asked for, but the mass matrix of the internal coordinates has rank " +
-                               std::to_string(all_.omega.size()) + "; ask for fewer modes");
-    return {all_.omega.head(count), all_.V.leftCols(count), all_.bound.head(count)};
+                               std::to_string(found_.omega.size()) + "; ask for fewer modes");
   }
-  if (!search_)
+  else if (search_)
+    search_->find(count);
+  else if (count > 0)
   {
     held_.restore();
     look_for({}, count, options_.block);
   }
-  search_->find(count);
-  return search_->modes(count);
+}
+
+LowestModes FixedModes::lowest(int count)
+{
+  if (count == 0)
+    return {Eigen::VectorXd(0), MatrixXd(frame_.M.rows(), 0), Eigen::VectorXd(0)};
+  if (search_)
+    return search_->modes(count);
+  return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+}
+
+void FixedModes::finish()
+{
+  held_.release(); // before the modes are made of the space
+  if (search_)
+  {
+    gap_   = search_->gap_above(wanted_);
+    found_ = search_->modes(gap_.below);
+    search_.reset();
+  }
+  else if (wanted_ == 0)
+    found_ = lowest(0);
 }
 
 void FixedModes::look_for(const LowestModes &known, int count, int block)
@@ -101,12 +119,12 @@ void FixedModes::look_for_missing(LowestModes known, int count, double omega)
   }
 }
 
-Inertia FixedModes::count_in(const ModeSearch::Gap &gap, double &omega) const
+Inertia FixedModes::count_in_gap(double &omega) const
 {
   Inertia best{0, INFINITY};
   for (const double place : places)
   {
-    const double shift   = std::isfinite(gap.high) ? gap.low + place * (gap.high - gap.low) : gap.low * (1. + place);
+    const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);
     const auto   inertia = held_.below(shift);
     if (inertia.growth < best.growth)
       best = inertia, omega = shift;
@@ -122,26 +140,21 @@ bool FixedModes::confirm()
 {
   if (dense_ || wanted_ == 0)
     return true;
-  const ModeSearch::Gap gap   = search_->gap_above(wanted_);
-  const LowestModes     found = search_->modes(gap.below);
-  search_.reset();
-  held_.release();
-
   double     omega   = 0.;
-  const auto inertia = count_in(gap, omega);
-  if (inertia.negative < gap.below)
-    throw ConvergenceFailure("fixed-interface modes: " + std::to_string(gap.below) + " are found below " +
+  const auto inertia = count_in_gap(omega);
+  if (inertia.negative < gap_.below)
+    throw ConvergenceFailure("fixed-interface modes: " + std::to_string(gap_.below) + " are found below " +
                              rounded(omega / two_pi) + " Hz, but the inertia of the stiffness tells of " +
                              std::to_string(inertia.negative) + " only; M and C must be symmetric");
-  if (inertia.negative == gap.below)
+  if (inertia.negative == gap_.below)
   {
     if (statement_.empty())
       statement_ = "modes: the inertia of C - omega^2 M at " + rounded(omega / two_pi) + " Hz tells of " +
-                   std::to_string(gap.below) + " fixed-interface modes below it, and as many are found";
+                   std::to_string(gap_.below) + " fixed-interface modes below it, and as many are found";
     return true;
   }
-  look_for_missing(found, inertia.negative, omega);
-  statement_ = "modes: " + std::to_string(inertia.negative - gap.below) + " of " + std::to_string(inertia.negative) +
+  look_for_missing(std::move(found_), inertia.negative, omega);
+  statement_ = "modes: " + std::to_string(inertia.negative - gap_.below) + " of " + std::to_string(inertia.negative) +
                " fixed-interface modes below " + rounded(omega / two_pi) +
                " Hz were passed over at first, found missing by the inertia of C - omega^2 M, and searched for";
   return false;

@@ -27,15 +27,24 @@ public:
   FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
              const BlockLanczos::Options &options = {});
 
-  /// The lowest `count`, 0 <= count <= internal coordinates.
+  /// Looks for the lowest `count`, 0 <= count <= internal coordinates.
   /// @throws ConvergenceFailure with the number found.
+  void find(int count);
+
+  /// The lowest `count` of those found.
   LowestModes lowest(int count);
 
+  /// No more will be asked for than the modes looked for last: gives back the memory of the search and of the factor.
+  void finish();
+
+  /// After finish(): the modes looked for last, and some more, up to a gap.
+  const LowestModes &found() const { return found_; }
+
   /**
-   * Whether the modes last asked for are all there are up to the highest of them.
+   * After finish(): whether the modes found are all there are below the gap.
    *
-   * If not, those that are missing have been found (lowest() now has them), and the frame's factor is restored; what
-   * was made of the modes must be made anew.  Releases the factor, and the search's memory, to count.
+   * If not, those that are missing have been found, and the frame's factor is there again; what was made of the modes
+   * must be made anew, from find() on.
    *
    * @throws ConvergenceFailure if the inertia cannot be told, or what is missing not found.
    */
@@ -45,7 +54,7 @@ public:
   const std::string &statement() const { return statement_; }
 
 private:
-  Inertia count_in(const ModeSearch::Gap &gap, double &omega) const;
+  Inertia count_in_gap(double &omega) const;
   void    look_for(const LowestModes &known, int count, int block);
   void    look_for_missing(LowestModes known, int count, double omega);
 
@@ -55,7 +64,8 @@ private:
   BlockLanczos::Options       options_;
   int                         wanted_ = 0;
   bool                        dense_;
-  LowestModes                 all_; // if dense
+  LowestModes                 found_; // if dense, all there are
+  ModeSearch::Gap             gap_{0., 0., 0};
   std::unique_ptr<ModeSearch> search_;
   std::string                 statement_;
 };

@@ -118,7 +118,7 @@ int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, Matrix
     return 0;
   const VectorXd size = mass_of(W, symmetric_product(frame.M, W)).cwiseSqrt();
   W *= size.unaryExpr([](double s) { return s > 0. ? 1. / s : 0.; }).asDiagonal();
-  const auto M_modes = basis.MT.rightCols(basis.m());
+  const MatrixXd M_modes = symmetric_product(frame.M, basis.fixed_modes());
   for (int again = 0; again < 2; ++again)
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
@@ -134,7 +134,7 @@ int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, Matrix
   VectorXd                                      omega(basis.m() + kept);
   V << basis.fixed_modes(), W * stiffness.eigenvectors();
   omega << basis.omega0, stiffness.eigenvalues().cwiseSqrt();
-  basis.set_modes(frame.M, V, omega);
+  basis.set_modes(V, omega);
   return int(kept);
 }
 

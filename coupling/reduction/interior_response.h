@@ -10,18 +10,19 @@ namespace gestell::coupling
 
 /**
  * Deflection of the inside, the interface held, under what does not depend on the modes kept: the inertia forces of the
- * constraint modes and given loads.
+ * constraint modes and given loads.  Of the first,
  *
- *     X = C22^-1 (M Psi)_2     [n x n1], zero on q1
+ *     X = C22^-1 (M Psi)_2     [n x n1], zero on q1,
  *
- * With V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)]: a round of inverse iteration for all Ritz vectors of
- * the reduced model costs no solution but these n1.
+ * two products tell all that is asked: with V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)] and V22^T M X =
+ * diag(1 / omega0^2) M*_21.  Thus a round of inverse iteration for all Ritz vectors of the reduced model costs no
+ * solution but these n1.
  */
 struct InteriorResponse
 {
-  Eigen::MatrixXd X;
-  Eigen::MatrixXd XMX;   // X^T M X [n1 x n1]
-  Eigen::MatrixXd loads; // C22^-1 f2 [n x k]
+  Eigen::MatrixXd Psi_M_X; // Psi^T M X [n1 x n1]
+  Eigen::MatrixXd X_M_X;   // X^T M X [n1 x n1]
+  Eigen::MatrixXd loads;   // C22^-1 f2 [n x k]
 };
 
 /// @param loads f [n x k]; its part on q1 has no meaning here.

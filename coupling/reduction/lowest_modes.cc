@@ -77,19 +77,20 @@ void BlockLanczos::start_block()
   MatrixXd   MX;
   for (int pass = 0; pass < 2; ++pass)
   {
-    MX                    = symmetric_product(M_, X);
+    symmetric_product(M_, X, MX);
     const VectorXd before = norms(X, MX);
-    X -= Q * (Q.transpose() * MX);
-    MX = symmetric_product(M_, X);
+    X.noalias() -= Q * (Q.transpose() * MX).eval();
+    symmetric_product(M_, X, MX);
     if (pass == 0 && (norms(X, MX).array() <= 1e-7 * before.array()).all())
       X.resize(n_, 0), MX.resize(n_, 0);
   }
   inverse_(MX); // what of it has no mass would never leave the space
   X.swap(MX);
-  MX                   = symmetric_product(M_, X);
+  symmetric_product(M_, X, MX);
   const VectorXd scale = norms(X, MX);
-  X -= Q * (Q.transpose() * MX);
-  set_next(X, symmetric_product(M_, X), scale);
+  X.noalias() -= Q * (Q.transpose() * MX).eval();
+  symmetric_product(M_, X, MX);
+  set_next(std::move(X), std::move(MX), scale);
   E_       = MatrixXd::Zero(next_.cols(), size_);
   coupled_ = size_;
   M_last_.resize(n_, 0);
@@ -121,17 +122,18 @@ void BlockLanczos::set_next(MatrixXd W, MatrixXd MW, const VectorXd &scale)
       break;
     }
     const auto Q = Q_.leftCols(size_); // few significant figures are left: once more
-    W -= Q * (Q.transpose() * symmetric_product(M_, W));
-    MW = symmetric_product(M_, W);
+    symmetric_product(M_, W, MW);
+    W.noalias() -= Q * (Q.transpose() * MW).eval();
+    symmetric_product(M_, W, MW);
   }
   next_.swap(W);
   M_next_.swap(MW);
 }
 
-void BlockLanczos::append_next()
+void BlockLanczos::append_block(const MatrixXd &block)
 {
-  const int k = size_, b = int(next_.cols());
-  Q_.middleCols(k, b) = next_;
+  const int k = size_, b = int(block.cols());
+  Q_.middleCols(k, b) = block;
   T_.conservativeResize(k + b, k + b);
   T_.bottomLeftCorner(b, k)  = E_;
   T_.topRightCorner(k, b)    = E_.transpose();
@@ -143,11 +145,12 @@ void BlockLanczos::step()
 {
   const int      k = size_, b = int(next_.cols());
   const bool     all_coupled = coupled_ == 0 || M_last_.cols() != k - coupled_;
-  const MatrixXd M_last = std::move(M_last_), M_now = M_next_;
-  append_next();
-  MatrixXd W = M_now;
+  const MatrixXd M_last      = std::move(M_last_);
+  MatrixXd       M_now = std::move(M_next_), W = std::move(next_), MW;
+  append_block(W);
+  W = M_now;
   inverse_(W);
-  MatrixXd       MW    = symmetric_product(M_, W);
+  symmetric_product(M_, W, MW);
   const VectorXd scale = norms(W, MW);
 
   // first what couples, then what rounding left of all the others
@@ -156,23 +159,25 @@ void BlockLanczos::step()
   const MatrixXd H           = near.transpose() * MW;
   const MatrixXd own         = H.bottomRows(b);
   T_.bottomRightCorner(b, b) = 0.5 * (own + own.transpose());
-  W -= near * H;
+  W.noalias() -= near * H;
   if (all_coupled)
-    MW = symmetric_product(M_, W);
+    symmetric_product(M_, W, MW);
   else
   {
-    MW -= M_last * H.topRows(k - from);
-    MW -= M_now * own;
+    MW.noalias() -= M_last * H.topRows(k - from);
+    MW.noalias() -= M_now * own;
   }
-  const auto Q = Q_.leftCols(size_);
-  W -= Q * (Q.transpose() * MW);
-  set_next(W, symmetric_product(M_, W), scale);
+  const auto     Q    = Q_.leftCols(size_);
+  const MatrixXd rest = Q.transpose() * MW;
+  W.noalias() -= Q * rest;
+  symmetric_product(M_, W, MW);
+  set_next(std::move(W), std::move(MW), scale);
 
   MatrixXd E     = MatrixXd::Zero(next_.cols(), size_);
   E.rightCols(b) = E_;
   E_             = E;
   coupled_       = k;
-  M_last_        = M_now;
+  M_last_        = std::move(M_now);
   if (next_.cols() == 0)
     start_block();
 }

@@ -87,7 +87,7 @@ private:
   void start_block();
   void step();
   void restart(int keep);
-  void append_next();
+  void append_block(const Eigen::MatrixXd &block);
   void set_next(Eigen::MatrixXd W, Eigen::MatrixXd MW, const Eigen::VectorXd &scale);
   void solve_projected();
   int  gap_index(int count) const;

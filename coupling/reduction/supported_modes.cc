@@ -47,10 +47,11 @@ SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrice
   // [T, X]^T M [T, X]
   MatrixXd gram(n1 + m + n1, n1 + m + n1);
   gram.topLeftCorner(n1 + m, n1 + m) = star.M;
-  gram.topRightCorner(n1 + m, n1)    = basis.MT.transpose() * response.X;
-  gram.bottomLeftCorner(n1, n1 + m)  = gram.topRightCorner(n1 + m, n1).transpose();
-  gram.bottomRightCorner(n1, n1)     = response.XMX;
-  const auto TM                      = gram.topRows(n1 + m);
+  gram.topRightCorner(n1, n1)        = response.Psi_M_X;
+  gram.block(n1, n1 + m, m, n1) = basis.omega0.cwiseAbs2().cwiseInverse().asDiagonal() * star.M.bottomLeftCorner(m, n1);
+  gram.bottomLeftCorner(n1, n1 + m) = gram.topRightCorner(n1 + m, n1).transpose();
+  gram.bottomRightCorner(n1, n1)    = response.X_M_X;
+  const auto TM                     = gram.topRows(n1 + m);
 
   // Y = C^-1 M T Phi = [T, X] y
   MatrixXd y(n1 + m + n1, elastic);

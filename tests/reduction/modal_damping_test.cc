@@ -141,7 +141,7 @@ TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
   }
 }
 
-TEST(AutomaticNumber, KeepsTheFrequenciesWithinTheToleranceWithTheFewestModes)
+TEST(AutomaticNumber, KeepsTheFirstTwelveFrequenciesWithinTheToleranceWithTheFewestModes)
 {
   const auto                 frame = frame_of(Lattice());
   const VectorXd             exact = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
@@ -150,11 +150,10 @@ TEST(AutomaticNumber, KeepsTheFrequenciesWithinTheToleranceWithTheFewestModes)
   for (const double tolerance : {0.05, 0.005, 0.0005})
   {
     options.tolerance  = tolerance;
-    options.frequency  = exact(14) * 1.0001;
     const auto reduced = craig_bampton(frame, options);
     const int  m       = int(reduced.omega0.size());
     const auto worst   = [&](const VectorXd &found)
-    { return (found.head(15) - exact.head(15)).cwiseQuotient(exact.head(15)).maxCoeff(); };
+    { return (found.head(12) - exact.head(12)).cwiseQuotient(exact.head(12)).maxCoeff(); };
     EXPECT_LE(worst(reduced.frequencies_hz), 1.1 * tolerance); // the estimate is no bound, but close
     EXPECT_GE(worst(craig_bampton(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
     EXPECT_GE(m, previous);

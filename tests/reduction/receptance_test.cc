@@ -1,0 +1,189 @@
+#include "coupling/dense_modes.h"
+#include "coupling/reduction/craig_bampton.h"
+#include "lattice.h"
+
+#include <Eigen/LU>
+
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <numeric>
+
+namespace gestell
+{
+namespace
+{
+
+using coupling::dense_modes;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::frame_of;
+using test::Lattice;
+
+constexpr double zeta = 0.01, two_pi = 6.283185307179586;
+
+/// Receptance of the interface at some frequencies [rad/s], by modes.
+using Receptances = std::vector<MatrixXcd>;
+
+enum class Damping
+{
+  modal,      // each mode has the ratio zeta
+  loss_factor // C (1 + 2 i zeta)
+};
+
+/// Of all modes of undamped matrices; the rows `q1` of them.
+Receptances by_modes(const MatrixXd &C, const MatrixXd &M, const std::vector<int> &q1,
+                     const std::vector<double> &omegas, Damping damping)
+{
+  const auto     modes = dense_modes(C, M);
+  const MatrixXd Phi   = modes.V(q1, Eigen::all);
+  Receptances    result;
+  for (const double omega : omegas)
+  {
+    const Eigen::VectorXcd terms = modes.omega.unaryExpr(
+        [&](double w)
+        {
+          const double loss = 2. * zeta * w * (damping == Damping::modal ? omega : w);
+          return 1. / std::complex<double>(w * w - omega * omega, loss);
+        });
+    result.push_back(Phi * terms.asDiagonal() * Phi.transpose());
+  }
+  return result;
+}
+
+/// Of the reduced model as it is.
+Receptances reduced(const coupling::ReducedFrame &frame, const std::vector<double> &omegas)
+{
+  Receptances result;
+  for (const double omega : omegas)
+  {
+    MatrixXcd D(frame.M.rows(), frame.M.rows());
+    D.real() = frame.C - omega * omega * frame.M;
+    D.imag() = omega * frame.B;
+    result.push_back(D.partialPivLu().inverse().topLeftCorner(frame.n_interface, frame.n_interface));
+  }
+  return result;
+}
+
+/// Largest |H - H_full| / |H_full| over the frequencies, coordinates scaled by their own inertia.
+double error(const Receptances &H, const Receptances &exact, const VectorXd &scale)
+{
+  double largest = 0.;
+  for (std::size_t i = 0; i < H.size(); ++i)
+    largest = std::max(largest, (scale.asDiagonal() * (H[i] - exact[i]) * scale.asDiagonal()).norm() /
+                                    (scale.asDiagonal() * exact[i] * scale.asDiagonal()).norm());
+  return largest;
+}
+
+coupling::ReductionOptions with_modes(int n)
+{
+  coupling::ReductionOptions options;
+  options.n_modes = n;
+  return options;
+}
+
+/// A frame damped by modes alone, of frequency range and frequencies to look at.
+struct Case
+{
+  fem::FrameMatrices  frame;
+  double              highest_hz;
+  std::vector<double> omegas;
+};
+
+Case make_case(double foundation, int last_mode)
+{
+  Lattice lattice;
+  lattice.nx = 6, lattice.ny = 3, lattice.nz = 7;
+  lattice.foundation = foundation;
+  lattice.damper     = 0.;
+  Case result{frame_of(lattice), 0., {}};
+  result.frame.modal_damping_ratio = zeta;
+  const VectorXd omega             = dense_modes(result.frame.C, result.frame.M).omega;
+  const double   highest           = 0.5 * (omega(last_mode) + omega(last_mode + 1));
+  result.highest_hz                = highest / two_pi;
+  for (int i = 1; i <= 400; ++i)
+    result.omegas.push_back(highest * i / 400.);
+  for (int j = 0; j <= last_mode; ++j)
+    for (int t = -20; t <= 20; ++t)
+      if (const double at = omega(j) * (1. + 0.1 * t * zeta); at > 1e-3 * highest && at <= highest)
+        result.omegas.push_back(at);
+  return result;
+}
+
+class ReceptanceNumber : public ::testing::TestWithParam<std::tuple<double, int, double>>
+{
+};
+
+TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanTheFewestModes)
+{
+  const auto [foundation, last_mode, tolerance] = GetParam();
+  const Case                 c                  = make_case(foundation, last_mode);
+  coupling::ReductionOptions options;
+  options.tolerance    = tolerance;
+  options.frequency    = c.highest_hz;
+  const auto     model = craig_bampton(c.frame, options);
+  const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
+  const auto     q1    = c.frame.interface_coordinates();
+  const int      m     = int(model.omega0.size());
+
+  // the estimate damps by a loss factor, the model by modes: the same at a resonance; and in the full frame those modes
+  // are damped, too, that the model does not have
+  EXPECT_LE(error(reduced(model, c.omegas), by_modes(c.frame.C, c.frame.M, q1, c.omegas, Damping::modal), scale),
+            1.1 * tolerance + zeta);
+
+  const auto       exact = by_modes(c.frame.C, c.frame.M, q1, c.omegas, Damping::loss_factor);
+  const auto       large = craig_bampton(c.frame, with_modes(m + 5)); // the first ones are those of smaller models
+  std::vector<int> first(model.n_interface);
+  std::iota(first.begin(), first.end(), 0);
+  const auto error_of = [&](int modes)
+  {
+    const int n = large.n_interface + modes;
+    return error(
+        by_modes(large.C.topLeftCorner(n, n), large.M.topLeftCorner(n, n), first, c.omegas, Damping::loss_factor),
+        exact, scale);
+  };
+  EXPECT_LE(error_of(m), 1.01 * tolerance); // the grids differ
+  int fewest = 0;
+  while (error_of(fewest) > tolerance)
+    ++fewest;
+  EXPECT_LE(m, std::max(fewest + 1, fewest * 3 / 2)) << fewest;
+  ASSERT_FALSE(model.notes.empty());
+  EXPECT_EQ(model.notes[0].find("reduction: " + std::to_string(m) + " fixed-interface modes keep the receptance"), 0u)
+      << model.notes[0];
+  EXPECT_NE(model.notes[0].find("the rule of 3.5 times the highest frequency would take"), std::string::npos);
+}
+INSTANTIATE_TEST_SUITE_P(SupportedAndFree, ReceptanceNumber,
+                         ::testing::Combine(::testing::Values(3e6, 0.), ::testing::Values(7, 14),
+                                            ::testing::Values(0.05, 0.01)));
+
+TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
+{
+  const Case c     = make_case(3e6, 10);
+  const auto exact = by_modes(c.frame.C, c.frame.M, c.frame.interface_coordinates(), c.omegas, Damping::loss_factor);
+  for (const int m : {25, 40, 60})
+  {
+    auto options         = with_modes(m);
+    options.frequency    = c.highest_hz;
+    const auto     model = craig_bampton(c.frame, options);
+    const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
+    ASSERT_FALSE(model.notes.empty());
+    const auto       at   = model.notes[0].find("within ");
+    const double     told = std::stod(model.notes[0].substr(at + 7)) / 100.;
+    std::vector<int> first(model.n_interface);
+    std::iota(first.begin(), first.end(), 0);
+    const double found = error(by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor), exact, scale);
+    EXPECT_NEAR(told, found, 0.1 * found) << m; // the grids of frequencies differ
+  }
+}
+
+TEST(ReceptanceEstimate, IsNotGivenBeyondTheModesThatAreKnown)
+{
+  const Case c       = make_case(3e6, 10);
+  auto       options = with_modes(2);
+  options.frequency  = c.highest_hz;
+  EXPECT_TRUE(craig_bampton(c.frame, options).notes.empty());
+}
+
+} // namespace
+} // namespace gestell
