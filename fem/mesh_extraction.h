@@ -27,8 +27,8 @@ struct ExtractionOptions
 
 /**
  * Takes the tetrahedra out of gmsh, in metres: cells positively oriented however the file numbers them, the skin (faces
- * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  A mesh of hexahedra is taken by
- * extract_hexahedra().  Coincident nodes that join nothing, and nodes no cell uses, become notes of the mesh.
+ * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  A mesh of hexahedra is
+ * taken by extract_hexahedra().  Coincident nodes that join nothing, and nodes no cell uses, become notes of the mesh.
  *
  * @param head  "<place>: <file>", heads messages
  * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra or twice the same point, more than two

@@ -121,6 +121,17 @@ TEST_P(RanksOfMpi, FindTheFrequenciesOfThePressThatOneProcessFinds)
               " --set frame.mesh.size='\"250 mm\"' --set frame.mesh.'\"crown bearing *\"'='\"150 mm\"' ");
 }
 
+// Entries are summed in another order: their rounding, 1e-16 of the largest, meets lowest modes that are 1e-7 as stiff.
+TEST(Mpi, RanksThatAssembleFindTheFrequenciesToRounding)
+{
+  const Folder      folder("mpi_assembly");
+  const std::string scene = plate(folder);
+  const Answer answer = call(folder, ranks(2) + "-x GESTELL_ASSEMBLE_ON_RANKS=1 ", "reduce " + scene + folder.option());
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  const auto frame = coupling::read_reduced_frame((folder.results() / "reduced_frame.h5").string());
+  EXPECT_LT(difference(frame, reduced(scene, 0)), 1e-8);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, RanksOfMpi, ::testing::Values(1, 2, 4), ::testing::PrintToStringParamName());
 
 TEST(Mpi, ARunFromTheCacheLoadsNothingOnAnyRankButMpi)
