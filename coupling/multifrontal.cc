@@ -36,74 +36,25 @@ struct Run
   int from, to, length;
 };
 
-class Elimination
+/// Which front passes its contribution on to which, and what that takes.
+class Fall
 {
 public:
-  Elimination(const Fronts &fronts, const HeldMatrix &A)
-      : fronts_(fronts), A_(A), place_of_(fronts.n), local_(fronts.n), parent_(fronts.count, -1)
+  explicit Fall(const Fronts &fronts) : fronts_(fronts), parent_(fronts.count, -1)
   {
     std::vector<int> front_of(fronts.n);
     for (int s = 0; s < fronts.count; ++s)
       for (int k = fronts.first[s]; k < fronts.first[s + 1]; ++k)
-        place_of_[fronts.order[k]] = k, front_of[k] = s;
+        front_of[k] = s;
     for (int s = 0; s < fronts.count; ++s)
       if (below(s) > 0)
         parent_[s] = front_of[fronts.rows[fronts.begin[s] + width(s)]];
-    stack_.reset(new double[stack_size()]); // without values: pages are taken as they are reached
   }
 
-  /// L, or the coordinate of the first pivot that is not positive.
-  int cholesky(double *L)
-  {
-    for (int s = 0; s < fronts_.count; ++s)
-    {
-      double *panel = L + fronts_.place[s];
-      assemble(s, panel);
-      int       info = 0;
-      const int h = height(s), w = width(s);
-      dpotrf_("L", &w, panel, &h, &info);
-      if (info > 0)
-        return fronts_.order[fronts_.first[s] + info - 1];
-      divide_and_pass_on(s, panel);
-    }
-    return -1;
-  }
-
-  Inertia inertia()
-  {
-    Inertia             result;
-    std::vector<double> panel, kept;
-    growth_.assign(fronts_.n, 0.);
-    for (int s = 0; s < fronts_.count; ++s)
-    {
-      const int h = height(s), w = width(s);
-      panel.resize(std::max<std::size_t>(panel.size(), std::size_t(h) * w));
-      assemble(s, panel.data());
-      int info = 0;
-      kept.resize(ptrdiff_t(w) * w);
-      copy_block(panel.data(), h, kept.data(), w, w);
-      dpotrf_("L", &w, panel.data(), &h, &info);
-      if (info == 0)
-      {
-        divide_and_pass_on(s, panel.data());
-        continue;
-      }
-      copy_block(kept.data(), w, panel.data(), h, w);
-      result.negative += factor_with_signs(s, panel.data());
-    }
-    for (int k = 0; k < fronts_.n; ++k)
-    {
-      const int i = fronts_.order[k];
-      if (growth_[k] > 0.)
-        result.growth = std::max(result.growth, 1. + growth_[k] / std::abs(A_.C.coeff(i, i)));
-    }
-    return result;
-  }
-
-private:
   int width(int s) const { return fronts_.first[s + 1] - fronts_.first[s]; }
   int height(int s) const { return fronts_.begin[s + 1] - fronts_.begin[s]; }
   int below(int s) const { return height(s) - width(s); }
+  int parent(int s) const { return parent_[s]; } // or -1
 
   ptrdiff_t contribution_size(int s) const { return ptrdiff_t(below(s)) * below(s); }
 
@@ -122,6 +73,80 @@ private:
     return most;
   }
 
+  /// Numbers of the largest panel.
+  ptrdiff_t panel_size() const
+  {
+    ptrdiff_t most = 1;
+    for (int s = 0; s < fronts_.count; ++s)
+      most = std::max(most, ptrdiff_t(height(s)) * width(s));
+    return most;
+  }
+
+private:
+  const Fronts    &fronts_;
+  std::vector<int> parent_;
+};
+
+class Elimination : Fall
+{
+public:
+  Elimination(const Fronts &fronts, const HeldMatrix &A)
+      : Fall(fronts), fronts_(fronts), A_(A), place_of_(fronts.n), local_(fronts.n)
+  {
+    for (int k = 0; k < fronts.n; ++k)
+      place_of_[fronts.order[k]] = k;
+    stack_.reset(new double[stack_size()]); // without values: pages are taken as they are reached
+    panel_.reset(new double[panel_size()]);
+  }
+
+  /// -1, or the coordinate of the first pivot that is not positive.
+  int cholesky(const std::function<void(int, const double *)> &take)
+  {
+    for (int s = 0; s < fronts_.count; ++s)
+    {
+      assemble(s, panel_.get());
+      int       info = 0;
+      const int h = height(s), w = width(s);
+      dpotrf_("L", &w, panel_.get(), &h, &info);
+      if (info > 0)
+        return fronts_.order[fronts_.first[s] + info - 1];
+      divide_and_pass_on(s, panel_.get());
+      take(s, panel_.get());
+    }
+    return -1;
+  }
+
+  Inertia inertia()
+  {
+    Inertia             result;
+    std::vector<double> kept;
+    growth_.assign(fronts_.n, 0.);
+    for (int s = 0; s < fronts_.count; ++s)
+    {
+      const int h = height(s), w = width(s);
+      assemble(s, panel_.get());
+      int info = 0;
+      kept.resize(ptrdiff_t(w) * w);
+      copy_block(panel_.get(), h, kept.data(), w, w);
+      dpotrf_("L", &w, panel_.get(), &h, &info);
+      if (info == 0)
+      {
+        divide_and_pass_on(s, panel_.get());
+        continue;
+      }
+      copy_block(kept.data(), w, panel_.get(), h, w);
+      result.negative += factor_with_signs(s, panel_.get());
+    }
+    for (int k = 0; k < fronts_.n; ++k)
+    {
+      const int i = fronts_.order[k];
+      if (growth_[k] > 0.)
+        result.growth = std::max(result.growth, 1. + growth_[k] / std::abs(A_.C.coeff(i, i)));
+    }
+    return result;
+  }
+
+private:
   static void copy_block(const double *from, int from_height, double *to, int to_height, int w)
   {
     for (int j = 0; j < w; ++j)
@@ -141,7 +166,7 @@ private:
     top_                = waiting_.empty() ? stack_.get() : waiting_.back().end;
     contribution_       = top_;
     contribution_is_set = false;
-    while (!waiting_.empty() && parent_[waiting_.back().front] == s)
+    while (!waiting_.empty() && parent(waiting_.back().front) == s)
     {
       if (!contribution_is_set)
         for (int j = 0; j < r; ++j)
@@ -291,8 +316,8 @@ private:
 
   const Fronts             &fronts_;
   const HeldMatrix         &A_;
-  std::vector<int>          place_of_, local_, parent_;
-  std::unique_ptr<double[]> stack_;
+  std::vector<int>          place_of_, local_;
+  std::unique_ptr<double[]> stack_, panel_;
   std::vector<Waiting>      waiting_;
   double                   *top_ = nullptr, *contribution_ = nullptr;
   bool                      contribution_is_set = false;
@@ -302,9 +327,16 @@ private:
 
 } // namespace
 
-int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A, double *L)
+int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
+                          const std::function<void(int, const double *)> &take)
 {
-  return Elimination(fronts, A).cholesky(L);
+  return Elimination(fronts, A).cholesky(take);
+}
+
+ptrdiff_t multifrontal_workspace(const Fronts &fronts)
+{
+  const Fall fall(fronts);
+  return fall.stack_size() + fall.panel_size();
 }
 
 Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A)

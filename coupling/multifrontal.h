@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCore>
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace gestell::coupling
@@ -15,7 +17,6 @@ struct Fronts
   const int *first = nullptr; // [count + 1] columns of front s are first[s] .. first[s + 1] - 1
   const int *begin = nullptr; // [count + 1] into rows
   const int *rows  = nullptr; // of front s: ascending, its own columns first
-  const int *place = nullptr; // [count + 1] of its panel, rows x columns, in the numbers of L
   const int *order = nullptr; // [n] coordinate of the matrix at place k
 };
 
@@ -33,12 +34,16 @@ struct HeldMatrix
  * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
  * the fronts before it, is factored densely, and passes its contribution on.
  *
- * @param L  room for the panels of the fronts.
- * @return   -1, or the coordinate whose pivot is not positive.
+ * @param take  gets the panel of every front in turn: L's columns [rows x columns], of which the lower triangle counts.
+ * @return      -1, or the coordinate whose pivot is not positive.
  *
  * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.
  */
-int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A, double *L);
+int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
+                          const std::function<void(int front, const double *panel)> &take);
+
+/// Numbers that either elimination needs beside L at most.
+std::ptrdiff_t multifrontal_workspace(const Fronts &fronts);
 
 /// Signs of D in A = L D L^T, D diagonal.
 struct Inertia

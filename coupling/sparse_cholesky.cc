@@ -1,29 +1,60 @@
 #include "coupling/sparse_cholesky.h"
 
+#include "coupling/large_array.h"
 #include "coupling/node_ordering.h"
 #include "coupling/openblas.h"
+#include "coupling/tile_sweeps.h"
 
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <new>
+#include <sstream>
 
 extern "C" void openblas_set_num_threads(int n);
 
 namespace gestell::coupling
 {
 
+namespace
+{
+
+/// Numbers of a front of h rows and w columns in tiles.
+std::ptrdiff_t tiles_size(std::ptrdiff_t h, std::ptrdiff_t w)
+{
+  const auto tiles = (h + tile_rows - 1) / tile_rows, rising = w / tile_rows;
+  return tile_rows * (tile_rows * rising * (rising + 1) / 2 + (tiles - rising) * w);
+}
+
+void put_in_tiles(const double *panel, int h, int w, double *l)
+{
+  for (int t = 0; t < h; t += tile_rows)
+  {
+    const int rows = std::min(tile_rows, h - t), length = std::min(w, t + tile_rows);
+    for (int k = 0; k < length; ++k, l += tile_rows)
+    {
+      const int     above  = std::max(0, k - t); // of the diagonal
+      const double *column = panel + t + std::ptrdiff_t(k) * h;
+      std::fill_n(l, above, 0.);
+      std::copy(column + above, column + rows, l + above);
+      std::fill(l + rows, l + tile_rows, 0.);
+    }
+  }
+}
+
+} // namespace
+
 struct SparseCholesky::Factor
 {
-  cholmod_common   common;
-  cholmod_factor  *L = nullptr;
-  int              n = 0;
-  std::vector<int> held; // ascending
-
-  // workspaces that CHOLMOD keeps from call to call
-  cholmod_dense *X = nullptr, *Y = nullptr, *E = nullptr;
+  cholmod_common              common;
+  cholmod_factor             *analysis = nullptr; // without numbers
+  int                         n        = 0;
+  std::vector<int>            held; // ascending
+  LargeArray                  L;
+  std::vector<std::ptrdiff_t> place; // [fronts + 1] of their tiles in L
+  std::vector<double>         X;     // right-hand sides in the order of elimination
 
   Factor()
   {
@@ -38,10 +69,12 @@ struct SparseCholesky::Factor
   }
   ~Factor()
   {
-    release_numbers();
-    cholmod_free_factor(&L, &common);
+    cholmod_free_factor(&analysis, &common);
     cholmod_finish(&common);
   }
+  Factor(const Factor &)            = delete;
+  Factor &operator=(const Factor &) = delete;
+
   std::vector<char> held_marks() const
   {
     std::vector<char> marks(held.empty() ? 0 : n, 0);
@@ -53,38 +86,47 @@ struct SparseCholesky::Factor
   Fronts fronts() const
   {
     const auto ints = [](const void *p) { return static_cast<const int *>(p); };
-    return {n, int(L->nsuper), ints(L->super), ints(L->pi), ints(L->s), ints(L->px), ints(L->Perm)};
+    return {
+        n, int(analysis->nsuper), ints(analysis->super), ints(analysis->pi), ints(analysis->s), ints(analysis->Perm)};
   }
 
-  /// Room for the numbers of L, where CHOLMOD's solution expects them; release_numbers() gives it back.
-  void allocate_numbers()
+  TiledFactor tiles() const
   {
-    L->x = cholmod_malloc(L->xsize, sizeof(double), &common);
-    if (!L->x)
-      throw std::bad_alloc();
-    L->xtype = CHOLMOD_REAL;
-    L->dtype = CHOLMOD_DOUBLE;
-    L->minor = L->n;
-    L->is_ll = 1;
+    const Fronts f = fronts();
+    return {f.n, f.count, f.first, f.begin, f.rows, place.data(), L.data()};
   }
 
-  void release_numbers()
+  void place_tiles(const Fronts &f)
   {
-    if (L && L->x)
+    place.assign(1, 0);
+    for (int s = 0; s < f.count; ++s)
+      place.push_back(place.back() + tiles_size(f.begin[s + 1] - f.begin[s], f.first[s + 1] - f.first[s]));
+  }
+
+  /// Calls visit(row of A, diagonal entry of L) for every column.
+  template <typename Visit>
+  void for_each_pivot(const Visit &visit) const
+  {
+    const Fronts f = fronts();
+    for (int s = 0; s < f.count; ++s)
     {
-      L->x     = cholmod_free(L->xsize, sizeof(double), L->x, &common);
-      L->xtype = CHOLMOD_PATTERN;
+      const double *l = L.data() + place[s];
+      for (int k = f.first[s], t = 0; k < f.first[s + 1]; ++t) // tile by tile
+      {
+        const int columns = std::min(tile_rows, f.first[s + 1] - k);
+        l += std::ptrdiff_t(t) * tile_rows * tile_rows;
+        for (int j = 0; j < columns; ++j, ++k)
+          visit(f.order[k], l[j * (tile_rows + 1)]);
+        l += std::ptrdiff_t(columns) * tile_rows;
+      }
     }
-    for (cholmod_dense **workspace : {&X, &Y, &E})
-      cholmod_free_dense(workspace, &common);
   }
-
-  Factor(const Factor &)            = delete;
-  Factor &operator=(const Factor &) = delete;
 };
 
 namespace
 {
+
+constexpr double most_numbers = 2147483647.; // of L, which CHOLMOD counts by int
 
 /// What CHOLMOD knows of L from the pattern alone: the order of the coordinates and the fronts.
 cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held, cholmod_common &common)
@@ -93,12 +135,23 @@ cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector
   std::vector<int> order = node_ordering(A, held, common);
   cholmod_sparse   view  = view_of(lower);
   cholmod_factor  *L     = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
-  if (!L || common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+  if (!L || common.status < CHOLMOD_OK)
   {
+    const bool too_large = common.status == CHOLMOD_TOO_LARGE;
     cholmod_free_factor(&L, &common);
+    if (too_large)
+      throw NotEnoughMemory(most_numbers * sizeof(double), INFINITY);
     throw std::bad_alloc();
   }
   return L;
+}
+
+std::string gibibytes(double bytes)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << bytes / 1073741824. << " GiB";
+  return text.str();
 }
 
 Eigen::SparseMatrix<double> both_triangles(const Eigen::SparseMatrix<double> &A)
@@ -124,60 +177,50 @@ bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<do
   return true;
 }
 
-constexpr int block_width = 16; // right-hand sides at once: wider gains little and needs more workspace
-
-cholmod_dense columns_at(double *x, int n, int columns)
-{
-  cholmod_dense view{};
-  view.nrow  = n;
-  view.ncol  = columns;
-  view.nzmax = std::size_t(n) * columns;
-  view.d     = n;
-  view.x     = x;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  return view;
-}
-
-/// Calls visit(row of A, diagonal entry of L) for every column of a supernodal factor.
-template <typename Visit>
-void for_each_pivot(const cholmod_factor &L, const Visit &visit)
-{
-  const auto *super = static_cast<const int *>(L.super), *rows = static_cast<const int *>(L.pi),
-             *start = static_cast<const int *>(L.px), *order = static_cast<const int *>(L.Perm);
-  const auto *x = static_cast<const double *>(L.x);
-  for (std::size_t s = 0; s < L.nsuper; ++s)
-    for (int k = super[s]; k < super[s + 1]; ++k)
-    {
-      const std::size_t height = rows[s + 1] - rows[s], column = k - super[s];
-      visit(order[k], x[start[s] + column * (height + 1)]);
-    }
-}
-
 } // namespace
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
+NotEnoughMemory::NotEnoughMemory(double needed, double available)
+    : std::runtime_error(
+          "the factor of " +
+          (std::isfinite(available)
+               ? "the stiffness needs " + gibibytes(needed) + " of memory, and " + gibibytes(available) + " are there"
+               : "the stiffness is larger than the " + gibibytes(needed) + " that can be addressed") +
+          "; mesh the frame more coarsely, or with hexahedra where its walls are thin")
+{
+}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available)
     : factor_(std::make_unique<Factor>())
 {
   eigen_assert(A.isCompressed() && A.rows() == A.cols());
-  Factor &f = *factor_;
-  f.n       = int(A.rows());
-  f.held    = held;
-  f.L       = analysed(A, f.held_marks(), f.common);
-  f.allocate_numbers();
+  Factor &f           = *factor_;
+  f.n                 = int(A.rows());
+  f.held              = held;
+  f.analysis          = analysed(A, f.held_marks(), f.common);
+  const Fronts fronts = f.fronts();
+  f.place_tiles(fronts);
+  const double needed = sizeof(double) * (double(f.place.back()) + double(multifrontal_workspace(fronts)));
+  if (needed > available)
+    throw NotEnoughMemory(needed, available);
+  f.L                  = LargeArray(f.place.back());
   const double typical = f.n > 0 ? A.diagonal().cwiseAbs().mean() : 1.;
-  const int    failed = multifrontal_cholesky(f.fronts(), {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},
-                                              static_cast<double *>(f.L->x));
+  const int    failed =
+      multifrontal_cholesky(fronts, {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},
+                            [&](int s, const double *panel)
+                            {
+                              put_in_tiles(panel, fronts.begin[s + 1] - fronts.begin[s],
+                                           fronts.first[s + 1] - fronts.first[s], f.L.data() + f.place[s]);
+                            });
   if (failed >= 0)
     throw NotPositiveDefinite(failed);
-  for_each_pivot(*f.L,
-                 [](int row, double pivot)
-                 {
-                   if (!std::isfinite(pivot))
-                     throw NotPositiveDefinite(row);
-                 });
+  f.for_each_pivot(
+      [](int row, double pivot)
+      {
+        if (!std::isfinite(pivot))
+          throw NotPositiveDefinite(row);
+      });
 }
 
 SparseCholesky::~SparseCholesky()                                     = default;
@@ -193,59 +236,93 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
   Factor &f = *factor_;
   eigen_assert(X.rows() == f.n && !released());
-  for (int first = 0; first < X.cols(); first += block_width)
+  const TiledFactor tiles = f.tiles();
+  const int        *order = f.fronts().order;
+  for (int first = 0; first < X.cols();)
   {
-    const int     width   = std::min(block_width, int(X.cols()) - first);
-    cholmod_dense columns = columns_at(X.col(first).data(), f.n, width);
-    columns.d             = X.outerStride();
-    columns.nzmax         = columns.d * width;
-    if (!cholmod_solve2(CHOLMOD_A, f.L, &columns, nullptr, &f.X, nullptr, &f.Y, &f.E, &f.common))
-      throw std::bad_alloc();
-    const auto *solution       = static_cast<const double *>(f.X->x);
-    X.middleCols(first, width) = Eigen::Map<const Eigen::MatrixXd>(solution, f.n, width);
+    const TileSweeps *sweeps = tile_sweeps();
+    const int         width  = std::min(sweeps[2].columns, int(X.cols()) - first);
+    while (sweeps->columns < width)
+      ++sweeps;
+    const std::ptrdiff_t columns = sweeps->columns;
+    f.X.resize(std::max(f.X.size(), std::size_t(columns * (f.n + 1))));
+    for (std::ptrdiff_t k = 0; k < f.n; ++k)
+    {
+      double *const x = f.X.data() + k * columns;
+      for (int j = 0; j < width; ++j)
+        x[j] = X(order[k], first + j);
+      std::fill(x + width, x + columns, 0.);
+    }
+    std::fill_n(f.X.data() + columns * f.n, columns, 0.);
+    sweeps->forward(tiles, f.X.data());
+    sweeps->backward(tiles, f.X.data());
+    for (std::ptrdiff_t k = 0; k < f.n; ++k)
+      for (int j = 0; j < width; ++j)
+        X(order[k], first + j) = f.X[k * columns + j];
+    first += width;
   }
 }
 
 void SparseCholesky::solve(const double *rhs, double *x) const
 {
-  Factor       &f      = *factor_;
-  cholmod_dense column = columns_at(const_cast<double *>(rhs), f.n, 1);
-  if (!cholmod_solve2(CHOLMOD_A, f.L, &column, nullptr, &f.X, nullptr, &f.Y, &f.E, &f.common))
-    throw std::bad_alloc();
-  std::memcpy(x, f.X->x, f.n * sizeof(double));
+  if (rhs != x)
+    std::copy_n(rhs, size(), x);
+  solve_in_place(Eigen::Map<Eigen::MatrixXd>(x, size(), 1));
+}
+
+std::vector<int> SparseCholesky::order() const
+{
+  const int *order = factor_->fronts().order;
+  return {order, order + factor_->n};
+}
+
+void SparseCholesky::solve_in_place(TallMatrix &X) const
+{
+  eigen_assert(X.rows() == factor_->n && !released());
+  const TileSweeps &sweeps = tile_sweeps()[2];
+  const TiledFactor tiles  = factor_->tiles();
+  for (int p = 0; p < X.n_panels(); ++p)
+  {
+    sweeps.forward(tiles, X.panel(p));
+    sweeps.backward(tiles, X.panel(p));
+  }
 }
 
 double SparseCholesky::pivot_ratio() const
 {
-  return cholmod_rcond(factor_->L, &factor_->common);
+  double smallest = INFINITY, largest = 0.;
+  factor_->for_each_pivot([&](int, double pivot)
+                          { smallest = std::min(smallest, pivot), largest = std::max(largest, pivot); });
+  return largest > 0. ? smallest / largest * (smallest / largest) : 1.;
 }
 
 int SparseCholesky::weakest_row() const
 {
   int    weakest  = 0;
   double smallest = INFINITY;
-  for_each_pivot(*factor_->L,
-                 [&](int row, double pivot)
-                 {
-                   if (pivot < smallest)
-                     smallest = pivot, weakest = row;
-                 });
+  factor_->for_each_pivot(
+      [&](int row, double pivot)
+      {
+        if (pivot < smallest)
+          smallest = pivot, weakest = row;
+      });
   return weakest;
 }
 
 double SparseCholesky::entries() const
 {
-  return double(factor_->L->xsize);
+  return double(factor_->place.back());
 }
 
 void SparseCholesky::release()
 {
-  factor_->release_numbers();
+  factor_->L = LargeArray();
+  factor_->X = std::vector<double>();
 }
 
 bool SparseCholesky::released() const
 {
-  return factor_->L->xtype == CHOLMOD_PATTERN;
+  return !factor_->L.data();
 }
 
 Inertia SparseCholesky::inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,
@@ -256,9 +333,9 @@ Inertia SparseCholesky::inertia(const Eigen::SparseMatrix<double> &C, const Eige
   if (contains(C, M))
     return multifrontal_inertia(f.fronts(), {C, &M, sigma, f.held_marks(), 1.});
   Factor united; // masses between coordinates without a stiffness
-  united.n    = f.n;
-  united.held = f.held;
-  united.L    = analysed(C + M, f.held_marks(), united.common);
+  united.n        = f.n;
+  united.held     = f.held;
+  united.analysis = analysed(C + M, f.held_marks(), united.common);
   return multifrontal_inertia(united.fronts(), {C, &M, sigma, f.held_marks(), 1.});
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "coupling/multifrontal.h"
+#include "coupling/tall_matrix.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -24,11 +26,19 @@ public:
   int row;
 };
 
+/// The factor would not fit into the memory there is.
+class NotEnoughMemory : public std::runtime_error
+{
+public:
+  NotEnoughMemory(double needed, double available);
+};
+
 /**
  * Factor L of a sparse symmetric positive definite matrix, A = P^T L L^T P: ordered by METIS on the graph of the nodes
- * (coordinates with the same partners), analysed by CHOLMOD, factored by multifrontal_cholesky(), solved by CHOLMOD.
+ * (coordinates with the same partners), analysed by CHOLMOD, factored by multifrontal_cholesky(), solved in the tiles
+ * of TiledFactor.
  *
- * Right-hand sides solved together share the way through L, which is what a solution costs: 32 at once take about a
+ * Right-hand sides solved together share the way through L, which is what a solution costs: 16 at once take about a
  * tenth per vector of one alone.  OpenBLAS, which does the arithmetic, is set to one thread: its waiting threads spin.
  *
  * Not for use by several threads at a time.
@@ -41,8 +51,10 @@ public:
   explicit SparseCholesky(const Eigen::SparseMatrix<double> &A);
   /// The same of a compressed matrix with both triangles, coordinates held: their rows and columns count as zero but
   /// for a positive number on the diagonal.
-  /// @param held  ascending.
-  SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
+  /// @param held       ascending.
+  /// @param available  bytes that L and the work on it may take.
+  /// @throws NotEnoughMemory before the work begins.
+  SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available = INFINITY);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
@@ -58,6 +70,11 @@ public:
   double pivot_ratio() const;
   /// Row of A whose pivot is the smallest.
   int weakest_row() const;
+  /// Coordinate of A at every place in the order of elimination.
+  std::vector<int> order() const;
+  /// The same for right-hand sides in that order: X(k, :) belongs to coordinate order()[k].
+  void solve_in_place(TallMatrix &X) const;
+
   /// Numbers stored in L.
   double entries() const;
 

@@ -2,10 +2,10 @@
 
 #include "fem/mass_properties.h"
 #include "fem/modal_ratios.h"
+#include "fem/sparse_matrix.h"
 #include "fem/stress_recovery.h"
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include <array>
 #include <limits>
@@ -84,7 +84,7 @@ struct FrameFacts
  */
 struct FrameMatrices
 {
-  Eigen::SparseMatrix<double> M, B, C;             // [n x n] kg, N s/m, N/m
+  SparseMatrix                M, B, C;             // [n x n] kg, N s/m, N/m
   ModalRatios                 modal_damping_ratio; ///< zeta of the modes of the supported frame
   ModalDamping                modal_damping;       ///< empty until computed
   std::vector<Interface>      interfaces;

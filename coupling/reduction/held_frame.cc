@@ -3,6 +3,7 @@
 #include "coupling/reduction/free_motion.h"
 #include "coupling/reduction/team_held_frame.h"
 #include "coupling/reduction/team_search.h"
+#include "fem/memory_estimate.h"
 
 #include <algorithm>
 
@@ -56,7 +57,7 @@ std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, con
 {
   try
   {
-    auto factor = std::make_unique<SparseCholesky>(frame.C, q1);
+    auto factor = std::make_unique<SparseCholesky>(frame.C, q1, fem::available_memory());
     if (factor->pivot_ratio() < suspicious_pivots)
       require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
     return factor;
@@ -124,8 +125,7 @@ std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &optio
 {
   if (team_)
     return std::make_unique<TeamSearch>(*team_, known);
-  return std::make_unique<BlockLanczos>(
-      frame_.M, [this](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(X); }, options, known);
+  return std::make_unique<BlockLanczos>(frame_.M, std::make_unique<InverseByFactor>(*factor_, q1_), options, known);
 }
 
 Eigen::MatrixXd HeldFrame::constraint_modes() const

@@ -99,7 +99,9 @@ LowestModes searched_free_modes(const fem::FrameMatrices &frame, const FreeInver
 {
   if (most == 0)
     return {VectorXd(0), MatrixXd(frame.M.rows(), 0), VectorXd(0)};
-  BlockLanczos search(frame.M, [&](Eigen::Ref<MatrixXd> X) { inverse(X); }, {});
+  BlockLanczos search(
+      frame.M, std::make_unique<InverseByColumns>(int(frame.M.rows()), [&](Eigen::Ref<MatrixXd> X) { inverse(X); }),
+      {});
   for (auto count = options.n_modes >= 0 ? most : std::min<Eigen::Index>(modes_at_once, most);;
        count      = std::min<Eigen::Index>(count + modes_at_once, most))
   {

@@ -1,13 +1,13 @@
 #include "coupling/reduction/lowest_modes.h"
 
 #include "coupling/integration/second_order_system.h"
-#include "coupling/reduction/basis.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -31,11 +31,11 @@ constexpr double sparing      = 1.05;  // growth of the space from which converg
 constexpr double gap          = 1e-4;  // of theta, between modes that count as apart
 
 /// Numbers in [-1, 1), always the same for a seed.
-MatrixXd irregular(Index rows, Index columns, unsigned long &seed)
+TallMatrix irregular(int rows, int columns, unsigned long &seed)
 {
-  MatrixXd X(rows, columns);
-  for (Index j = 0; j < columns; ++j)
-    for (Index i = 0; i < rows; ++i)
+  TallMatrix X(rows, columns);
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j)
     {
       std::uint64_t z = (seed += 0x9E3779B97F4A7C15u);
       z               = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -45,26 +45,48 @@ MatrixXd irregular(Index rows, Index columns, unsigned long &seed)
   return X;
 }
 
-VectorXd norms(const MatrixXd &X, const MatrixXd &MX)
+VectorXd norms(const MatrixXd &gram)
 {
-  return (X.array() * MX.array()).colwise().sum().max(0.).sqrt().matrix().transpose();
+  return gram.diagonal().cwiseMax(0.).cwiseSqrt();
+}
+
+std::vector<int> all_of(int n)
+{
+  std::vector<int> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 } // namespace
 
-BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, InverseStiffness inverse, const Options &options,
-                           const LowestModes &known)
-    : M_(M), inverse_(std::move(inverse)), options_(options), n_(M.rows()), size_(int(known.omega.size()))
+InverseByColumns::InverseByColumns(int n, Solve solve) : solve_(std::move(solve)), order_(all_of(n)) {}
+
+void InverseByColumns::solve_in_place(TallMatrix &X) const
+{
+  MatrixXd columns(X.rows(), X.columns());
+  X.give(columns, order_);
+  solve_(columns);
+  X.take(columns, order_);
+}
+
+BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
+                           const Options &options, const LowestModes &known)
+    : inverse_(std::move(inverse)), M_(M, inverse_->order(), inverse_->held()), options_(options), n_(int(M.rows())),
+      Q_(n_)
 {
   if (options.block < 1 || !(options.tolerance > 0.))
     throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
                                 std::to_string(options.tolerance) + "; needed are 1 or more, and above zero");
-  room_ = options.room > 0 ? options.room
-                           : int(std::min<double>({double(n_), most_vectors, most_numbers / double(n_ > 0 ? n_ : 1)}));
-  room_ = std::max(room_, size_ + 4 * options.block);
-  Q_.resize(n_, room_); // without values: memory is taken as columns are written
-  if (size_ > 0)
-    Q_.leftCols(size_) = known.V;
+  const int size = int(known.omega.size());
+  room_          = options.room > 0 ? options.room
+                                    : int(std::min<double>({double(n_), most_vectors, most_numbers / std::max(n_, 1)}));
+  room_          = std::max(room_, size + 4 * options_.block);
+  if (size > 0)
+  {
+    TallMatrix V(n_, size);
+    V.take(known.V, inverse_->order());
+    Q_.append(V);
+  }
   T_ = known.omega.cwiseAbs2().cwiseInverse().asDiagonal();
   start_block();
 }
@@ -72,113 +94,90 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, InverseStiffnes
 /// A block of any direction orthogonal to the space; none if the space has the whole range of M.
 void BlockLanczos::start_block()
 {
-  const auto Q = Q_.leftCols(size_);
-  MatrixXd   X = irregular(n_, std::min<Index>(options_.block, n_ - size_), seed_);
-  MatrixXd   MX;
+  const int  size = Q_.columns();
+  TallMatrix X    = irregular(n_, std::min(options_.block, n_ - size), seed_);
+  TallMatrix MX(n_, X.columns());
   for (int pass = 0; pass < 2; ++pass)
   {
-    symmetric_product(M_, X, MX);
-    const VectorXd before = norms(X, MX);
-    X.noalias() -= Q * (Q.transpose() * MX).eval();
-    symmetric_product(M_, X, MX);
-    if (pass == 0 && (norms(X, MX).array() <= 1e-7 * before.array()).all())
-      X.resize(n_, 0), MX.resize(n_, 0);
+    M_.multiply(X, MX);
+    const VectorXd before = norms(gram(X, MX));
+    Q_.subtract(X, Q_.project(MX));
+    M_.multiply(X, MX);
+    if (pass == 0 && (norms(gram(X, MX)).array() <= 1e-7 * before.array()).all())
+      X = TallMatrix(n_, 0), MX = TallMatrix(n_, 0);
   }
-  inverse_(MX); // what of it has no mass would never leave the space
-  X.swap(MX);
-  symmetric_product(M_, X, MX);
-  const VectorXd scale = norms(X, MX);
-  X.noalias() -= Q * (Q.transpose() * MX).eval();
-  symmetric_product(M_, X, MX);
-  set_next(std::move(X), std::move(MX), scale);
-  E_       = MatrixXd::Zero(next_.cols(), size_);
-  coupled_ = size_;
-  M_last_.resize(n_, 0);
-  exhausted_ = next_.cols() == 0;
+  inverse_->solve_in_place(MX); // what of it has no mass would never leave the space
+  std::swap(X, MX);
+  M_.multiply(X, MX);
+  const VectorXd scale = norms(gram(X, MX));
+  Q_.subtract(X, Q_.project(MX));
+  M_.multiply(X, MX);
+  std::swap(next_, X);
+  std::swap(M_next_, MX);
+  E_ = MatrixXd::Identity(next_.columns(), next_.columns());
+  set_next(scale);
+  E_         = MatrixXd::Zero(next_.columns(), size);
+  coupled_   = size;
+  exhausted_ = next_.columns() == 0;
 }
 
-/// next_ <- orthonormal basis of W, which is orthogonal to the space but for rounding; E_ <- next_^T M W.
-void BlockLanczos::set_next(MatrixXd W, MatrixXd MW, const VectorXd &scale)
+/// next_, orthogonal to the space but for rounding, becomes orthonormal; E_ <- next_^T M (what it was).
+void BlockLanczos::set_next(const VectorXd &scale)
 {
-  E_ = MatrixXd::Identity(W.cols(), W.cols());
-  for (int pass = 0; pass < 4 && W.cols() > 0; ++pass)
+  E_ = MatrixXd::Identity(next_.columns(), next_.columns());
+  for (int pass = 0; pass < 4 && next_.columns() > 0; ++pass)
   {
-    const MatrixXd gram = W.transpose() * MW;
-    const VectorXd size = gram.diagonal().cwiseMax(0.).cwiseSqrt();
+    const MatrixXd products = gram(next_, M_next_);
+    const VectorXd size     = norms(products);
     VectorXd       unit(size.size());
     for (Index j = 0; j < size.size(); ++j)
       unit(j) = size(j) > (pass == 0 ? broken_down * scale(j) : 0.) ? 1. / size(j) : 0.;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(unit.asDiagonal() * gram * unit.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(unit.asDiagonal() * products * unit.asDiagonal());
     const VectorXd                               &lambda = scaled.eigenvalues();
     const Index    rank = (lambda.array() > dependent).count(), dropped = lambda.size() - rank;
     const VectorXd root = lambda.tail(rank).cwiseSqrt();
     const MatrixXd U    = scaled.eigenvectors().rightCols(rank);
     const MatrixXd F    = unit.asDiagonal() * U * root.cwiseInverse().asDiagonal();
-    W                   = (W * F).eval();
-    E_                  = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
+    next_.transform(F);
+    M_next_.transform(F);
+    E_ = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
-    {
-      MW = (MW * F).eval();
       break;
-    }
-    const auto Q = Q_.leftCols(size_); // few significant figures are left: once more
-    symmetric_product(M_, W, MW);
-    W.noalias() -= Q * (Q.transpose() * MW).eval();
-    symmetric_product(M_, W, MW);
+    M_.multiply(next_, M_next_); // few significant figures are left: once more
+    Q_.subtract(next_, Q_.project(M_next_));
+    M_.multiply(next_, M_next_);
   }
-  next_.swap(W);
-  M_next_.swap(MW);
-}
-
-void BlockLanczos::append_block(const MatrixXd &block)
-{
-  const int k = size_, b = int(block.cols());
-  Q_.middleCols(k, b) = block;
-  T_.conservativeResize(k + b, k + b);
-  T_.bottomLeftCorner(b, k)  = E_;
-  T_.topRightCorner(k, b)    = E_.transpose();
-  T_.bottomRightCorner(b, b) = MatrixXd::Zero(b, b);
-  size_ += b;
 }
 
 void BlockLanczos::step()
 {
-  const int      k = size_, b = int(next_.cols());
-  const bool     all_coupled = coupled_ == 0 || M_last_.cols() != k - coupled_;
-  const MatrixXd M_last      = std::move(M_last_);
-  MatrixXd       M_now = std::move(M_next_), W = std::move(next_), MW;
-  append_block(W);
-  W = M_now;
-  inverse_(W);
-  symmetric_product(M_, W, MW);
-  const VectorXd scale = norms(W, MW);
+  const int k = Q_.columns(), b = next_.columns();
+  const int from = coupled_;
+  Q_.append(next_);
+  T_.conservativeResize(k + b, k + b);
+  T_.bottomLeftCorner(b, k) = E_;
+  T_.topRightCorner(k, b)   = E_.transpose();
+
+  std::swap(next_, M_next_); // the old block lies in the space; what M made of it becomes the next
+  inverse_->solve_in_place(next_);
+  M_.multiply(next_, M_next_);
+  const VectorXd scale = norms(gram(next_, M_next_));
 
   // first what couples, then what rounding left of all the others
-  const int      from        = all_coupled ? 0 : coupled_;
-  const auto     near        = Q_.middleCols(from, size_ - from);
-  const MatrixXd H           = near.transpose() * MW;
+  const MatrixXd H           = Q_.project(M_next_, from);
   const MatrixXd own         = H.bottomRows(b);
   T_.bottomRightCorner(b, b) = 0.5 * (own + own.transpose());
-  W.noalias() -= near * H;
-  if (all_coupled)
-    symmetric_product(M_, W, MW);
-  else
-  {
-    MW.noalias() -= M_last * H.topRows(k - from);
-    MW.noalias() -= M_now * own;
-  }
-  const auto     Q    = Q_.leftCols(size_);
-  const MatrixXd rest = Q.transpose() * MW;
-  W.noalias() -= Q * rest;
-  symmetric_product(M_, W, MW);
-  set_next(std::move(W), std::move(MW), scale);
+  Q_.subtract(next_, H, from);
+  M_.multiply(next_, M_next_);
+  Q_.subtract(next_, Q_.project(M_next_));
+  M_.multiply(next_, M_next_);
+  set_next(scale);
 
-  MatrixXd E     = MatrixXd::Zero(next_.cols(), size_);
-  E.rightCols(b) = E_;
-  E_             = E;
-  coupled_       = k;
-  M_last_        = std::move(M_now);
-  if (next_.cols() == 0)
+  const MatrixXd coupling = E_;
+  E_                      = MatrixXd::Zero(next_.columns(), k + b);
+  E_.rightCols(b)         = coupling;
+  coupled_                = k;
+  if (next_.columns() == 0)
     start_block();
 }
 
@@ -186,21 +185,15 @@ void BlockLanczos::step()
 void BlockLanczos::restart(int keep)
 {
   const MatrixXd S = S_.leftCols(keep);
-  for (Index first = 0; first < n_; first += 4096) // in place, by rows
-  {
-    const Index rows                          = std::min<Index>(4096, n_ - first);
-    Q_.middleRows(first, rows).leftCols(keep) = (Q_.middleRows(first, rows).leftCols(size_) * S).eval();
-  }
-  T_    = theta_.head(keep).asDiagonal();
-  E_    = (E_ * S).eval();
-  size_ = keep;
-  M_last_.resize(n_, 0);
+  Q_.transform(S);
+  T_       = theta_.head(keep).asDiagonal();
+  E_       = (E_ * S).eval();
   coupled_ = 0;
 }
 
 void BlockLanczos::solve_projected()
 {
-  if (size_ == 0)
+  if (Q_.columns() == 0)
     return;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(T_);
   theta_    = ritz.eigenvalues().reverse();
@@ -241,19 +234,15 @@ void BlockLanczos::find(int count)
                                     ? " exist, for the mass matrix has no higher rank; ask for fewer modes"
                                     : " converged in " + std::to_string(max_steps) +
                                           " steps; ask for fewer modes, or look for a part that is almost loose"));
-    const int b = int(next_.cols()), needed = count + 4 * options_.block;
-    if (room_ < needed)
-    {
-      room_ = needed + 2 * options_.block;
-      Q_.conservativeResize(Eigen::NoChange, room_);
-    }
-    if (size_ + b > room_)
+    if (room_ < count + 4 * options_.block)
+      room_ = count + 6 * options_.block;
+    if (Q_.columns() + next_.columns() > room_)
     {
       solve_projected();
-      restart(std::min(size_, std::max(count + options_.block, room_ / 2)));
+      restart(std::min(Q_.columns(), std::max(count + options_.block, room_ / 2)));
     }
     step();
-    if (exhausted_ || size_ >= int(sparing * double(theta_.size())))
+    if (exhausted_ || Q_.columns() >= int(sparing * double(theta_.size())))
       solve_projected();
   }
 }
@@ -263,8 +252,10 @@ LowestModes BlockLanczos::modes(int count) const
   if (count > n_found())
     throw std::logic_error("BlockLanczos::modes: only " + std::to_string(n_found()) + " are found");
   const VectorXd share = residual_.head(count).cwiseQuotient(theta_.head(count));
-  return {theta_.head(count).cwiseSqrt().cwiseInverse(), Q_.leftCols(size_) * S_.leftCols(count),
-          0.5 * (share.array() / (1. - share.array())).matrix()};
+  LowestModes    found{theta_.head(count).cwiseSqrt().cwiseInverse(), MatrixXd(),
+                    0.5 * (share.array() / (1. - share.array())).matrix()};
+  Q_.give(S_.leftCols(count), inverse_->order(), found.V);
+  return found;
 }
 
 BlockLanczos::Gap BlockLanczos::gap_above(int count) const

@@ -1,15 +1,63 @@
 #pragma once
 
+#include "coupling/sparse_cholesky.h"
+#include "coupling/tall_matrix.h"
+#include "coupling/tile_sweeps.h"
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 namespace gestell::coupling
 {
 
-/// X <- C^-1 X for all columns.
-using InverseStiffness = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
+/// C^-1, applied to many columns at once with their rows in an order that suits it.
+class InverseStiffness
+{
+public:
+  virtual ~InverseStiffness() = default;
+  /// X <- C^-1 X, of which row k is that of coordinate order()[k].
+  virtual void                    solve_in_place(TallMatrix &X) const = 0;
+  virtual const std::vector<int> &order() const                       = 0;
+  /// Coordinates (ascending) without motion.
+  virtual const std::vector<int> &held() const = 0;
+};
+
+/// By the factor, which must outlive it, as the factor eliminates.
+class InverseByFactor final : public InverseStiffness
+{
+public:
+  /// @param held  those of the factor.
+  explicit InverseByFactor(const SparseCholesky &factor, std::vector<int> held = {})
+      : factor_(factor), order_(factor.order()), held_(std::move(held))
+  {
+  }
+  void                    solve_in_place(TallMatrix &X) const override { factor_.solve_in_place(X); }
+  const std::vector<int> &order() const override { return order_; }
+  const std::vector<int> &held() const override { return held_; }
+
+private:
+  const SparseCholesky &factor_;
+  std::vector<int>      order_, held_;
+};
+
+/// By any function that solves for the columns of a matrix; slower, for the columns are copied.
+class InverseByColumns final : public InverseStiffness
+{
+public:
+  using Solve = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
+  InverseByColumns(int n, Solve solve);
+  void                    solve_in_place(TallMatrix &X) const override;
+  const std::vector<int> &order() const override { return order_; }
+  const std::vector<int> &held() const override { return none_; }
+
+private:
+  Solve            solve_;
+  std::vector<int> order_, none_;
+};
 
 struct LowestModes
 {
@@ -55,7 +103,7 @@ public:
  * within r of the computed one: |delta omega| / omega <= r / (2 theta - 2 r), and about the square of that where the
  * frequency stands alone.
  *
- * The inverse may hold coordinates (give zero for them): then the modes are those of the held structure.  A block that
+ * Where the inverse holds coordinates the modes are those of the held structure.  A block that
  * breaks down is continued with vectors of any direction, until the whole range of M is used up.  The space starts anew
  * from its best vectors where it would outgrow `room` (thick restart).
  *
@@ -66,45 +114,43 @@ class BlockLanczos final : public ModeSearch
 public:
   struct Options
   {
-    int    block     = 12;   ///< right-hand sides at once, >= 1
-    double tolerance = 1e-8; ///< r / theta from which a mode counts as found
-    int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
+    int    block     = block_algebra().columns; ///< right-hand sides at once, >= 1
+    double tolerance = 1e-8;                    ///< r / theta from which a mode counts as found
+    int    room      = 0; ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
   };
 
-  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; must outlive this.
+  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored.
   /// @param known  modes found elsewhere: part of the space from the start.
-  BlockLanczos(const Eigen::SparseMatrix<double> &M, InverseStiffness inverse, const Options &options,
-               const LowestModes &known = {});
+  BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
+               const Options &options, const LowestModes &known = {});
 
   void        find(int count) override;
   LowestModes modes(int count) const override;
   Gap         gap_above(int count) const override;
 
-  int n_found() const;                    ///< in an unbroken sequence from the lowest
-  int n_vectors() const { return size_; } ///< of the space
+  int n_found() const;                           ///< in an unbroken sequence from the lowest
+  int n_vectors() const { return Q_.columns(); } ///< of the space
 
 private:
   void start_block();
   void step();
   void restart(int keep);
-  void append_block(const Eigen::MatrixXd &block);
-  void set_next(Eigen::MatrixXd W, Eigen::MatrixXd MW, const Eigen::VectorXd &scale);
+  void set_next(const Eigen::VectorXd &scale);
   void solve_projected();
   int  gap_index(int count) const;
 
-  const Eigen::SparseMatrix<double> &M_;
-  InverseStiffness                   inverse_;
-  Options                            options_;
-  Eigen::Index                       n_;
-  int                                size_ = 0, room_ = 0; // columns of Q in use and allocated
-  int                                coupled_   = 0;       // first column of Q that the last block couples to
-  bool                               exhausted_ = false;
-  unsigned long                      seed_      = 1;
-  Eigen::MatrixXd                    Q_, T_;
-  Eigen::MatrixXd                    next_, M_next_, E_; // T's rows of the next block: E [block x size]
-  Eigen::MatrixXd                    M_last_;            // M times the columns of Q from coupled_ on
-  Eigen::VectorXd                    theta_, residual_;  // of T, descending
-  Eigen::MatrixXd                    S_;
+  std::unique_ptr<const InverseStiffness> inverse_;
+  ReorderedMatrix                         M_;
+  Options                                 options_;
+  int                                     n_, room_;      // vectors of the space at most
+  int                                     coupled_   = 0; // first column of Q that the last block couples to
+  bool                                    exhausted_ = false;
+  unsigned long                           seed_      = 1;
+  TallSpace                               Q_;
+  Eigen::MatrixXd                         T_, E_;            // E: T's rows of the next block [block x size]
+  TallMatrix                              next_, M_next_;    // the next block, and M times it
+  Eigen::VectorXd                         theta_, residual_; // of T, descending
+  Eigen::MatrixXd                         S_;
 };
 
 } // namespace gestell::coupling

@@ -25,9 +25,9 @@ struct Structure
   SparseMatrix             C, M;
   coupling::SparseCholesky factor{C};
 
-  coupling::InverseStiffness inverse() const
+  std::unique_ptr<coupling::InverseStiffness> inverse() const
   {
-    return [this](Eigen::Ref<MatrixXd> X) { factor.solve_in_place(X); };
+    return std::make_unique<coupling::InverseByFactor>(factor);
   }
 };
 

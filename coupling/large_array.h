@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+namespace gestell::coupling
+{
+
+/// Numbers without values, on large pages where the system has them: memory is taken as it is reached, and what is read
+/// from end to end does not wait for the translation of addresses.  Large, or none at all.
+class LargeArray
+{
+public:
+  LargeArray() = default;
+  /// @throws std::bad_alloc
+  explicit LargeArray(std::size_t size);
+  ~LargeArray();
+  LargeArray(LargeArray &&other) noexcept;
+  LargeArray &operator=(LargeArray &&other) noexcept;
+
+  /// Aligned to 64 bytes; null if made without a size.
+  double       *data() { return data_; }
+  const double *data() const { return data_; }
+
+private:
+  double     *data_  = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+} // namespace gestell::coupling

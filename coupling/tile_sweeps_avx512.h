@@ -1,0 +1,12 @@
+#pragma once
+
+#include "coupling/tile_sweeps.h"
+
+namespace gestell::coupling
+{
+
+/// Those of tile_sweeps.h for processors with AVX-512 alone.
+const TileSweeps (&avx512_tile_sweeps())[3];
+const BlockAlgebra &avx512_block_algebra();
+
+} // namespace gestell::coupling
