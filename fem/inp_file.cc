@@ -52,7 +52,9 @@ private:
     const int         outer_line = line_;
     InpLines          lines(path);
     if (!lines.opened())
-      refuse("*INCLUDE: " + path + " cannot be read.");
+      refuse("\"" + path + "\" cannot be read; write its path as seen from the folder of this file.");
+    if (!open_.insert(path).second)
+      refuse("\"" + path + "\" includes itself.");
     file_ = path;
     while (lines.next())
     {
@@ -66,6 +68,7 @@ private:
                "\" stands before the first keyword; this is no input file of Abaqus.");
     }
     end_of_element();
+    open_.erase(path);
     file_ = outer_file;
     line_ = outer_line;
   }
@@ -73,28 +76,51 @@ private:
   void begin(const InpKeyword &keyword)
   {
     end_of_element();
+    if (keyword.name == "INCLUDE") // its lines stand in the place of the keyword
+    {
+      read_file(input_of(keyword, file_));
+      return;
+    }
+    require_followed(keyword);
     keyword_         = keyword;
-    kind_            = nullptr;
     const auto &name = keyword.name;
+    kind_            = nullptr;
+    node_set_        = name == "NODE" ? in_capitals(keyword["NSET"]) : "";
     if (name == "ELEMENT")
       begin_elements(in_capitals(keyword["TYPE"]));
     else if (name == "SOLID SECTION")
       sections_.push_back(in_capitals(keyword["ELSET"]));
-    else if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
-      refuse("*" + name + ": only solid elements are read; model the frame as a solid, or take it as matrices.");
-    else if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
-      refuse("*" + name +
-             ": the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
-             "assemblies in input files).");
-    else if (name == "INCLUDE")
-      read_file(input_of(keyword, file_));
-    if (name == "SURFACE" && keyword["TYPE"] != "" && in_capitals(keyword["TYPE"]) != "ELEMENT" &&
-        in_capitals(keyword["TYPE"]) != "NODE")
+    else if (name == "SURFACE" && keyword["TYPE"] != "" && in_capitals(keyword["TYPE"]) != "ELEMENT" &&
+             in_capitals(keyword["TYPE"]) != "NODE")
       keyword_->name = ""; // analytical ones
-    if (const std::string set = keyword["NSET"]; name == "NODE" && !set.empty())
-      node_set_ = in_capitals(set);
-    else
-      node_set_.clear();
+    if (const std::string input = input_of(keyword, file_); !input.empty())
+      read_file(input);
+  }
+
+  /// Keywords that say of the mesh what is not read.
+  void require_followed(const InpKeyword &keyword)
+  {
+    const auto       &name = keyword.name;
+    const std::string head = "*" + name + ": ", flat = "write the mesh flat, every node and element with its numbers.";
+    if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
+      refuse(head + "only solid elements are read; model the frame as a solid, or take it as matrices.");
+    if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
+      refuse(head + "the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
+                    "assemblies in input files).");
+    for (const char *rule : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "IMPORT"})
+      if (name == rule)
+        refuse(head + "nodes and elements made by rules are not read; " + flat);
+    if (name == "IMPERFECTION")
+      refuse(head + "nodes that are moved are not read; give them where they are.");
+    if (const std::string system = in_capitals(keyword["SYSTEM"]); name == "NODE" && !system.empty() && system != "R")
+      refuse(head + "SYSTEM=" + system + ": cylindrical and spherical coordinates are not read; give x, y, z.");
+    if (name == "NSET" && keyword.has("ELSET"))
+      refuse(head + "a set of nodes by its elements is not read; list the nodes.");
+    if (name == "SURFACE" && keyword.has("COMBINE"))
+      refuse(head + "surfaces combined of others are not read; list the sides of the elements.");
+    for (const char *tie : {"TIE", "EQUATION", "MPC", "RIGID BODY", "COUPLING", "KINEMATIC COUPLING"})
+      if (name == tie)
+        ties_.insert("*" + name);
   }
 
   void begin_elements(const std::string &type)
@@ -122,6 +148,8 @@ private:
       node_entries_[in_capitals((*keyword_)["NAME"])].push_back(in_capitals(fields[0]));
     else if (name == "SURFACE" && fields.size() > 1)
       sides_.push_back({in_capitals((*keyword_)["NAME"]), in_capitals(fields[0]), in_capitals(fields[1])});
+    else if (name == "SYSTEM")
+      refuse("*SYSTEM: coordinates in a system of their own are not read; give x, y, z of the whole.");
     else if (name == "INSTANCE")
       refuse("*INSTANCE: the instance is moved; write the file flat, with the nodes where they are.");
   }
@@ -236,6 +264,8 @@ private:
     }
     add_solids();
     add_surface_elements();
+    for (const std::string &tie : ties_)
+      mesh_.notes.push_back(tie + " is left out: what it ties together must share nodes");
     for (const Side &side : sides_)
       add_side(side);
   }
@@ -308,6 +338,7 @@ private:
   const CadSource                                &source_;
   InpMesh                                         mesh_;
   std::string                                     file_;
+  std::set<std::string>                           open_; // files
   int                                             line_ = 0;
   std::optional<InpKeyword>                       keyword_;
   const InpElementKind                           *kind_ = nullptr;
@@ -320,6 +351,7 @@ private:
   std::vector<std::string>                        sections_;
   std::vector<Side>                               sides_;
   std::map<std::string, int>                      n_parts_;
+  std::set<std::string>                           ties_;
 };
 
 } // namespace
