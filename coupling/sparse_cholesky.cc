@@ -158,14 +158,23 @@ void for_each_pivot(const cholmod_factor &L, const Visit &visit)
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
-    : factor_(std::make_unique<Factor>())
+SparseCholesky::SparseCholesky() : factor_(std::make_unique<Factor>()) {}
+
+SparseCholesky SparseCholesky::without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
 {
   eigen_assert(A.isCompressed() && A.rows() == A.cols());
+  SparseCholesky result;
+  Factor        &f = *result.factor_;
+  f.n              = int(A.rows());
+  f.held           = held;
+  f.L              = analysed(A, f.held_marks(), f.common);
+  return result;
+}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
+    : SparseCholesky(without_numbers(A, held))
+{
   Factor &f = *factor_;
-  f.n       = int(A.rows());
-  f.held    = held;
-  f.L       = analysed(A, f.held_marks(), f.common);
   f.allocate_numbers();
   const double typical = f.n > 0 ? A.diagonal().cwiseAbs().mean() : 1.;
   const int    failed = multifrontal_cholesky(f.fronts(), {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},

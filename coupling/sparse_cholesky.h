@@ -43,6 +43,8 @@ public:
   /// for a positive number on the diagonal.
   /// @param held  ascending.
   SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
+  /// Analysed only, as if released at once: A may be singular.
+  static SparseCholesky without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
@@ -71,6 +73,7 @@ public:
 
 private:
   struct Factor;
+  SparseCholesky();
   std::unique_ptr<Factor> factor_;
 };
 

@@ -9,6 +9,7 @@
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
 
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -80,7 +81,9 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
   {
     std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
-    if (j < frame.frequency_error.size())
+    if (j < frame.frequency_error.size() && std::isnan(frame.frequency_error[j]))
+      std::cout << std::setw(27) << "unknown";
+    else if (j < frame.frequency_error.size())
       std::cout << std::setprecision(3) << std::setw(27) << frame.frequency_error[j];
     std::cout << '\n';
   }

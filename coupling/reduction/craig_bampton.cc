@@ -3,6 +3,7 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/enough_modes.h"
 #include "coupling/reduction/fixed_modes.h"
+#include "coupling/reduction/free_modes.h"
 #include "coupling/reduction/inner_shapes.h"
 #include "coupling/reduction/interior_response.h"
 #include "fem/rigid_motions.h"
@@ -257,11 +258,12 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   MatrixXd W(frame.M.rows(), statics.free.W.cols() + statics.relief.cols());
   W << statics.free.W, statics.relief;
   append_shapes(shapes.basis, frame, std::move(W));
-  shapes.star    = reduced_matrices(shapes.basis, frame.B, frame.C);
-  shapes.refined = shapes.damped = ritz_modes(shapes.star); // exact as far as modes were kept
-  const auto   kept              = statics.free.omega.size();
-  const double highest           = kept > 0 ? statics.free.omega[kept - 1] : 0.;
-  shapes.limit                   = std::min(highest, highest_of_interest(options, shapes.refined));
+  shapes.star          = reduced_matrices(shapes.basis, frame.B, frame.C);
+  shapes.damped        = ritz_modes(shapes.star);
+  const auto   kept    = std::min(statics.free.omega.size(), shapes.damped.omega.size());
+  const double highest = kept > 0 ? statics.free.omega[kept - 1] : 0.;
+  shapes.limit         = std::min(highest, highest_of_interest(options, shapes.damped));
+  shapes.refined = {shapes.damped.n_rigid, shapes.damped.omega.head(kept), shapes.damped.P.leftCols(kept)}; // exact
   return shapes;
 }
 
@@ -314,7 +316,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   ReductionBasis basis = basis_without_modes(held, frame, q1);
   Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
                   {},
-                  {VectorXd(0), MatrixXd(frame.M.rows(), 0)},
+                  {VectorXd(0), MatrixXd(frame.M.rows(), 0), {}},
                   MatrixXd(frame.M.rows(), 0)};
   statics.response = interior_response(held, basis, frame.M, statics.load);
   if (options.inertia_relief)
@@ -324,7 +326,10 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
     tell(progress, "modes with the interface free");
     statics.free = free_modes(basis, held, frame, options);
     tell(progress, "reduced matrices");
-    return reduce(free_shapes(std::move(basis), statics, frame, options), {}, statics, frame);
+    std::vector<std::string> notes;
+    if (!statics.free.statement.empty())
+      notes.push_back(statics.free.statement);
+    return reduce(free_shapes(std::move(basis), statics, frame, options), std::move(notes), statics, frame);
   }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
