@@ -6,6 +6,7 @@
 #include "coupling/reduction/free_modes.h"
 #include "coupling/reduction/inner_shapes.h"
 #include "coupling/reduction/interior_response.h"
+#include "coupling/reduction/rounded.h"
 #include "fem/rigid_motions.h"
 
 #include <algorithm>
@@ -215,6 +216,23 @@ struct Shapes
   double          limit;           // [rad/s] highest frequency the model is meant for
 };
 
+/// Of modes that end below the highest frequency of interest.
+void warn_of_few_modes(const ReductionBasis &basis, int n, const ReductionOptions &options,
+                       std::vector<std::string> &notes)
+{
+  const int    m       = basis.m();
+  const double highest = m > 0 ? basis.omega0(m - 1) / two_pi : 0.;
+  if (options.frequency <= highest || m == n - basis.n1())
+    return;
+  notes.push_back("reduction: " +
+                  (m == 0 ? std::string("no fixed-interface modes are kept")
+                          : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has " +
+                                rounded(highest) + " Hz") +
+                  ", but frequency = " + rounded(options.frequency) +
+                  " Hz: near and above the highest the model does not hold, and its error there is not known; ask for "
+                  "more modes, or leave modes out, so that the tolerance chooses their number");
+}
+
 /// @param basis with its constraint modes.
 Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
                    const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
@@ -241,6 +259,8 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fix
                                          frame.modal_damping_ratio, two_pi * options.frequency);
     notes.push_back(receptance_statement(receptance, shapes.basis, m, options.frequency));
   }
+  if (options.n_modes >= 0)
+    warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
   shapes.damped = shapes.refined;
   shapes.limit  = highest_of_interest(options, shapes.refined);
   if (append_shapes(shapes.basis, frame, statics.relief) > 0)
