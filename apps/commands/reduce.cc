@@ -39,13 +39,15 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
     throw std::invalid_argument(
         "gestell reduce: --all, --older-than and --larger-than say what --prune removes; add it");
+  if (reduce.check && !reduce.list && !reduce.prune)
+    throw std::invalid_argument("gestell reduce: --check goes with --list or --prune; add one of them");
   if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
     throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
                                 options.input);
   if (reduce.prune)
     prune_cache(reduce);
   if (reduce.list)
-    list_cache();
+    list_cache(reduce);
   if (reduce.explain)
     explain_cache(scene_to_reduce(options));
   if (reduce.prune || reduce.list || reduce.explain)
