@@ -13,7 +13,7 @@ const std::vector<InpElementKind> &kinds()
   using Use                                    = InpElementKind::Use;
   static const std::vector<InpElementKind> all = {
       {"C3D10", 10, Use::solid, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}, // gmsh swaps the last two edges
-      {"C3D20", 20, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"C3D20", 20, Use::solid, 17, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14}},
       {"C3D4", 4, Use::solid, 4, {0, 1, 2, 3}},
       {"C3D8", 8, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
       {"CPS3", 3, Use::surface, 0, {0, 1, 2}},
@@ -51,7 +51,7 @@ const std::vector<std::vector<int>> &inp_faces(int gmsh_type)
   static const std::vector<std::vector<int>> tetrahedron = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   static const std::vector<std::vector<int>> hexahedron  = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
                                                             {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  return gmsh_type == 5 ? hexahedron : tetrahedron;
+  return gmsh_type == 5 || gmsh_type == 17 ? hexahedron : tetrahedron;
 }
 
 } // namespace gestell::fem

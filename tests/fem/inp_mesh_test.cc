@@ -121,6 +121,48 @@ TEST(InpMesh, OfHexahedraIsTaken)
   EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-14);
 }
 
+/// A cube of 20 nodes as Abaqus orders them; node 9, on the edge from 1 to 2, is pushed out by `bulge`.
+std::string quadratic_cube(double bulge)
+{
+  const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const int    edges[12][2]  = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  std::ostringstream text;
+  text << "*NODE\n";
+  for (int i = 0; i < 20; ++i)
+  {
+    text << i + 1;
+    for (int d = 0; d < 3; ++d)
+      text << ", "
+           << (i < 8 ? corners[i][d] : 0.5 * (corners[edges[i - 8][0]][d] + corners[edges[i - 8][1]][d])) -
+                  (i == 8 && d == 1 ? bulge : 0.);
+    text << "\n";
+  }
+  text << "*ELEMENT, TYPE=C3D20R\n1";
+  for (int i = 0; i < 20; ++i)
+    text << (i == 15 ? ",\n" : ", ") << i + 1;
+  return text.str() + "\n";
+}
+
+TEST(InpMesh, OfQuadraticHexahedraTellsHowFarTheirNodesLieBesideStraightEdges)
+{
+  FrameSpecification s        = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
+  const Mesh         straight = make_mesh(s);
+  EXPECT_EQ(straight.hexahedra.size(), 1u);
+  EXPECT_TRUE(straight.notes.empty()) << straight.notes[0];
+  s                 = specification(write_text("bulged.inp", quadratic_cube(0.05)), 0.);
+  const Mesh bulged = make_mesh(s);
+  EXPECT_EQ(bulged.points.size(), 8u);
+  EXPECT_THAT(bulged.notes, Contains(AllOf(HasSubstr("straight edges"), HasSubstr("up to 50 mm"))));
+}
+
+TEST(Mesh, OfHexahedraCannotBeCurved)
+{
+  FrameSpecification s = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
+  s.mesh.curved        = true;
+  EXPECT_THAT(refusal(s), AllOf(HasSubstr("curved = true"), HasSubstr("are hexahedra"), HasSubstr("leave curved out")));
+}
+
 TEST(InpMesh, WrittenByGmshIsRead)
 {
   const std::string  cad = draw("gmsh.inp",
