@@ -137,6 +137,7 @@ CLI::App *add_reduce(CLI::App &program, CommonOptions &options, ReduceCommandOpt
   command->add_option("--older-than", reduce.older_than, "frames not used for so long, such as \"30 d\"");
   command->add_option("--larger-than", reduce.larger_than, "frames of more than, such as \"100 MB\"");
   command->add_flag("--all", reduce.all, "all frames");
+  command->add_flag("--check", reduce.check, "with --list or --prune: compare every file with its checksum");
   return command;
 }
 

@@ -24,12 +24,17 @@ bool is_key(const std::string &text)
   return text.size() == key_length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+void require_named_after(const FrameOrigin &origin, const std::string &key)
+{
+  if (content_key(origin.recipe) != key)
+    throw std::runtime_error("was made from something else than its name says");
+}
+
 /// Reads the frame of a file that is named after its key.
 StoredFrame read_entry(const std::string &file, const std::string &key)
 {
   StoredFrame stored = read_stored_frame(file);
-  if (content_key(stored.origin.recipe) != key)
-    throw std::runtime_error("was made from something else than its name says");
+  require_named_after(stored.origin, key);
   return stored;
 }
 
@@ -37,11 +42,12 @@ void describe(CacheEntry &entry)
 {
   try
   {
-    StoredFrame stored = read_entry(entry.file, entry.key);
-    entry.origin       = std::move(stored.origin);
-    entry.n_full       = stored.frame.n_full;
-    entry.n_interface  = stored.frame.n_interface;
-    entry.n_modes      = int(stored.frame.omega0.size());
+    FrameSummary summary = read_frame_summary(entry.file);
+    require_named_after(summary.origin, entry.key);
+    entry.origin      = std::move(summary.origin);
+    entry.n_full      = summary.n_full;
+    entry.n_interface = summary.n_interface;
+    entry.n_modes     = summary.n_modes;
   }
   catch (const std::runtime_error &failure)
   {
@@ -103,7 +109,22 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
   }
 }
 
-std::vector<CacheEntry> cache_entries()
+std::string content_defect(const CacheEntry &entry)
+{
+  if (!entry.defect.empty())
+    return entry.defect;
+  try
+  {
+    read_entry(entry.file, entry.key);
+    return {};
+  }
+  catch (const std::runtime_error &failure)
+  {
+    return failure.what();
+  }
+}
+
+std::vector<CacheEntry> cache_entries(CacheCheck check)
 {
   std::vector<CacheEntry> entries;
   std::error_code         error;
@@ -124,6 +145,8 @@ std::vector<CacheEntry> cache_entries()
       entry.defect = "was never finished";
     else
       continue;
+    if (check == CacheCheck::contents)
+      entry.defect = content_defect(entry);
     entries.push_back(std::move(entry));
   }
   std::sort(entries.begin(), entries.end(),

@@ -36,9 +36,19 @@ struct CacheEntry
   int            n_full = 0, n_interface = 0, n_modes = 0;
 };
 
+/// How much of each file is read.
+enum class CacheCheck
+{
+  heads,   ///< head, origin and sizes: damage of the numbers is not seen
+  contents ///< all of it, against its checksum, as where a frame is used
+};
+
 /// All files of the cache, the one used last first: frames and what unfinished writing left.  Other files are not
 /// listed.
-std::vector<CacheEntry> cache_entries();
+std::vector<CacheEntry> cache_entries(CacheCheck check = CacheCheck::heads);
+
+/// Why this frame of the cache cannot be used, its file read whole; "": it can.
+std::string content_defect(const CacheEntry &entry);
 
 /// The usable entry whose recipe differs from this one in the fewest ingredients; nothing if the cache is empty.
 std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, const Recipe &recipe);

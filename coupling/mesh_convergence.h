@@ -20,13 +20,20 @@ struct ConvergenceOptions
 /// One of the meshes.
 struct MeshLevel
 {
-  double              size          = 0.; ///< [m] of its elements, the largest
-  int                 n_cells       = 0;
-  int                 n_coordinates = 0;
-  double              cpu_s         = 0.; ///< from the CAD model to the reduced frame
-  std::vector<double> values;             ///< of the quantities watched
-  std::vector<double> estimates;          ///< relative error estimated from the stresses of this mesh alone
+  double size          = 0.; ///< [m] of its elements, the largest
+  int    n_cells       = 0;
+  int    n_coordinates = 0;
+  double cpu_s         = 0.; ///< from the CAD model to the reduced frame
+  // of each quantity watched
+  std::vector<std::string> names; ///< "frequency 1", "compliance of engine"
+  std::vector<double>      values;
+  std::vector<double>      estimates; ///< relative error estimated from the stresses of this mesh alone
 };
+
+/// Leaves of each mesh the quantities that all have, by their names and in the order of the first: meshes may differ in
+/// the number of modes their frames are reduced to.
+/// @return the names left out.
+std::vector<std::string> keep_common(std::vector<MeshLevel> &levels);
 
 /// A frequency or a compliance, followed over the meshes.
 struct ConvergedQuantity
@@ -46,6 +53,7 @@ struct MeshConvergence
   std::vector<ConvergedQuantity> quantities;
   bool                           converged = false; ///< every bound() within the tolerance
   std::string                    stopped;           ///< why not, if it is not
+  std::vector<std::string>       left_out;          ///< quantities that not every mesh has
   ReducedFrame                   frame;             ///< of the last mesh
 };
 

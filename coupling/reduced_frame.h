@@ -44,7 +44,7 @@ struct ReducedFrame
   fem::FrameFacts          facts;                   ///< of a frame made of cells
   Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
   double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold
-  Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0
+  Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
 };

@@ -258,6 +258,11 @@ void require_consistent(const ReducedFrame &frame)
       require(i >= 0 && i < int(frame.points.size()), "a triangle of the picture");
 }
 
+FrameOrigin read_origin(const Hdf5File &file)
+{
+  return {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source")};
+}
+
 /// A name beside `file` that no other process uses, here or on another machine.
 std::string name_beside(const std::string &file)
 {
@@ -299,13 +304,29 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
   }
 }
 
+FrameSummary read_frame_summary(const std::string &name)
+{
+  if (const std::string defect = head_defect(name, title); !defect.empty())
+    throw std::runtime_error(defect);
+  try
+  {
+    const Hdf5File file(name);
+    return {read_origin(file), int(file.read_number("n_full")), int(file.read_number("n_interface")),
+            int(file.read_vector("omega0").size())};
+  }
+  catch (const std::runtime_error &failure)
+  {
+    throw std::runtime_error("is damaged: " + std::string(failure.what()));
+  }
+}
+
 StoredFrame read_stored_frame(const std::string &name)
 {
   if (const std::string defect = seal_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
   const Hdf5File file(name);
   StoredFrame    stored;
-  stored.origin = {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source")};
+  stored.origin = read_origin(file);
   each_part(stored.frame, Reader(file));
   stored.frame.stress = read_stress(file, int(stored.frame.points.size()), int(stored.frame.M.rows()));
   require_consistent(stored.frame);

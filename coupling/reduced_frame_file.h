@@ -42,6 +42,17 @@ struct StoredFrame
 /// @throws std::runtime_error with what is wrong with the file.
 StoredFrame read_stored_frame(const std::string &file);
 
+/// What a file tells of its frame without being read whole.
+struct FrameSummary
+{
+  FrameOrigin origin;
+  int         n_full = 0, n_interface = 0, n_modes = 0;
+};
+
+/// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen.
+/// @throws std::runtime_error with what is wrong with the file.
+FrameSummary read_frame_summary(const std::string &file);
+
 /// Beginning of the names of files that are being written, or were when their process ended.
 extern const char *const unfinished;
 

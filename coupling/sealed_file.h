@@ -10,6 +10,10 @@ namespace gestell::coupling
 /// @throws std::runtime_error if that fails.
 void write_sealed(const std::string &file, const std::string &title, const std::string &content);
 
+/// Whether a file begins as one sealed under this title does: "" if so, else the reason why it does not.  Reads the
+/// head alone, and so does not see damage behind it.
+std::string head_defect(const std::string &file, const std::string &title);
+
 /// Whether a file is what it was when it was sealed under this title: "" if so, else the reason why it is not to be
 /// trusted.
 std::string seal_defect(const std::string &file, const std::string &title);

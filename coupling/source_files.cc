@@ -1,5 +1,7 @@
 #include "coupling/source_files.h"
 
+#include "fem/inp_lines.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -18,24 +20,68 @@ std::string text_of(const std::filesystem::path &path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void collect(const std::filesystem::path &path, bool is_script, SourceFiles &sources)
+/// In which a file names others.
+enum class Language
+{
+  none,
+  gmsh,
+  abaqus
+};
+
+Language language_of(const std::filesystem::path &path)
+{
+  const std::string extension = fem::in_capitals(path.extension().string());
+  return extension == ".GEO" ? Language::gmsh : extension == ".INP" ? Language::abaqus : Language::none;
+}
+
+struct NamedFile
+{
+  std::string           name; ///< as it is written
+  std::filesystem::path target;
+  Language              language;
+};
+
+std::vector<NamedFile> named_in_script(const std::filesystem::path &path)
+{
+  static const std::regex naming(R"re(\b(Include|Merge|ShapeFromFile)\s*\(?\s*"([^"\n]+)")re");
+  const std::string       text = text_of(path);
+  std::vector<NamedFile>  named;
+  for (auto found = std::sregex_iterator(text.begin(), text.end(), naming); found != std::sregex_iterator(); ++found)
+  {
+    const std::filesystem::path target = path.parent_path() / (*found)[2].str();
+    named.push_back({(*found)[2], target, (*found)[1] == "Include" ? Language::gmsh : language_of(target)});
+  }
+  return named;
+}
+
+std::vector<NamedFile> named_in_inp(const std::filesystem::path &path)
+{
+  std::vector<NamedFile> named;
+  for (fem::InpLines lines(path.string()); lines.next();)
+    if (lines.is_keyword())
+    {
+      const fem::InpKeyword keyword = lines.keyword();
+      if (const std::string target = fem::input_of(keyword, path.string()); !target.empty())
+        named.push_back({keyword["INPUT"], target, Language::abaqus});
+    }
+  return named;
+}
+
+void collect(const std::filesystem::path &path, Language language, SourceFiles &sources)
 {
   const std::string file = path.lexically_normal().string();
   if (std::find(sources.found.begin(), sources.found.end(), file) != sources.found.end())
     return; // also where files include each other in a circle
   sources.found.push_back(file);
-  if (!is_script)
+  if (language == Language::none)
     return;
-  static const std::regex naming(R"re(\b(Include|Merge|ShapeFromFile)\s*\(?\s*"([^"\n]+)")re");
-  const std::string       text = text_of(path);
-  for (auto found = std::sregex_iterator(text.begin(), text.end(), naming); found != std::sregex_iterator(); ++found)
+  for (const auto &[name, target, of_target] : language == Language::gmsh ? named_in_script(path) : named_in_inp(path))
   {
-    const std::filesystem::path target = path.parent_path() / (*found)[2].str();
-    std::error_code             error;
+    std::error_code error;
     if (std::filesystem::is_regular_file(target, error))
-      collect(target, (*found)[1] == "Include" || target.extension() == ".geo", sources);
+      collect(target, of_target, sources);
     else
-      sources.missing.push_back((*found)[2]);
+      sources.missing.push_back(name);
   }
 }
 
@@ -44,7 +90,7 @@ void collect(const std::filesystem::path &path, bool is_script, SourceFiles &sou
 SourceFiles source_files(const std::string &cad)
 {
   SourceFiles sources;
-  collect(cad, std::filesystem::path(cad).extension() == ".geo", sources);
+  collect(cad, language_of(cad), sources);
   return sources;
 }
 

@@ -12,8 +12,9 @@ struct SourceFiles
   std::vector<std::string> found, missing; ///< missing: as the script writes them
 };
 
-/// `cad` itself and, of a script of gmsh (.geo), all that it names as text in Include, Merge and ShapeFromFile, and
-/// that these name: relative to their own folder, as gmsh reads it.
+/// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo) as
+/// text in Include, Merge and ShapeFromFile, of a mesh of Abaqus (.inp) in *INCLUDE and INPUT=.  Extensions count in
+/// capitals and small letters.
 SourceFiles source_files(const std::string &cad);
 
 } // namespace gestell::coupling

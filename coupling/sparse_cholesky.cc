@@ -191,16 +191,25 @@ NotEnoughMemory::NotEnoughMemory(double needed, double available)
 {
 }
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available)
-    : factor_(std::make_unique<Factor>())
+SparseCholesky::SparseCholesky() : factor_(std::make_unique<Factor>()) {}
+
+SparseCholesky SparseCholesky::without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held)
 {
   eigen_assert(A.isCompressed() && A.rows() == A.cols());
-  Factor &f           = *factor_;
-  f.n                 = int(A.rows());
-  f.held              = held;
-  f.analysis          = analysed(A, f.held_marks(), f.common);
+  SparseCholesky result;
+  Factor        &f = *result.factor_;
+  f.n              = int(A.rows());
+  f.held           = held;
+  f.analysis       = analysed(A, f.held_marks(), f.common);
+  f.place_tiles(f.fronts());
+  return result;
+}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available)
+    : SparseCholesky(without_numbers(A, held))
+{
+  Factor      &f      = *factor_;
   const Fronts fronts = f.fronts();
-  f.place_tiles(fronts);
   const double needed = sizeof(double) * (double(f.place.back()) + double(multifrontal_workspace(fronts)));
   if (needed > available)
     throw NotEnoughMemory(needed, available);

@@ -55,6 +55,8 @@ public:
   /// @param available  bytes that L and the work on it may take.
   /// @throws NotEnoughMemory before the work begins.
   SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available = INFINITY);
+  /// Analysed only, as if released at once: A may be singular.
+  static SparseCholesky without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
@@ -88,6 +90,7 @@ public:
 
 private:
   struct Factor;
+  SparseCholesky();
   std::unique_ptr<Factor> factor_;
 };
 

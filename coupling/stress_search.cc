@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index  block   = 256;       // points that are multiplied together
-constexpr double noise   = 1e-12;     // of the largest eigenvalue: below it directions stress nothing
+constexpr double noise   = 1e-12;     // of the largest eigenvalue: below it rounding hides it
 constexpr double rounded = 1. + 1e-5; // of a bound, for numbers in single precision
 
 /// S = L^T-scaled rows so that |.| of the six is sigma_v:  sigma_v^2 = 3/2 |dev|^2, shears counted twice.
@@ -37,29 +37,39 @@ MatrixXd scaled_rows(const ReducedStress &stress, const std::vector<int> &points
   return A;
 }
 
-/// A basis of the states [n x r] whose components are their principal ones, and the largest |c_r| of each.
+/// z = sum_r b_r c_r for every state: the b_r, and the largest |c_r| of each.
 struct Components
 {
   MatrixXd basis;
   VectorXd largest;
 };
 
+/// The largest of each coordinate over all states, 1 where it never moves: units drop out.
+VectorXd largest_of(const MatrixXd &states)
+{
+  return states.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double z) { return z > 0. ? z : 1.; });
+}
+
+/// Principal components of the states in the norm of `gram`, and behind them the directions that rounding hides there,
+/// so that together they are a basis of all.
 Components principal_components(const MatrixXd &gram, const MatrixXd &states)
 {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> norm(gram);
-  const VectorXd                                root  = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  const double                                  top   = root.size() > 0 ? root.maxCoeff() : 0.;
-  Index                                         first = 0; // ascending
-  while (first < root.size() && root[first] <= std::sqrt(noise) * top)
-    ++first;
-  const Index    n     = root.size() - first;
-  const MatrixXd X     = norm.eigenvectors().rightCols(n);
-  const MatrixXd whole = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
+  const VectorXd                                root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
+  const double                                  top    = root.size() > 0 ? root.maxCoeff() : 0.;
+  Index                                         hidden = 0; // ascending
+  while (hidden < root.size() && root[hidden] <= std::sqrt(noise) * top)
+    ++hidden;
+  const Index    n      = root.size() - hidden;
+  const auto     modes  = norm.eigenvectors();
+  const MatrixXd X      = modes.rightCols(n);
+  const MatrixXd whole  = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
+  const MatrixXd beside = modes.leftCols(hidden).transpose() * states;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(whole * whole.transpose());
   const MatrixXd                               &U = principal.eigenvectors();
-  Components                                    result;
-  result.basis   = X * root.tail(n).cwiseInverse().asDiagonal() * U;
-  result.largest = (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff();
+  Components                                    result{MatrixXd(root.size(), root.size()), VectorXd(root.size())};
+  result.basis << X * root.tail(n).cwiseInverse().asDiagonal() * U, modes.leftCols(hidden);
+  result.largest << (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff(), beside.cwiseAbs().rowwise().maxCoeff();
   return result;
 }
 
@@ -77,20 +87,22 @@ void in_blocks(const std::vector<int> &points, const Visit &visit)
 /// Upper bounds of sigma_v over all states, [points].
 VectorXd bounds(const ReducedStress &stress, const std::vector<int> &points, const MatrixXd &states)
 {
-  MatrixXd gram = MatrixXd::Zero(stress.mean.cols(), stress.mean.cols());
+  const VectorXd scale = largest_of(states);
+  MatrixXd       gram  = MatrixXd::Zero(stress.mean.cols(), stress.mean.cols());
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd A = scaled_rows(stress, some);
+              const MatrixXd A = scaled_rows(stress, some) * scale.asDiagonal();
               gram.noalias() += A.transpose() * A;
               return true;
             });
-  const Components components = principal_components(gram, states);
+  const Components components = principal_components(gram, scale.cwiseInverse().asDiagonal() * states);
+  const MatrixXd   basis      = scale.asDiagonal() * components.basis;
   VectorXd         bound      = VectorXd::Zero(stress.n_points());
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd B = scaled_rows(stress, some) * components.basis;
+              const MatrixXd B = scaled_rows(stress, some) * basis;
               for (std::size_t i = 0; i < some.size(); ++i)
                 bound[some[i]] =
                     rounded * B.middleRows<6>(6 * Index(i)).colwise().norm().dot(components.largest.transpose());

@@ -32,7 +32,8 @@ struct StressSearch
  *     max_t sigma_v,i(t)  <=  sum_r |A_i b_r| max_t |c_r(t)|.
  *
  * The b_r are the principal components of the states in the norm z^T S^T S z, few of which carry most of the motion, so
- * that the bound is near.  Points are looked at in the order of their bounds until the largest bound left is below what
+ * that the bound is near; what rounding hides in that norm, taken of coordinates over their largest values, is added
+ * direction by direction.  Points are looked at in the order of their bounds until the largest bound left is below what
  * was found: the result is exact over all states given.
  *
  * @param states  (p; g) [n1 + m + 3 x k], k >= 1

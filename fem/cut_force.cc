@@ -68,7 +68,7 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
 } // namespace
 
 FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
-                      const Kinematics &kinematics)
+                      const Kinematics &kinematics, double rayleigh_stiffness)
 {
   const Eigen::Vector3d     normal = unit_normal(cut);
   const std::vector<double> height = heights(cut, normal, mesh);
@@ -91,7 +91,8 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
   }
   if (!divides)
     refuse(cut, height);
-  return {"cut." + cut.name, "N", kinematics.gather(row), Eigen::VectorXd::Zero(kinematics.n_coordinates())};
+  const Eigen::VectorXd on_q = kinematics.gather(row);
+  return {"cut." + cut.name, "N", on_q, rayleigh_stiffness * on_q};
 }
 
 } // namespace gestell::fem

@@ -101,7 +101,7 @@ BlockMatrix stiffness_at_supports(const Ingredients &of)
 
 void add_support_forces(const Ingredients &of, const BlockMatrix &C, FrameMatrices &frame)
 {
-  for (FrameOutput &output : support_forces(of.supports, C, of.kinematics))
+  for (FrameOutput &output : support_forces(of.supports, C, of.kinematics, of.specification.rayleigh_stiffness))
     frame.outputs.push_back(std::move(output));
 }
 
@@ -203,7 +203,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
   for (const CutSpecification &cut : specification.cuts)
-    frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics));
+    frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
 
   const Ingredients                  ingredients{specification, quadratic, materials, supports, kinematics, nodes};
   std::shared_ptr<const RowsOnRanks> rows_on_ranks;

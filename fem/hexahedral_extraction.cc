@@ -22,6 +22,8 @@ namespace
 
 using Quad = std::array<int, 4>;
 
+constexpr double straight = 1e-5; // of the size of a cell: digits of files
+
 /// Calls visit(name of the type, corners, their number) for every element of an entity.
 template <typename Visit>
 void for_each_element(int dim, int tag, const Visit &visit)
@@ -67,6 +69,78 @@ void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes
     mesh.cell_solid.resize(mesh.hexahedra.size(), static_cast<int>(mesh.solids.size()));
     mesh.solids.push_back(solid.name);
   }
+}
+
+/// Of a node between corners: how far it lies from where the trilinear map of the corners sends it.
+struct Offset
+{
+  double length = 0.; ///< [m]
+  double share  = 0.; ///< of the longest diagonal of its cell
+  bool   counts() const { return share > straight; }
+};
+
+/// Where the trilinear map of eight corners sends a point of the reference cell [-1, 1]^3.
+Point3 trilinear(const std::array<Point3, 8> &corner, const double *local_corners, const double *local)
+{
+  Point3 result{};
+  for (int i = 0; i < 8; ++i)
+  {
+    double N = 0.125;
+    for (int d = 0; d < 3; ++d)
+      N *= 1. + local_corners[3 * i + d] * local[d];
+    result = result + N * corner[i];
+  }
+  return result;
+}
+
+/// The largest of hexahedra of higher order; cells are made of their corners alone.
+Offset largest_offset(const CadModel &model, const std::string &head, const MeshNodes &nodes)
+{
+  Offset largest;
+  for (const Solid &solid : model.solids)
+  {
+    std::vector<int>                      types;
+    std::vector<std::vector<std::size_t>> elements, tags;
+    gmsh::model::mesh::getElements(types, elements, tags, 3, solid.tag);
+    for (std::size_t i = 0; i < types.size(); ++i)
+    {
+      std::string         name;
+      int                 d, order, n, n_corners;
+      std::vector<double> local;
+      gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
+      if (n_corners != 8 || n == n_corners)
+        continue;
+      for (std::size_t j = 0; j < tags[i].size(); j += static_cast<std::size_t>(n))
+      {
+        std::array<Point3, 8> corner;
+        double                diagonal = 0.;
+        for (int k = 0; k < 8; ++k)
+        {
+          corner[k] = nodes.position(tags[i][j + k], head);
+          diagonal  = std::max(diagonal, norm(corner[k] - corner[0]));
+        }
+        for (int k = 8; k < n; ++k)
+        {
+          const double length =
+              norm(nodes.position(tags[i][j + k], head) - trilinear(corner, local.data(), &local[3 * k]));
+          largest.length = std::max(largest.length, length);
+          largest.share  = std::max(largest.share, length / diagonal);
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+void note_straight_sides(const Offset &offset, Mesh &mesh)
+{
+  if (!offset.counts())
+    return;
+  mesh.notes.push_back(
+      "hexahedra are taken with straight edges between their corners: the nodes between them lie up to " +
+      text(1e3 * offset.length) + " mm (" + text(100. * offset.share) +
+      " % of the size of a cell) beside; make cells smaller along curved faces, or mesh with "
+      "tetrahedra, whose sides may be curved");
 }
 
 struct CellFace
@@ -177,6 +251,7 @@ ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, 
   Mesh         &mesh = result.mesh;
   MeshNodes     nodes(model.unit, options.gap);
   read_cells(model, head, nodes, mesh);
+  note_straight_sides(largest_offset(model, head, nodes), mesh);
   result.node = nodes.tags();
 
   std::vector<int> parent(mesh.hexahedra.size());

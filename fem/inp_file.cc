@@ -1,10 +1,10 @@
 #include "fem/inp_file.h"
 
+#include "fem/inp_elements.h"
+#include "fem/inp_lines.h"
+
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -16,117 +16,6 @@ namespace gestell::fem
 
 namespace
 {
-
-/// What an element of a name is made into.
-struct ElementKind
-{
-  enum class Use
-  {
-    solid,
-    surface, ///< names a surface
-    line     ///< left out
-  };
-  std::string      begin; ///< of the name of the type
-  int              n_nodes;
-  Use              use;
-  int              gmsh_type;
-  std::vector<int> order; ///< of the nodes that are taken
-};
-
-const std::vector<ElementKind> &kinds()
-{
-  using Use                                 = ElementKind::Use;
-  static const std::vector<ElementKind> all = {
-      {"C3D10", 10, Use::solid, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}, // gmsh swaps the last two edges
-      {"C3D20", 20, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {"C3D4", 4, Use::solid, 4, {0, 1, 2, 3}},
-      {"C3D8", 8, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {"CPS3", 3, Use::surface, 0, {0, 1, 2}},
-      {"CPE3", 3, Use::surface, 0, {0, 1, 2}},
-      {"S3", 3, Use::surface, 0, {0, 1, 2}},
-      {"CPS6", 6, Use::surface, 0, {0, 1, 2}},
-      {"CPE6", 6, Use::surface, 0, {0, 1, 2}},
-      {"S6", 6, Use::surface, 0, {0, 1, 2}},
-      {"STRI65", 6, Use::surface, 0, {0, 1, 2}},
-      {"CPS4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPE4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"S4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPS8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPE8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"S8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"T3D2", 2, Use::line, 0, {}},
-      {"T3D3", 3, Use::line, 0, {}},
-  };
-  return all;
-}
-
-/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file.
-const std::vector<std::vector<int>> &faces_of(int gmsh_type)
-{
-  static const std::vector<std::vector<int>> tetrahedron = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
-  static const std::vector<std::vector<int>> hexahedron  = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
-                                                            {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  return gmsh_type == 5 ? hexahedron : tetrahedron;
-}
-
-std::string upper(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
-  return text;
-}
-
-std::string trimmed(const std::string &text)
-{
-  const auto blank = " \t\r\n";
-  const auto from  = text.find_first_not_of(blank);
-  return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(blank) - from + 1);
-}
-
-std::vector<std::string> fields_of(const std::string &line)
-{
-  std::vector<std::string> fields;
-  for (std::size_t from = 0; from <= line.size();)
-  {
-    const std::size_t comma = std::min(line.find(',', from), line.size());
-    fields.push_back(trimmed(line.substr(from, comma - from)));
-    from = comma + 1;
-  }
-  while (!fields.empty() && fields.back().empty()) // a line that ends with a comma goes on in the next
-    fields.pop_back();
-  return fields;
-}
-
-/// *KEYWORD, NAME=value, FLAG; names in capitals.
-struct Keyword
-{
-  std::string                        name;
-  std::map<std::string, std::string> parameters;
-
-  explicit Keyword(const std::string &line)
-  {
-    const std::vector<std::string> fields = fields_of(line.substr(1));
-    name                                  = fields.empty() ? "" : upper(fields[0]);
-    for (std::size_t i = 1; i < fields.size(); ++i)
-    {
-      const auto equals = fields[i].find('=');
-      parameters[upper(trimmed(fields[i].substr(0, equals)))] =
-          equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1)));
-    }
-  }
-
-  std::string operator[](const std::string &parameter) const
-  {
-    const auto found = parameters.find(parameter);
-    return found == parameters.end() ? "" : found->second;
-  }
-  bool has(const std::string &parameter) const { return parameters.count(parameter) > 0; }
-
-private:
-  static std::string unquoted(const std::string &text)
-  {
-    return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
-  }
-};
 
 class Reader
 {
@@ -143,7 +32,7 @@ public:
 private:
   struct Element
   {
-    const ElementKind       *kind;
+    const InpElementKind    *kind;
     std::string              set;
     std::vector<std::size_t> nodes; ///< as in the file
   };
@@ -161,66 +50,86 @@ private:
   {
     const std::string outer_file = file_;
     const int         outer_line = line_;
-    std::ifstream     in(path);
-    if (!in)
-      refuse("*INCLUDE: " + path + " cannot be read.");
+    InpLines          lines(path);
+    if (!lines.opened())
+      refuse("\"" + path + "\" cannot be read; write its path as seen from the folder of this file.");
+    if (!open_.insert(path).second)
+      refuse("\"" + path + "\" includes itself.");
     file_ = path;
-    line_ = 0;
-    for (std::string line; std::getline(in, line);)
+    while (lines.next())
     {
-      ++line_;
-      line = trimmed(line);
-      if (line.empty() || line.compare(0, 2, "**") == 0)
-        continue;
-      if (line[0] == '*')
-        begin(Keyword(line));
+      line_ = lines.number();
+      if (lines.is_keyword())
+        begin(lines.keyword());
       else if (keyword_)
-        take(fields_of(line));
+        take(lines.fields());
       else
-        refuse("\"" + line.substr(0, 40) + "\" stands before the first keyword; this is no input file of Abaqus.");
+        refuse("\"" + lines.text().substr(0, 40) +
+               "\" stands before the first keyword; this is no input file of Abaqus.");
     }
     end_of_element();
+    open_.erase(path);
     file_ = outer_file;
     line_ = outer_line;
   }
 
-  void begin(const Keyword &keyword)
+  void begin(const InpKeyword &keyword)
   {
     end_of_element();
+    if (keyword.name == "INCLUDE") // its lines stand in the place of the keyword
+    {
+      read_file(input_of(keyword, file_));
+      return;
+    }
+    require_followed(keyword);
     keyword_         = keyword;
-    kind_            = nullptr;
     const auto &name = keyword.name;
+    kind_            = nullptr;
+    node_set_        = name == "NODE" ? in_capitals(keyword["NSET"]) : "";
     if (name == "ELEMENT")
-      begin_elements(upper(keyword["TYPE"]));
+      begin_elements(in_capitals(keyword["TYPE"]));
     else if (name == "SOLID SECTION")
-      sections_.push_back(upper(keyword["ELSET"]));
-    else if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
-      refuse("*" + name + ": only solid elements are read; model the frame as a solid, or take it as matrices.");
-    else if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
-      refuse("*" + name +
-             ": the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
-             "assemblies in input files).");
-    else if (name == "INCLUDE")
-      read_file((std::filesystem::path(file_).parent_path() / keyword["INPUT"]).string());
-    if (name == "SURFACE" && keyword["TYPE"] != "" && upper(keyword["TYPE"]) != "ELEMENT" &&
-        upper(keyword["TYPE"]) != "NODE")
+      sections_.push_back(in_capitals(keyword["ELSET"]));
+    else if (name == "SURFACE" && keyword["TYPE"] != "" && in_capitals(keyword["TYPE"]) != "ELEMENT" &&
+             in_capitals(keyword["TYPE"]) != "NODE")
       keyword_->name = ""; // analytical ones
-    if (const std::string set = keyword["NSET"]; name == "NODE" && !set.empty())
-      node_set_ = upper(set);
-    else
-      node_set_.clear();
+    if (const std::string input = input_of(keyword, file_); !input.empty())
+      read_file(input);
+  }
+
+  /// Keywords that say of the mesh what is not read.
+  void require_followed(const InpKeyword &keyword)
+  {
+    const auto       &name = keyword.name;
+    const std::string head = "*" + name + ": ", flat = "write the mesh flat, every node and element with its numbers.";
+    if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
+      refuse(head + "only solid elements are read; model the frame as a solid, or take it as matrices.");
+    if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
+      refuse(head + "the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
+                    "assemblies in input files).");
+    for (const char *rule : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "IMPORT"})
+      if (name == rule)
+        refuse(head + "nodes and elements made by rules are not read; " + flat);
+    if (name == "IMPERFECTION")
+      refuse(head + "nodes that are moved are not read; give them where they are.");
+    if (const std::string system = in_capitals(keyword["SYSTEM"]); name == "NODE" && !system.empty() && system != "R")
+      refuse(head + "SYSTEM=" + system + ": cylindrical and spherical coordinates are not read; give x, y, z.");
+    if (name == "NSET" && keyword.has("ELSET"))
+      refuse(head + "a set of nodes by its elements is not read; list the nodes.");
+    if (name == "SURFACE" && keyword.has("COMBINE"))
+      refuse(head + "surfaces combined of others are not read; list the sides of the elements.");
+    for (const char *tie : {"TIE", "EQUATION", "MPC", "RIGID BODY", "COUPLING", "KINEMATIC COUPLING"})
+      if (name == tie)
+        ties_.insert("*" + name);
   }
 
   void begin_elements(const std::string &type)
   {
-    for (const ElementKind &kind : kinds())
-      if (type.compare(0, kind.begin.size(), kind.begin) == 0 &&
-          (type.size() == kind.begin.size() || !std::isdigit(static_cast<unsigned char>(type[kind.begin.size()]))))
-        kind_ = &kind;
+    kind_ = inp_element_kind(type);
     if (kind_ == nullptr)
       refuse("elements of type " + (type.empty() ? std::string("\"\"") : type) +
              " are not read; C3D4, C3D10, C3D8 and C3D20 are: mesh the frame with these alone.");
-    set_ = upper((*keyword_)["ELSET"]);
+    set_ = in_capitals((*keyword_)["ELSET"]);
   }
 
   void take(const std::vector<std::string> &fields)
@@ -235,10 +144,12 @@ private:
         take_element(number(field));
     else if (name == "NSET" || name == "ELSET")
       take_set(fields, name == "NSET" ? node_entries_ : element_entries_);
-    else if (name == "SURFACE" && upper((*keyword_)["TYPE"]) == "NODE")
-      node_entries_[upper((*keyword_)["NAME"])].push_back(upper(fields[0]));
+    else if (name == "SURFACE" && in_capitals((*keyword_)["TYPE"]) == "NODE")
+      node_entries_[in_capitals((*keyword_)["NAME"])].push_back(in_capitals(fields[0]));
     else if (name == "SURFACE" && fields.size() > 1)
-      sides_.push_back({upper((*keyword_)["NAME"]), upper(fields[0]), upper(fields[1])});
+      sides_.push_back({in_capitals((*keyword_)["NAME"]), in_capitals(fields[0]), in_capitals(fields[1])});
+    else if (name == "SYSTEM")
+      refuse("*SYSTEM: coordinates in a system of their own are not read; give x, y, z of the whole.");
     else if (name == "INSTANCE")
       refuse("*INSTANCE: the instance is moved; write the file flat, with the nodes where they are.");
   }
@@ -284,11 +195,11 @@ private:
 
   void take_set(const std::vector<std::string> &fields, std::map<std::string, std::vector<std::string>> &sets)
   {
-    std::vector<std::string> &set = sets[upper((*keyword_)[keyword_->name])];
+    std::vector<std::string> &set = sets[in_capitals((*keyword_)[keyword_->name])];
     if (!keyword_->has("GENERATE"))
     {
       for (const std::string &field : fields)
-        set.push_back(upper(field));
+        set.push_back(in_capitals(field));
       return;
     }
     const std::size_t first = number(fields[0]), last = fields.size() > 1 ? number(fields[1]) : first;
@@ -353,6 +264,8 @@ private:
     }
     add_solids();
     add_surface_elements();
+    for (const std::string &tie : ties_)
+      mesh_.notes.push_back(tie + " is left out: what it ties together must share nodes");
     for (const Side &side : sides_)
       add_side(side);
   }
@@ -367,7 +280,7 @@ private:
     for (const std::size_t number : order_)
     {
       const Element &element = elements_.at(number);
-      if (element.kind->use != ElementKind::Use::solid)
+      if (element.kind->use != InpElementKind::Use::solid)
         continue;
       const auto         in      = section.find(number);
       const std::string &solid   = in == section.end() ? element.set : in->second;
@@ -387,8 +300,8 @@ private:
     for (const std::size_t number : order_)
     {
       const Element &element = elements_.at(number);
-      n_lines += element.kind->use == ElementKind::Use::line;
-      if (element.kind->use != ElementKind::Use::surface)
+      n_lines += element.kind->use == InpElementKind::Use::line;
+      if (element.kind->use != InpElementKind::Use::surface)
         continue;
       ++n_surface;
       std::vector<std::size_t> corners;
@@ -409,9 +322,9 @@ private:
     for (const std::size_t number : of)
     {
       const auto element = elements_.find(number);
-      if (element == elements_.end() || element->second.kind->use != ElementKind::Use::solid)
+      if (element == elements_.end() || element->second.kind->use != InpElementKind::Use::solid)
         continue;
-      const auto &faces = faces_of(element->second.kind->gmsh_type);
+      const auto &faces = inp_faces(element->second.kind->gmsh_type);
       if (s < 0 || s >= static_cast<int>(faces.size()))
         refuse("surface \"" + side.surface + "\": " + side.side + " is no side of element " + std::to_string(number) +
                "; S1 to S" + std::to_string(faces.size()) + " are.");
@@ -425,9 +338,10 @@ private:
   const CadSource                                &source_;
   InpMesh                                         mesh_;
   std::string                                     file_;
+  std::set<std::string>                           open_; // files
   int                                             line_ = 0;
-  std::optional<Keyword>                          keyword_;
-  const ElementKind                              *kind_ = nullptr;
+  std::optional<InpKeyword>                       keyword_;
+  const InpElementKind                           *kind_ = nullptr;
   std::string                                     set_, node_set_;
   std::size_t                                     element_ = 0; // being read
   std::unordered_set<std::size_t>                 nodes_;
@@ -437,6 +351,7 @@ private:
   std::vector<std::string>                        sections_;
   std::vector<Side>                               sides_;
   std::map<std::string, int>                      n_parts_;
+  std::set<std::string>                           ties_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_set>
@@ -12,18 +13,37 @@
 namespace gestell::fem
 {
 
-// Sorted along x, only points within a slab of the distance are compared.
+namespace
+{
+
+constexpr double rounding = 1e-14; // of a height along the vector, over the largest
+
+/// A unit vector at right angles to no row of nodes that a mesh is likely to have: ratios of its components are those of
+/// no small whole numbers.
+constexpr Vector3 oblique = {0.43762743542266774, 0.5624637353870905, 0.7015103521258826};
+
+} // namespace
+
+// Points no further apart than the distance are so along any unit vector, too: sorted along one, only those within a
+// slab of that width are compared.
 std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, double distance)
 {
+  std::vector<double> along(points.size());
+  std::transform(points.begin(), points.end(), along.begin(), [](const Point3 &p) { return dot(oblique, p); });
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return points[a][0] < points[b][0]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return along[a] < along[b]; });
+  double largest = 0.;
+  for (const double height : along)
+    largest = std::max(largest, std::abs(height));
+  const double slab = distance + rounding * largest;
+
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     int    nearest = -1;
     double least   = distance;
-    for (std::size_t j = i; j-- > 0 && points[order[i]][0] - points[order[j]][0] <= distance;)
+    for (std::size_t j = i; j-- > 0 && along[order[i]] - along[order[j]] <= slab;)
       if (const double apart = norm(points[order[i]] - points[order[j]]); apart <= least)
       {
         least   = apart;

@@ -60,6 +60,16 @@ Selection select_all(const CadModel &model, const FrameSpecification &specificat
   return selection;
 }
 
+/// Sides of hexahedra are straight.
+void require_straight(const ExtractedMesh &extracted, const FrameSpecification &specification)
+{
+  const MeshOptions &options = specification.mesh;
+  if (options.curved && !extracted.mesh.hexahedra.empty())
+    throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
+                                " are hexahedra, whose sides are straight; leave curved out and make cells smaller "
+                                "along curved faces, or mesh with tetrahedra.");
+}
+
 /// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
 void generate(const FrameSpecification &specification, const GmshSession &session, const MeshProgress &progress)
 {
@@ -115,6 +125,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
     set_refined_sizes(SizeField(refined, options.size), result.model.unit);
   generate(specification, session, progress);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
+  require_straight(result.extracted, specification);
   if (!result.extracted.mesh.hexahedra.empty())
     return;
   improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
@@ -154,6 +165,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
     throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
                                 specification.cad + " is a mesh already; remove the size, or give the geometry.");
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
+  require_straight(result.extracted, specification);
   const Mesh &mesh = result.extracted.mesh;
   if (mesh.n_cells() > options.max_cells)
     throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +

@@ -154,7 +154,7 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
 }
 
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics)
+                                        const Kinematics &kinematics, double rayleigh_stiffness)
 {
   const int                n = kinematics.n_displacements();
   std::vector<char>        counted_before(n, 0);
@@ -176,7 +176,7 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
           if (support.held[d] && !counted_before[3 * node + d])
             counted[3 * node + d] = counted_before[3 * node + d] = 1;
         output.on_q = kinematics.gather(clamped_row(counted, C));
-        output.on_v = Eigen::VectorXd::Zero(kinematics.n_coordinates());
+        output.on_v = rayleigh_stiffness * output.on_q;
       }
       outputs.push_back(std::move(output));
     }

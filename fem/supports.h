@@ -43,12 +43,15 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
  *
  * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
- * Clamped:      sum over held nodes of the row of C for direction d; loads and inertia of the held nodes themselves
- *               are not contained.  A node of several supports counts for the first.
+ * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh;
+ *               loads and inertia of the held nodes themselves are not contained, nor alpha M u', which acts like
+ *               inertia.  Damping by modal ratios has no force on a support.  A node of several supports counts for
+ *               the first.
  *
- * @param C of the free frame, without foundations.
+ * @param C                   of the free frame, without foundations.
+ * @param rayleigh_stiffness  beta [s] of all cells.
  */
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics);
+                                        const Kinematics &kinematics, double rayleigh_stiffness);
 
 } // namespace gestell::fem

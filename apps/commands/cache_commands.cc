@@ -100,11 +100,16 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
     std::cout << "    the order of supports, interfaces or cuts\n";
 }
 
+coupling::CacheCheck check_of(const ReduceCommandOptions &options)
+{
+  return options.check ? coupling::CacheCheck::contents : coupling::CacheCheck::heads;
+}
+
 } // namespace
 
-void list_cache()
+void list_cache(const ReduceCommandOptions &options)
 {
-  const auto     entries = coupling::cache_entries();
+  const auto     entries = coupling::cache_entries(check_of(options));
   std::uintmax_t bytes   = 0;
   for (const CacheEntry &entry : entries)
     bytes += entry.bytes;
@@ -131,11 +136,12 @@ void explain_cache(const Scene &scene)
   const std::string key     = coupling::content_key(recipe);
   const auto        entries = coupling::cache_entries();
   const auto        own     = std::find_if(entries.begin(), entries.end(), [&](const auto &e) { return e.key == key; });
+  const std::string defect  = own == entries.end() ? "" : coupling::content_defect(*own);
   std::cout << scene.file << ": frame " << short_key(key);
   if (own == entries.end())
     std::cout << " is not in the cache " << coupling::cache_folder() << "; it would be made\n";
-  else if (!own->defect.empty())
-    std::cout << " would be made anew: " << own->file << ' ' << own->defect << '\n';
+  else if (!defect.empty())
+    std::cout << " would be made anew: " << own->file << ' ' << defect << '\n';
   else
   {
     std::cout << " is in the cache and would be used\n  " << own->file << ", " << size_text(double(own->bytes))
@@ -153,7 +159,7 @@ void prune_cache(const ReduceCommandOptions &options)
   const auto   now     = std::time(nullptr);
   std::size_t  removed = 0;
   double       bytes   = 0.;
-  for (const CacheEntry &entry : coupling::cache_entries())
+  for (const CacheEntry &entry : coupling::cache_entries(check_of(options)))
   {
     const bool goes = options.all || !entry.defect.empty() || std::difftime(now, entry.last_used) > oldest ||
                       double(entry.bytes) > largest;

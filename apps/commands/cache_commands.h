@@ -6,8 +6,8 @@
 namespace gestell::apps
 {
 
-/// Prints what the cache of reduced frames holds.
-void list_cache();
+/// Prints what the cache of reduced frames holds; files are read whole if options.check asks for it.
+void list_cache(const ReduceCommandOptions &options);
 
 /// Prints whether the cache holds the scene's frame; if not, by what the nearest one differs.
 void explain_cache(const Scene &scene);

@@ -106,9 +106,13 @@ void print_convergence(const coupling::MeshConvergence &convergence, double tole
 
 std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &convergence, double tolerance)
 {
-  if (convergence.converged)
-    return {};
-  return {"mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " + convergence.stopped};
+  std::vector<std::string> warnings;
+  for (const std::string &name : convergence.left_out)
+    warnings.push_back("mesh: " + name + " is left out, as not every mesh has it; keep more modes of the frame");
+  if (!convergence.converged)
+    warnings.push_back("mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " +
+                       convergence.stopped);
+  return warnings;
 }
 
 void write_convergence(const std::filesystem::path &folder, const coupling::MeshConvergence &convergence)

@@ -9,6 +9,7 @@
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
 
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -38,13 +39,15 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
     throw std::invalid_argument(
         "gestell reduce: --all, --older-than and --larger-than say what --prune removes; add it");
+  if (reduce.check && !reduce.list && !reduce.prune)
+    throw std::invalid_argument("gestell reduce: --check goes with --list or --prune; add one of them");
   if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
     throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
                                 options.input);
   if (reduce.prune)
     prune_cache(reduce);
   if (reduce.list)
-    list_cache();
+    list_cache(reduce);
   if (reduce.explain)
     explain_cache(scene_to_reduce(options));
   if (reduce.prune || reduce.list || reduce.explain)
@@ -80,7 +83,9 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
   {
     std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
-    if (j < frame.frequency_error.size())
+    if (j < frame.frequency_error.size() && std::isnan(frame.frequency_error[j]))
+      std::cout << std::setw(27) << "unknown";
+    else if (j < frame.frequency_error.size())
       std::cout << std::setprecision(3) << std::setw(27) << frame.frequency_error[j];
     std::cout << '\n';
   }

@@ -87,7 +87,9 @@ std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
   const DenseModes     modes   = dense_modes(frame.C, frame.M, cancelled);
   const auto           n_rigid = (frame.frequencies_hz.array() == 0.).count(); // as the full frame counts them
   std::vector<Watched> result;
-  for (Eigen::Index j = n_rigid; j < modes.omega.size() && j < n_rigid + count; ++j)
+  const auto           known = [&](Eigen::Index j)
+  { return j < modes.omega.size() && j < frame.frequency_error.size() && !std::isnan(frame.frequency_error[j]); };
+  for (Eigen::Index j = n_rigid; known(j) && j < n_rigid + count; ++j)
     result.push_back({"frequency " + std::to_string(j - n_rigid + 1), "Hz", modes.V.col(j),
                       modes.omega[j] * modes.omega[j], frame.frequencies_hz[j] / (1. + frame.frequency_error[j]),
                       true});
@@ -152,6 +154,7 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
     const Watched &watched = result.watched[j];
     const double   share   = eta2.col(j).sum() / watched.energy;
     result.eta2 += eta2.col(j) / watched.energy;
+    result.level.names.push_back(watched.name);
     result.level.values.push_back(watched.value);
     result.level.estimates.push_back(watched.is_frequency ? fem::relative_frequency_error(share) : share);
   }
@@ -160,18 +163,22 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
   return result;
 }
 
+/// @param levels   with the same quantities each.
+/// @param watched  of the last mesh, those of the levels among them.
 std::vector<ConvergedQuantity> extrapolate_all(const std::vector<MeshLevel> &levels,
                                                const std::vector<Watched>   &watched)
 {
   std::vector<ConvergedQuantity> result;
-  for (std::size_t j = 0; j < watched.size(); ++j)
+  for (std::size_t j = 0; j < levels.back().names.size(); ++j)
   {
+    const std::string &name = levels.back().names[j];
+    const auto of = std::find_if(watched.begin(), watched.end(), [&](const Watched &w) { return w.name == name; });
     std::vector<MeshValue> meshes;
     for (const MeshLevel &level : levels)
       meshes.push_back({double(level.n_coordinates), level.values[j], level.estimates[j]});
     const Extrapolated limit = extrapolate(meshes);
-    result.push_back({watched[j].name, watched[j].unit, limit.limit, limit.uncertainty,
-                      meshes.back().value / limit.limit - 1., limit.order});
+    result.push_back(
+        {name, of->unit, limit.limit, limit.uncertainty, meshes.back().value / limit.limit - 1., limit.order});
   }
   return result;
 }
@@ -193,6 +200,21 @@ void check(const fem::FrameSpecification &specification, const ConvergenceOption
   require(specification.mesh.size > 0., specification.cad +
                                             " is a mesh, which cannot be refined; give the geometry (.step, .brep, "
                                             ".geo), or mesh finer where it was made.");
+}
+
+/// Whether the first mesh has all frequencies that are to be watched.
+void check(const Computed &first, const ConvergenceOptions &options)
+{
+  const auto n =
+      std::count_if(first.watched.begin(), first.watched.end(), [](const Watched &w) { return w.is_frequency; });
+  require(n == options.n_frequencies, std::to_string(options.n_frequencies) +
+                                          " frequencies are to be watched, but the reduced frame of the first "
+                                          "mesh has " +
+                                          std::to_string(n) +
+                                          " elastic modes with a known error; watch no more than these "
+                                          "(--frequencies " +
+                                          std::to_string(std::max<long>(1, n)) +
+                                          "), or keep more modes ([reduction] modes).");
 }
 
 /// The meshes of a convergence, one after the other.
@@ -283,7 +305,12 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
     last             = compute(meshes.specification(), *mesh, reduction, options, phases);
     last.level.size  = meshes.specification().mesh.size;
     last.level.cpu_s = cpu_seconds() - begin;
+    if (number == 1)
+      check(last, options);
     result.levels.push_back(last.level);
+    for (const std::string &name : keep_common(result.levels))
+      if (std::find(result.left_out.begin(), result.left_out.end(), name) == result.left_out.end())
+        result.left_out.push_back(name);
     result.quantities  = extrapolate_all(result.levels, last.watched);
     const double bound = largest_bound(result.quantities);
     result.converged   = number > 1 && bound <= options.tolerance;

@@ -3,8 +3,10 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/enough_modes.h"
 #include "coupling/reduction/fixed_modes.h"
+#include "coupling/reduction/free_modes.h"
 #include "coupling/reduction/inner_shapes.h"
 #include "coupling/reduction/interior_response.h"
+#include "coupling/reduction/rounded.h"
 #include "fem/rigid_motions.h"
 
 #include <algorithm>
@@ -214,6 +216,23 @@ struct Shapes
   double          limit;           // [rad/s] highest frequency the model is meant for
 };
 
+/// Of modes that end below the highest frequency of interest.
+void warn_of_few_modes(const ReductionBasis &basis, int n, const ReductionOptions &options,
+                       std::vector<std::string> &notes)
+{
+  const int    m       = basis.m();
+  const double highest = m > 0 ? basis.omega0(m - 1) / two_pi : 0.;
+  if (options.frequency <= highest || m == n - basis.n1())
+    return;
+  notes.push_back("reduction: " +
+                  (m == 0 ? std::string("no fixed-interface modes are kept")
+                          : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has " +
+                                rounded(highest) + " Hz") +
+                  ", but frequency = " + rounded(options.frequency) +
+                  " Hz: near and above the highest the model does not hold, and its error there is not known; ask for "
+                  "more modes, or leave modes out, so that the tolerance chooses their number");
+}
+
 /// @param basis with its constraint modes.
 Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
                    const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
@@ -240,6 +259,8 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fix
                                          frame.modal_damping_ratio, two_pi * options.frequency);
     notes.push_back(receptance_statement(receptance, shapes.basis, m, options.frequency));
   }
+  if (options.n_modes >= 0)
+    warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
   shapes.damped = shapes.refined;
   shapes.limit  = highest_of_interest(options, shapes.refined);
   if (append_shapes(shapes.basis, frame, statics.relief) > 0)
@@ -257,11 +278,12 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   MatrixXd W(frame.M.rows(), statics.free.W.cols() + statics.relief.cols());
   W << statics.free.W, statics.relief;
   append_shapes(shapes.basis, frame, std::move(W));
-  shapes.star    = reduced_matrices(shapes.basis, frame.B, frame.C);
-  shapes.refined = shapes.damped = ritz_modes(shapes.star); // exact as far as modes were kept
-  const auto   kept              = statics.free.omega.size();
-  const double highest           = kept > 0 ? statics.free.omega[kept - 1] : 0.;
-  shapes.limit                   = std::min(highest, highest_of_interest(options, shapes.refined));
+  shapes.star          = reduced_matrices(shapes.basis, frame.B, frame.C);
+  shapes.damped        = ritz_modes(shapes.star);
+  const auto   kept    = std::min(statics.free.omega.size(), shapes.damped.omega.size());
+  const double highest = kept > 0 ? statics.free.omega[kept - 1] : 0.;
+  shapes.limit         = std::min(highest, highest_of_interest(options, shapes.damped));
+  shapes.refined = {shapes.damped.n_rigid, shapes.damped.omega.head(kept), shapes.damped.P.leftCols(kept)}; // exact
   return shapes;
 }
 
@@ -314,7 +336,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   ReductionBasis basis = basis_without_modes(held, frame, q1);
   Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
                   {},
-                  {VectorXd(0), MatrixXd(frame.M.rows(), 0)},
+                  {VectorXd(0), MatrixXd(frame.M.rows(), 0), {}},
                   MatrixXd(frame.M.rows(), 0)};
   statics.response = interior_response(held, basis, frame.M, statics.load);
   if (options.inertia_relief)
@@ -324,7 +346,10 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
     tell(progress, "modes with the interface free");
     statics.free = free_modes(basis, held, frame, options);
     tell(progress, "reduced matrices");
-    return reduce(free_shapes(std::move(basis), statics, frame, options), {}, statics, frame);
+    std::vector<std::string> notes;
+    if (!statics.free.statement.empty())
+      notes.push_back(statics.free.statement);
+    return reduce(free_shapes(std::move(basis), statics, frame, options), std::move(notes), statics, frame);
   }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)

@@ -1,73 +1,32 @@
 #pragma once
 
-#include "coupling/reduction/basis.h"
+#include "coupling/reduction/counted_modes.h"
 #include "coupling/reduction/held_frame.h"
-#include "coupling/reduction/lowest_modes.h"
 
-#include <memory>
-#include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
 
-/**
- * Fixed-interface modes of a frame, as many as are asked for, and the proof that none of them is missing.
- *
- * A search by Krylov spaces may pass over a mode, above all one of several with the same frequency, and cannot know it.
- * The number of negative eigenvalues of C22 - omega^2 M22 can: it is the number of modes below omega (Sylvester's law
- * of inertia).  confirm() takes it in a gap above the modes asked for; where the search has found fewer, it goes on,
- * orthogonal to the modes known, until it has them all.
- *
- * Few internal coordinates (600) are solved densely, which yields all modes there are.
- */
-class FixedModes
+/// The modes of a frame with its interface held.
+class FixedModes final : public CountedModes
 {
 public:
   /// Both must outlive this; the frame's factor may be released while nothing is searched for.
   FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
              const BlockLanczos::Options &options = {});
 
-  /// Looks for the lowest `count`, 0 <= count <= internal coordinates.
-  /// @throws ConvergenceFailure with the number found.
-  void find(int count);
-
-  /// The lowest `count` of those found.
-  LowestModes lowest(int count);
-
-  /// No more will be asked for than the modes looked for last: gives back the memory of the search and of the factor.
-  void finish();
-
-  /// After finish(): the modes looked for last, and some more, up to a gap.
-  const LowestModes &found() const { return found_; }
-
-  /**
-   * After finish(): whether the modes found are all there are below the gap.
-   *
-   * If not, those that are missing have been found, and the frame's factor is there again; what was made of the modes
-   * must be made anew, from find() on.
-   *
-   * @throws ConvergenceFailure if the inertia cannot be told, or what is missing not found.
-   */
-  bool confirm();
-
-  /// What was proved, as a sentence; empty before confirm(), and where nothing had to be.
-  const std::string &statement() const { return statement_; }
-
 private:
-  Inertia count_in_gap(double &omega) const;
-  void    look_for(const LowestModes &known, int count, int block);
-  void    look_for_missing(LowestModes known, int count, double omega);
+  int                         n() const override;
+  LowestModes                 all() const override;
+  void                        restore() override { held_.restore(); }
+  void                        release() override { held_.release(); }
+  Inertia                     below(double omega) override { return held_.below(omega); }
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const override;
 
-  HeldFrame                  &held_;
-  const fem::FrameMatrices   &frame_;
-  std::vector<int>            q2_;
-  BlockLanczos::Options       options_;
-  int                         wanted_ = 0;
-  bool                        dense_;
-  LowestModes                 found_; // if dense, all there are
-  ModeSearch::Gap             gap_{0., 0., 0};
-  std::unique_ptr<ModeSearch> search_;
-  std::string                 statement_;
+  HeldFrame                &held_;
+  const fem::FrameMatrices &frame_;
+  std::vector<int>          q2_;
 };
 
 } // namespace gestell::coupling

@@ -83,7 +83,7 @@ std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMa
 } // namespace
 
 HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows)
-    : frame_(frame), q1_(q1)
+    : frame_(frame), q1_(q1), rows_(rows)
 {
   if (const Team *team = Team::of_this_run())
     team_ = held_by_team(*team, frame, q1, rows);
@@ -119,6 +119,19 @@ Inertia HeldFrame::below(double omega) const
   if (team_)
     return {team_->modes_below(omega), 1.};
   return factor_->inertia(frame_.C, frame_.M, omega * omega);
+}
+
+Inertia HeldFrame::below_if_free(double omega)
+{
+  if (team_)
+  {
+    if (!free_team_)
+      free_team_ = std::make_unique<TeamHeldFrame>(*Team::of_this_run(), frame_, std::vector<int>(), rows_);
+    return {free_team_->modes_below(omega), 1.};
+  }
+  if (!free_factor_)
+    free_factor_ = std::make_unique<SparseCholesky>(SparseCholesky::without_numbers(frame_.C, {}));
+  return free_factor_->inertia(frame_.C, frame_.M, omega * omega);
 }
 
 std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &options, const LowestModes &known) const

@@ -30,7 +30,7 @@ class TeamHeldFrame;
 class HeldFrame
 {
 public:
-  /// @param rows of C and M if several ranks have them already; they are dealt out otherwise.
+  /// @param rows of C and M if several ranks have them already, to outlive this; they are dealt out otherwise.
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
   HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows = nullptr);
   ~HeldFrame();
@@ -48,14 +48,18 @@ public:
   /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
   Inertia below(double omega) const;
 
+  /// The same of the frame with nothing held, rigid motions among them; makes a pattern of its own at first.
+  Inertia below_if_free(double omega);
+
   /// For fixed-interface modes; the frame must outlive it.  @param options where one process searches.
   std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
 
 private:
   const fem::FrameMatrices       &frame_;
   std::vector<int>                q1_;
-  std::unique_ptr<TeamHeldFrame>  team_;   // either this
-  std::unique_ptr<SparseCholesky> factor_; // or that
+  const fem::RowsOnRanks         *rows_;
+  std::unique_ptr<TeamHeldFrame>  team_, free_team_;     // either these
+  std::unique_ptr<SparseCholesky> factor_, free_factor_; // or those
 };
 
 } // namespace gestell::coupling

@@ -39,25 +39,4 @@ SupportedModes ritz_modes(const ReducedMatrices &star);
 Eigen::MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &frame,
                                       const std::vector<int> &q1);
 
-/// Modes of the frame as supported, its interface free.
-struct FreeModes
-{
-  Eigen::VectorXd omega; // [k] elastic, ascending [rad/s]
-  Eigen::MatrixXd W;     // [n x k] modes less their static part, phi - Psi phi_1: zero on q1
-};
-
-/**
- * The lowest elastic modes with the interface free, from the factor of C22 by block elimination (reduction.md (15)); a
- * floating frame keeps M-orthogonal to its rigid motions.
- *
- * Together with the constraint modes their shapes span all of MacNeal's and Rubin's space: rigid motions, residual
- * flexibility of every interface coordinate, and the modes themselves, whose frequencies the reduced model has exactly.
- *
- * @param basis    constraint modes only.
- * @param options  n_modes; < 0: all up to 1.5 times the highest frequency of interest.
- * @throws ConvergenceFailure (eigenvalue solver).
- */
-FreeModes free_modes(const ReductionBasis &basis, const HeldFrame &held, const fem::FrameMatrices &frame,
-                     const ReductionOptions &options);
-
 } // namespace gestell::coupling

@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -75,7 +77,8 @@ FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m,
   const int         n = n1 + m;
   FrequencyEstimate estimate;
   estimate.omega = dense_modes(star.C.topLeftCorner(n, n), star.M.topLeftCorner(n, n), cancelled).omega;
-  estimate.error = VectorXd::Zero(estimate.omega.size());
+  estimate.error = VectorXd::Constant(estimate.omega.size(), std::numeric_limits<double>::quiet_NaN());
+  estimate.error.head(std::min<Eigen::Index>(refined.n_rigid, estimate.error.size())).setZero();
   for (int j = refined.n_rigid; j < estimate.omega.size() && j - refined.n_rigid < refined.omega.size(); ++j)
     estimate.error(j) = std::max(0., estimate.omega(j) / refined.omega(j - refined.n_rigid) - 1.);
   return estimate;

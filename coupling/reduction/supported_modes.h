@@ -39,7 +39,7 @@ SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrice
 struct FrequencyEstimate
 {
   Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)
-  Eigen::VectorXd error; // (omega - refined) / refined, >= 0 but for rounding
+  Eigen::VectorXd error; // (omega - refined) / refined, >= 0; NaN where nothing is refined
 };
 FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined);
 

@@ -103,6 +103,21 @@ TEST_F(FrameCacheCommand, ListsAndPrunesWhatIsAskedForOnly)
   EXPECT_TRUE(shell(called + "reduce --list").says("0 files"));
 }
 
+TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
+{
+  {
+    std::fstream change(kept(), std::ios::in | std::ios::out | std::ios::binary);
+    change.seekg(-8, std::ios::end);
+    const char last = char(change.peek());
+    change.seekp(-8, std::ios::end);
+    change.put(char(last + 1));
+  }
+  EXPECT_TRUE(shell(called + "reduce --prune").says("removed 0 files"));
+  EXPECT_TRUE(shell(called + "reduce --list --check").says("checksum"));
+  EXPECT_TRUE(shell(called + "reduce --explain " + scene).says("would be made anew"));
+  EXPECT_TRUE(shell(called + "reduce --prune --check").says("removed 1 file,"));
+}
+
 TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
 {
   const auto says = [&](const std::string &arguments, const std::string &words)
@@ -113,6 +128,7 @@ TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
   };
   says("reduce", "names no scene");
   says("reduce --all", "add it");
+  says("reduce --check", "--list or --prune");
   says("reduce --prune --older-than '3 parsecs'", "one of the units d, h, min, s, w");
   says("reduce --prune --larger-than many", "one of the units");
   says("reduce --list " + scene, "leave out");

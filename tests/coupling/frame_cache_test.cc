@@ -150,6 +150,46 @@ TEST_F(FrameCache, ListsFramesWithTheirOriginAndTellsWhichCannotBeUsed)
       EXPECT_GT(entry.last_used, 1500000000);
 }
 
+/// Bytes that this process has read so far, as Linux counts them.
+long bytes_read()
+{
+  std::ifstream io("/proc/self/io");
+  std::string   name;
+  long          count = -1;
+  io >> name >> count; // "rchar: 123"
+  return count;
+}
+
+TEST_F(FrameCache, IsListedWithoutReadingItsFramesWhole)
+{
+  auto frame  = some_frame();
+  frame.notes = {std::string(20'000'000, 'x')};
+  coupling::keep_in_cache(frame, fine);
+  const std::string file  = cache_file(content_key(fine.recipe));
+  const long        begin = bytes_read();
+  ASSERT_GE(begin, 0);
+  const auto entries = coupling::cache_entries();
+  EXPECT_LT(bytes_read() - begin, 2'000'000) << "of " << fs::file_size(file);
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].defect, "");
+  EXPECT_EQ(entries[0].n_full, 150000);
+
+  // Damage of the numbers is seen where a frame is used, and where all is checked.
+  {
+    std::fstream change(file, std::ios::in | std::ios::out | std::ios::binary);
+    change.seekp(std::streamoff(fs::file_size(file) / 2));
+    change.put('y');
+  }
+  EXPECT_EQ(coupling::cache_entries()[0].defect, "");
+  EXPECT_NE(coupling::content_defect(coupling::cache_entries()[0]).find("checksum"), std::string::npos);
+  EXPECT_NE(coupling::cache_entries(coupling::CacheCheck::contents)[0].defect.find("checksum"), std::string::npos);
+  std::string note;
+  EXPECT_FALSE(coupling::find_in_cache(content_key(fine.recipe), note));
+
+  fs::resize_file(file, fs::file_size(file) / 2); // cut off: HDF5 knows its end
+  EXPECT_NE(coupling::cache_entries()[0].defect.find("is damaged"), std::string::npos);
+}
+
 TEST_F(FrameCache, NearestIsTheFrameOfTheFewestDifferences)
 {
   EXPECT_FALSE(coupling::nearest_entry(coupling::cache_entries(), fine.recipe));

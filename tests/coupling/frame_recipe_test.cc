@@ -186,36 +186,78 @@ TEST(Recipe, DifferencesNameWhatIsOtherOrMissing)
   EXPECT_EQ(found[2].name + found[2].first + found[2].second, "d5");
 }
 
-TEST_F(ContentKey, ChangesWithEveryFileThatAScriptNames)
+/// A frame whose file names others.
+class ContentKeyOfSeveralFiles : public ContentKey
 {
-  const auto write = [&](const std::string &name, const std::string &text)
+protected:
+  void write(const std::string &name, const std::string &text)
   {
     fs::create_directories((folder / name).parent_path());
     std::ofstream(folder / name) << text;
-  };
-  frame.cad = (folder / "press.geo").string();
-  write("press.geo", "Include \"parts/feet.geo\";\nv() = ShapeFromFile(\"column.step\");\nMerge \"absent.step\";\n");
-  write("parts/feet.geo", "Include \"sizes.inc\"; Include \"../press.geo\";\n"); // from its own folder; a circle ends
-  write("parts/sizes.inc", "h = 1;\n");
-  write("column.step", "one");
-  write("sizes.inc", "of another folder");
+  }
 
-  std::string key     = key_of(frame, options);
-  const auto  changes = [&]
+  void read_from(const std::string &name)
+  {
+    frame.cad = (folder / name).string();
+    key       = key_of(frame, options);
+    EXPECT_FALSE(changes());
+  }
+
+  bool changes()
   {
     const std::string before = key;
     key                      = key_of(frame, options);
     return key != before;
-  };
-  EXPECT_FALSE(changes());
-  write("parts/sizes.inc", "h = 2;\n");
-  EXPECT_TRUE(changes());
-  write("column.step", "two");
-  EXPECT_TRUE(changes());
-  write("absent.step", ""); // now it is there
-  EXPECT_TRUE(changes());
-  write("sizes.inc", "that no file names");
-  EXPECT_FALSE(changes());
+  }
+
+private:
+  std::string key;
+};
+
+TEST_F(ContentKeyOfSeveralFiles, ChangesWithEveryFileThatAScriptNames)
+{
+  for (const std::string script : {"press.geo", "PRESS.GEO"})
+  {
+    write(script, "Include \"parts/feet.geo\";\nv() = ShapeFromFile(\"column.step\");\nMerge \"absent.step\";\n");
+    write("parts/feet.geo", "Include \"sizes.inc\"; Include \"../press.geo\";\n"); // from its own folder; a circle ends
+    write("parts/sizes.inc", "h = 1;\n");
+    write("column.step", "one");
+    write("sizes.inc", "of another folder");
+    fs::remove(folder / "absent.step");
+    read_from(script);
+    write("parts/sizes.inc", "h = 2;\n");
+    EXPECT_TRUE(changes());
+    write("column.step", "two");
+    EXPECT_TRUE(changes());
+    write("absent.step", ""); // now it is there
+    EXPECT_TRUE(changes());
+    write("sizes.inc", "that no file names");
+    EXPECT_FALSE(changes());
+  }
+}
+
+TEST_F(ContentKeyOfSeveralFiles, ChangesWithEveryFileThatAMeshOfAbaqusIncludes)
+{
+  for (const std::string mesh : {"frame.inp", "FRAME.INP"})
+  {
+    write(mesh, "** *INCLUDE, INPUT=comment.inc\n*include, input=parts/nodes.inc\n*ELEMENT, TYPE=C3D4,\n"
+                "INPUT = \"the cells.inc\"\n*AMPLITUDE, INPUT=force.csv\n");
+    write("parts/nodes.inc", "*NODE\n1, 0, 0, 0\n*INCLUDE, INPUT=more.inc\n*INCLUDE, INPUT=nodes.inc\n"); // a circle
+    write("parts/more.inc", "2, 1, 0, 0\n");
+    write("the cells.inc", "1, 1, 2, 3, 4\n");
+    write("force.csv", "0, 1\n");
+    write("comment.inc", "");
+    read_from(mesh);
+    write("parts/nodes.inc", "*NODE\n1, 0, 0, 1\n*INCLUDE, INPUT=more.inc\n");
+    EXPECT_TRUE(changes());
+    write("parts/more.inc", "2, 2, 0, 0\n");
+    EXPECT_TRUE(changes());
+    write("the cells.inc", "1, 1, 2, 4, 3\n");
+    EXPECT_TRUE(changes());
+    write("force.csv", "0, 2\n"); // of no matter for a mesh
+    write("comment.inc", "1");
+    EXPECT_FALSE(changes());
+  }
 }
 
 TEST_F(ContentKey, OfAMissingFileIsRefused)

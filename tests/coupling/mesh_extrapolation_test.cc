@@ -1,5 +1,7 @@
 #include "coupling/mesh_extrapolation.h"
 
+#include "coupling/mesh_convergence.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,6 +87,33 @@ TEST(Extrapolation, OfOneMeshIsAsUncertainAsItsEstimate)
   EXPECT_EQ(result.limit, 12.);
   EXPECT_EQ(result.uncertainty, 0.2);
   EXPECT_THROW(extrapolate({}), std::invalid_argument);
+}
+
+coupling::MeshLevel level(const std::vector<std::string> &names)
+{
+  coupling::MeshLevel result;
+  for (const std::string &name : names)
+  {
+    result.names.push_back(name);
+    result.values.push_back(double(name.back() - '0')); // what a name belongs to
+    result.estimates.push_back(0.1 * result.values.back());
+  }
+  return result;
+}
+
+TEST(MeshLevels, KeepByNameWhatAllOfThemHave)
+{
+  std::vector<coupling::MeshLevel> levels   = {level({"f1", "f2", "f3", "c4"}), level({"f1", "f2", "c4", "c5"}),
+                                               level({"c4", "f1", "f3", "f2"})};
+  const auto                       left_out = keep_common(levels);
+  EXPECT_EQ(left_out, (std::vector<std::string>{"f3", "c5"}));
+  for (const coupling::MeshLevel &mesh : levels)
+  {
+    EXPECT_EQ(mesh.names, (std::vector<std::string>{"f1", "f2", "c4"}));
+    EXPECT_EQ(mesh.values, (std::vector<double>{1., 2., 4.}));
+    EXPECT_EQ(mesh.estimates, (std::vector<double>{0.1, 0.2, 0.4}));
+  }
+  EXPECT_TRUE(keep_common(levels).empty());
 }
 
 } // namespace

@@ -103,6 +103,42 @@ TEST(StressSearch, FindsWhatLookingAtAllPointsAndStatesFinds)
   }
 }
 
+/// Coordinates differ by their units as modes [sqrt(kg) m] and accelerations [m/s^2] do.
+TEST(StressSearch, IsTrueWhateverTheUnitsOfTheCoordinates)
+{
+  std::srand(11);
+  ReducedStress stress = random_stress(2000, 9);
+  MatrixXd      states = states_of_a_run(9, 100);
+  for (int i = 0; i < 2000; ++i) // one coordinate stresses those points that the others stress least
+    stress.mean.block(6 * i, 4, 6, 1) *= i % 97 < 3 ? 4e-5f : 0.f;
+  states.row(4) *= 1e7;
+  states.row(5) *= 1e-3;
+  const std::vector<char> counts(2000, 1);
+  const StressPeak        all   = by_looking_at_all(stress, states, counts);
+  const StressSearch      found = largest_von_mises(stress, states, counts);
+  EXPECT_EQ(found.peak.point, all.point);
+  EXPECT_EQ(found.peak.state, all.state);
+  EXPECT_NEAR(found.peak.von_mises, all.von_mises, 1e-9 * all.von_mises);
+  EXPECT_LT(found.looked_at, 1000) << "the bounds must spare most points";
+}
+
+/// A coordinate whose unit is small, so that its stresses per unit are, leads at one point.
+TEST(StressSearch, FindsAPeakOfACoordinateInASmallUnit)
+{
+  std::srand(11);
+  ReducedStress stress = random_stress(2000, 9);
+  MatrixXd      states = states_of_a_run(9, 100);
+  stress.mean.col(4).setZero();
+  stress.mean.block(6 * 1940, 4, 6, 1).setConstant(1e-8f);
+  stress.mean(6 * 1940, 4) = 3e-8f;
+  states *= 1e-9;
+  states.row(4).setConstant(1e6);
+  states(4, 50)            = 2e6;
+  const StressSearch found = largest_von_mises(stress, states, std::vector<char>(2000, 1));
+  EXPECT_EQ(found.peak.point, 1940);
+  EXPECT_EQ(found.peak.state, 50);
+}
+
 TEST(StressSearch, LooksOnlyWherePointsCount)
 {
   const ReducedStress stress = random_stress(10, 2);

@@ -121,6 +121,48 @@ TEST(InpMesh, OfHexahedraIsTaken)
   EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-14);
 }
 
+/// A cube of 20 nodes as Abaqus orders them; node 9, on the edge from 1 to 2, is pushed out by `bulge`.
+std::string quadratic_cube(double bulge)
+{
+  const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const int    edges[12][2]  = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  std::ostringstream text;
+  text << "*NODE\n";
+  for (int i = 0; i < 20; ++i)
+  {
+    text << i + 1;
+    for (int d = 0; d < 3; ++d)
+      text << ", "
+           << (i < 8 ? corners[i][d] : 0.5 * (corners[edges[i - 8][0]][d] + corners[edges[i - 8][1]][d])) -
+                  (i == 8 && d == 1 ? bulge : 0.);
+    text << "\n";
+  }
+  text << "*ELEMENT, TYPE=C3D20R\n1";
+  for (int i = 0; i < 20; ++i)
+    text << (i == 15 ? ",\n" : ", ") << i + 1;
+  return text.str() + "\n";
+}
+
+TEST(InpMesh, OfQuadraticHexahedraTellsHowFarTheirNodesLieBesideStraightEdges)
+{
+  FrameSpecification s        = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
+  const Mesh         straight = make_mesh(s);
+  EXPECT_EQ(straight.hexahedra.size(), 1u);
+  EXPECT_TRUE(straight.notes.empty()) << straight.notes[0];
+  s                 = specification(write_text("bulged.inp", quadratic_cube(0.05)), 0.);
+  const Mesh bulged = make_mesh(s);
+  EXPECT_EQ(bulged.points.size(), 8u);
+  EXPECT_THAT(bulged.notes, Contains(AllOf(HasSubstr("straight edges"), HasSubstr("up to 50 mm"))));
+}
+
+TEST(Mesh, OfHexahedraCannotBeCurved)
+{
+  FrameSpecification s = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
+  s.mesh.curved        = true;
+  EXPECT_THAT(refusal(s), AllOf(HasSubstr("curved = true"), HasSubstr("are hexahedra"), HasSubstr("leave curved out")));
+}
+
 TEST(InpMesh, WrittenByGmshIsRead)
 {
   const std::string  cad = draw("gmsh.inp",
@@ -153,6 +195,63 @@ TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
   EXPECT_THAT(told_of("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
   EXPECT_THAT(told_of("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
   EXPECT_THAT(told_of(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
+}
+
+TEST(InpMesh, TakesLinesOfOtherFiles)
+{
+  const auto data_of = [](const std::string &block) { return block.substr(block.find('\n') + 1); };
+  write_text("nodes.inc", data_of(nodes_of_cube(1, 0.)));
+  write_text("cells.inc", data_of(cells_of_cube(1, 1, "A")));
+  const std::string by_input =
+      write_text("input.inp", "*NODE, NSET=ALL, INPUT=nodes.inc\n*ELEMENT, INPUT=cells.inc, TYPE=C3D4, ELSET=A\n");
+  const std::string by_include =
+      write_text("include.inp", "*NODE, NSET=ALL\n*INCLUDE, INPUT=nodes.inc\n9, 1, 1, 2\n"
+                                "*ELEMENT, TYPE=C3D4,\nELSET=A\n*INCLUDE, INPUT=cells.inc\n");
+  for (const std::string &path : {by_input, by_include})
+  {
+    const InpMesh     mesh    = read_inp({path, 0., "here"});
+    const std::size_t n_nodes = path == by_include ? 9 : 8; // the data line after the include belongs to *NODE
+    EXPECT_EQ(mesh.numbers.size(), n_nodes) << path;
+    ASSERT_EQ(mesh.elements.size(), 1u) << path;
+    EXPECT_EQ(mesh.elements[0].solid, "A");
+    EXPECT_EQ(mesh.elements[0].numbers.size(), 6u);
+    EXPECT_EQ(mesh.node_sets.at("ALL").size(), n_nodes);
+  }
+  write_text("circle.inc", "*INCLUDE, INPUT=circle.inc\n");
+  EXPECT_THAT(told_of(cube() + "*INCLUDE, INPUT=circle.inc\n"),
+              AllOf(HasSubstr("circle.inc:1"), HasSubstr("includes itself")));
+  EXPECT_THAT(told_of("*NODE, INPUT=absent.inc\n"),
+              AllOf(HasSubstr("mesh.inp:1"), HasSubstr("absent.inc\" cannot be")));
+  write_text("bad.inc", "** nodes\n7, zero\n");
+  EXPECT_THAT(told_of("*NODE, INPUT=bad.inc\n"), HasSubstr("bad.inc:2"));
+}
+
+TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
+{
+  for (const std::string keyword : {"NGEN", "NFILL, NSET=A", "NCOPY, CHANGE NUMBER=8, OLD SET=FOOT", "NMAP",
+                                    "ELGEN, ELSET=A", "ELCOPY, SHIFT NODES=8", "IMPORT"})
+    EXPECT_THAT(
+        told_of(cube() + "*" + keyword + "\n1, 2\n"),
+        AllOf(HasSubstr("mesh.inp:27: *" + keyword.substr(0, keyword.find(','))), HasSubstr("write the mesh flat")))
+        << keyword;
+  for (const std::string system : {"C", "s"})
+    EXPECT_THAT(told_of("*NODE, SYSTEM=" + system + "\n1, 1, 90, 0\n"),
+                AllOf(HasSubstr("mesh.inp:1"), HasSubstr("SYSTEM="), HasSubstr("give x, y, z")));
+  EXPECT_THAT(told_of("*SYSTEM\n1, 0, 0, 1, 1, 0\n" + cube()), AllOf(HasSubstr("mesh.inp:2"), HasSubstr("*SYSTEM")));
+  EXPECT_THAT(told_of(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"), HasSubstr("give them where they are"));
+  EXPECT_THAT(told_of(cube() + "*NSET, NSET=B, ELSET=BLOCK\n"), HasSubstr("list the nodes"));
+  EXPECT_THAT(told_of(cube() + "*SURFACE, NAME=B, COMBINE=UNION\nC, D\n"), HasSubstr("list the sides"));
+  // A system without axes is that of the whole, R its coordinates.
+  std::string plain = cube();
+  plain.replace(plain.find("*NODE\n"), 6, "*SYSTEM\n*NODE, SYSTEM=R\n");
+  EXPECT_EQ(read_inp({write_text("plain.inp", plain), 0., "here"}).numbers.size(), 8u);
+}
+
+TEST(InpMesh, TellsOfTiesItLeavesOut)
+{
+  const std::string path = write_text("tied.inp", cube() + "*TIE, NAME=T\nA, B\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n");
+  EXPECT_THAT(read_inp({path, 0., "here"}).notes,
+              AllOf(Contains(HasSubstr("*TIE is left out")), Contains(HasSubstr("*EQUATION is left out"))));
 }
 
 TEST(Mesh, WithANodeMovedThroughItsNeighboursIsRefused)

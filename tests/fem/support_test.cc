@@ -213,6 +213,25 @@ TEST(CutForce, TakesTheShareOfAnObliqueLoadAlongItsNormal)
   EXPECT_NEAR(output(frame, "cut.oblique").on_q.dot(q), (0.3 * 1e4 - 0.2 * 2e4 + 3e4) / std::sqrt(1.13), 1e-4);
 }
 
+/// A bar that creeps under a pull, B v = f: its own dampers carry the pull through every plane to the support.
+TEST(CutForce, ContainsTheDampersOfTheCells)
+{
+  auto specification               = bar_on_springs();
+  specification.rayleigh_stiffness = 2e-5;
+  for (const bool is_clamped : {false, true})
+  {
+    if (is_clamped)
+      specification.supports = {clamped("feet", {"z0"})};
+    auto                  frame = discretise(bar_mesh(), specification);
+    const Eigen::VectorXd pull  = 1e5 * Eigen::VectorXd::Unit(frame.C.rows(), frame.interfaces[0].coordinate[fem::uz]);
+    frame.C                     = frame.B;
+    const Eigen::VectorXd v     = statics(frame, pull);
+    EXPECT_NEAR(output(frame, "cut.low").on_v.dot(v), 1e5, 1e-4);
+    EXPECT_NEAR(output(frame, "cut.oblique").on_v.dot(v), 1e5 / std::sqrt(1.13), 1e-4);
+    EXPECT_NEAR(output(frame, "support.feet.z").on_v.dot(v), -1e5, 1e-4) << (is_clamped ? "clamped" : "on dampers");
+  }
+}
+
 TEST(CutForce, OfARigidMotionIsZero)
 {
   const auto frame = discretise(bar_mesh(), bar_on_springs());

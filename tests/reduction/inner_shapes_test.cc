@@ -2,6 +2,8 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/free_modes.h"
+#include "tests/reduction/cube.h"
 #include "tests/reduction/lattice.h"
 
 #include <gtest/gtest.h>
@@ -52,6 +54,14 @@ double largest_frequency_error(const fem::FrameMatrices &frame, const coupling::
   return error;
 }
 
+std::string notes_of(const coupling::ReducedFrame &reduced)
+{
+  std::string all;
+  for (const std::string &note : reduced.notes)
+    all += note + '\n';
+  return all;
+}
+
 TEST(FreeInterfaceModes, GiveTheFrequenciesOfTheFullFrame)
 {
   // 270 coordinates are solved densely, 756 by Krylov's space; the residual allowed there is 1e-10.
@@ -82,6 +92,67 @@ TEST(FreeInterfaceModes, WithoutANumberReachHalfAgainBeyondTheHighestFrequencyOf
   const auto expected      = (full.array() <= 1.5 * options.frequency).count() - 6;
   EXPECT_EQ(reduced.omega0.size(), expected);
   EXPECT_LT(largest_frequency_error(frame, reduced, 6, 8), 1e-8);
+}
+
+TEST(FreeInterfaceModes, GiveAnErrorOfTheModesKeptAlone)
+{
+  for (const bool is_floating : {true, false})
+  {
+    const auto frame   = is_floating ? floating() : frame_of(Lattice());
+    const int  n_rigid = is_floating ? 6 : 0, kept = 10;
+    const auto reduced = coupling::craig_bampton(frame, inside(InnerModes::interface_free, kept));
+    ASSERT_EQ(reduced.frequency_error.size(), 12 + kept);
+    for (int j = 0; j < reduced.frequency_error.size(); ++j)
+      if (j < n_rigid + kept)
+        EXPECT_EQ(reduced.frequency_error[j], 0.) << j;
+      else
+        EXPECT_TRUE(std::isnan(reduced.frequency_error[j])) << j << ": beyond the modes kept nothing is known";
+    EXPECT_LE(reduced.frequency_limit_hz, reduced.frequencies_hz[n_rigid + kept - 1] * (1. + 1e-8));
+  }
+}
+
+TEST(FreeInterfaceModes, AreCountedByInertiaBesideRigidMotions)
+{
+  for (const auto &frame : {floating(7, 4, 9), frame_of(Lattice{7, 4, 9})})
+  {
+    const auto reduced = coupling::craig_bampton(frame, inside(InnerModes::interface_free, 10));
+    EXPECT_NE(notes_of(reduced).find("elastic modes with the interface free below it, and as many are found"),
+              std::string::npos)
+        << notes_of(reduced);
+  }
+}
+
+/// Single vectors pass over the repeated frequencies of a cube; the inertia with nothing held tells.
+TEST(FreeInterfaceModes, PassedOverAreCountedSearchedForAndFound)
+{
+  fem::FrameMatrices frame;
+  frame.C          = cube_stiffness(9);
+  frame.M          = unit_mass(729);
+  frame.B          = 0. * frame.M;
+  frame.interfaces = {{"corner", {}, {0, -1, -1, -1, -1, -1}, {1., 1., 1., 1., 1., 1.}}};
+  const auto exact = cube_frequencies(9);
+
+  const auto                      basis = coupling::craig_bampton_basis(frame, 0);
+  coupling::HeldFrame             held(frame, {0});
+  coupling::BlockLanczos::Options options;
+  options.block = 1;
+  coupling::FreeInterfaceModes modes(held, basis, frame, options);
+  const auto                   largest_error = [&]
+  {
+    const VectorXd omega = modes.lowest(20).omega;
+    double         error = 0.;
+    for (int j = 0; j < 20; ++j)
+      error = std::max(error, std::abs(omega[j] / exact[j] - 1.));
+    return error;
+  };
+  modes.find(20);
+  modes.finish();
+  EXPECT_GT(largest_error(), 1e-3) << "or the test shows nothing";
+  EXPECT_FALSE(modes.confirm());
+  modes.find(20);
+  EXPECT_LT(largest_error(), 1e-10);
+  modes.finish();
+  EXPECT_TRUE(modes.confirm());
 }
 
 TEST(InnerShapes, KeepUnitMassAndDiagonalStiffness)

@@ -177,12 +177,31 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
   }
 }
 
-TEST(ReceptanceEstimate, IsNotGivenBeyondTheModesThatAreKnown)
+TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
 {
   const Case c       = make_case(3e6, 10);
   auto       options = with_modes(2);
   options.frequency  = c.highest_hz;
-  EXPECT_TRUE(craig_bampton(c.frame, options).notes.empty());
+  const auto model   = craig_bampton(c.frame, options);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
+      << model.notes[0];
+  const double told = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
+  EXPECT_NEAR(told, model.omega0[1] / (2. * M_PI), 1e-2 * told) << "rounded";
+  EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
+
+  EXPECT_NE(craig_bampton(c.frame,
+                          [&]
+                          {
+                            auto none    = options;
+                            none.n_modes = 0;
+                            return none;
+                          }())
+                .notes[0]
+                .find("no fixed-interface modes are kept"),
+            std::string::npos);
+  options.n_modes = 40;
+  EXPECT_EQ(craig_bampton(c.frame, options).notes[0].find("ask for more modes"), std::string::npos);
 }
 
 } // namespace

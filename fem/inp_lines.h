@@ -1,0 +1,57 @@
+#pragma once
+
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// *KEYWORD, NAME=value, FLAG; names in capitals, values as they stand, without quotation marks.
+struct InpKeyword
+{
+  std::string                        name;
+  std::map<std::string, std::string> parameters;
+
+  /// "" where it is missing or has no value.
+  std::string operator[](const std::string &parameter) const;
+  bool        has(const std::string &parameter) const { return parameters.count(parameter) > 0; }
+};
+
+/// The lines of an input file of Abaqus or CalculiX that say something: neither empty nor comments (**), without blanks
+/// at their ends.  A keyword line that ends with a comma goes on in the next if that begins with a letter.
+class InpLines
+{
+public:
+  explicit InpLines(const std::string &path);
+
+  bool opened() const { return opened_; }
+
+  /// Steps to the next line; false at the end of the file.
+  bool next();
+
+  int                      number() const { return number_; } ///< of the line in the file, from 1
+  const std::string       &text() const { return text_; }
+  bool                     is_keyword() const { return text_[0] == '*'; }
+  InpKeyword               keyword() const;
+  std::vector<std::string> fields() const; ///< between commas; none empty at the end
+
+private:
+  bool take();
+
+  std::ifstream in_;
+  bool          opened_;
+  int           number_ = 0, read_ = 0;
+  std::string   text_, ahead_;
+  bool          has_ahead_ = false;
+};
+
+/// The file a keyword takes lines from, relative to the folder of `file`: that of *INCLUDE, and of INPUT= where nodes,
+/// elements, sets or surfaces are given; "" for any other.
+std::string input_of(const InpKeyword &keyword, const std::string &file);
+
+/// Capitals, as names are not told from those in small letters.
+std::string in_capitals(std::string text);
+
+} // namespace gestell::fem

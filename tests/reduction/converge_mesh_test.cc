@@ -1,0 +1,74 @@
+// Frequencies and compliances followed from mesh to mesh.
+
+#include "coupling/reduction/converge_mesh.h"
+#include "tests/fem/cad_samples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gestell::test
+{
+namespace
+{
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A slender block, clamped below, with a node above.
+fem::FrameSpecification block()
+{
+  const std::string script = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n";
+  auto              frame  = fem::test::specification(fem::test::write_text("block.geo", script), 0.15);
+  frame.material           = {210e9, 0.3, 7850., "scene.toml:3"};
+  frame.surfaces["foot"]   = fem::test::plane({0., 0., -1.}, {0., 0., 0.});
+  frame.surfaces["top"]    = fem::test::plane({0., 0., 1.}, {0., 0., 1.});
+  frame.supports   = {{"foot", {"foot"}, fem::SupportKind::clamped, {true, true, true}, {}, {}, "scene.toml:9"}};
+  frame.interfaces = {{"top", {"top"}, fem::InterfaceCoupling::average, {}, "scene.toml:12"}};
+  return frame;
+}
+
+TEST(ConvergeMesh, FollowsQuantitiesByTheirNames)
+{
+  coupling::ConvergenceOptions options;
+  options.tolerance     = 0.2;
+  options.n_frequencies = 12;
+  const auto result     = coupling::converge_mesh(block(), {}, options);
+  ASSERT_GE(result.levels.size(), 2u);
+  ASSERT_EQ(result.quantities.size(), 13u);
+  for (const coupling::MeshLevel &level : result.levels)
+  {
+    ASSERT_EQ(level.values.size(), result.quantities.size());
+    for (std::size_t j = 0; j < level.names.size(); ++j)
+    {
+      EXPECT_EQ(level.names[j], result.quantities[j].name);
+      EXPECT_NEAR(level.values[j], result.levels.back().values[j], 0.2 * level.values[j]) << level.names[j];
+    }
+  }
+}
+
+TEST(ConvergeMesh, OfMoreFrequenciesThanTheFirstMeshHasIsRefused)
+{
+  coupling::ReductionOptions reduction;
+  reduction.n_modes = 4;
+  coupling::ConvergenceOptions options;
+  options.n_frequencies = 20;
+  for (const auto inner : {coupling::InnerModes::interface_held, coupling::InnerModes::interface_free})
+  {
+    reduction.inner         = inner;
+    const std::string known = inner == coupling::InnerModes::interface_held ? "10" : "4"; // n1 + m, or m
+    std::string       message;
+    try
+    {
+      coupling::converge_mesh(block(), reduction, options);
+    }
+    catch (const std::invalid_argument &refusal)
+    {
+      message = refusal.what();
+    }
+    EXPECT_THAT(message, AllOf(HasSubstr("20 frequencies"), HasSubstr("has " + known + " elastic modes"),
+                               HasSubstr("--frequencies " + known), HasSubstr("modes")));
+  }
+}
+
+} // namespace
+} // namespace gestell::test
