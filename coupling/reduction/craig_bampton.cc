@@ -265,12 +265,14 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   return shapes;
 }
 
-Reduction reduce(Shapes shapes, std::vector<std::string> notes, const Statics &statics, const fem::FrameMatrices &frame)
+Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Statics &statics,
+                 const fem::FrameMatrices &frame)
 {
   const ReductionBasis &basis = shapes.basis;
   ReducedMatrices      &star  = shapes.star;
   ReducedFrame          reduced;
-  reduced.notes              = std::move(notes);
+  reduced.notes = frame.notes;
+  reduced.notes.insert(reduced.notes.end(), notes.begin(), notes.end());
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), shapes.refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -331,7 +333,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   {
     std::vector<std::string> notes;
     Shapes                   shapes  = held_shapes(std::move(basis), statics, fixed, frame, options, progress, notes);
-    Reduction                reduced = reduce(std::move(shapes), std::move(notes), statics, frame);
+    Reduction                reduced = reduce(std::move(shapes), notes, statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
     {
