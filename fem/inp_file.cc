@@ -1,5 +1,7 @@
 #include "fem/inp_file.h"
 
+#include "fem/inp_elements.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -16,58 +18,6 @@ namespace gestell::fem
 
 namespace
 {
-
-/// What an element of a name is made into.
-struct ElementKind
-{
-  enum class Use
-  {
-    solid,
-    surface, ///< names a surface
-    line     ///< left out
-  };
-  std::string      begin; ///< of the name of the type
-  int              n_nodes;
-  Use              use;
-  int              gmsh_type;
-  std::vector<int> order; ///< of the nodes that are taken
-};
-
-const std::vector<ElementKind> &kinds()
-{
-  using Use                                 = ElementKind::Use;
-  static const std::vector<ElementKind> all = {
-      {"C3D10", 10, Use::solid, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}, // gmsh swaps the last two edges
-      {"C3D20", 20, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {"C3D4", 4, Use::solid, 4, {0, 1, 2, 3}},
-      {"C3D8", 8, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {"CPS3", 3, Use::surface, 0, {0, 1, 2}},
-      {"CPE3", 3, Use::surface, 0, {0, 1, 2}},
-      {"S3", 3, Use::surface, 0, {0, 1, 2}},
-      {"CPS6", 6, Use::surface, 0, {0, 1, 2}},
-      {"CPE6", 6, Use::surface, 0, {0, 1, 2}},
-      {"S6", 6, Use::surface, 0, {0, 1, 2}},
-      {"STRI65", 6, Use::surface, 0, {0, 1, 2}},
-      {"CPS4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPE4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"S4", 4, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPS8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"CPE8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"S8", 8, Use::surface, 0, {0, 1, 2, 3}},
-      {"T3D2", 2, Use::line, 0, {}},
-      {"T3D3", 3, Use::line, 0, {}},
-  };
-  return all;
-}
-
-/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file.
-const std::vector<std::vector<int>> &faces_of(int gmsh_type)
-{
-  static const std::vector<std::vector<int>> tetrahedron = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
-  static const std::vector<std::vector<int>> hexahedron  = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
-                                                            {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  return gmsh_type == 5 ? hexahedron : tetrahedron;
-}
 
 std::string upper(std::string text)
 {
@@ -143,7 +93,7 @@ public:
 private:
   struct Element
   {
-    const ElementKind       *kind;
+    const InpElementKind    *kind;
     std::string              set;
     std::vector<std::size_t> nodes; ///< as in the file
   };
@@ -213,7 +163,7 @@ private:
 
   void begin_elements(const std::string &type)
   {
-    for (const ElementKind &kind : kinds())
+    for (const InpElementKind &kind : inp_element_kinds())
       if (type.compare(0, kind.begin.size(), kind.begin) == 0 &&
           (type.size() == kind.begin.size() || !std::isdigit(static_cast<unsigned char>(type[kind.begin.size()]))))
         kind_ = &kind;
@@ -367,7 +317,7 @@ private:
     for (const std::size_t number : order_)
     {
       const Element &element = elements_.at(number);
-      if (element.kind->use != ElementKind::Use::solid)
+      if (element.kind->use != InpElementKind::Use::solid)
         continue;
       const auto         in      = section.find(number);
       const std::string &solid   = in == section.end() ? element.set : in->second;
@@ -387,8 +337,8 @@ private:
     for (const std::size_t number : order_)
     {
       const Element &element = elements_.at(number);
-      n_lines += element.kind->use == ElementKind::Use::line;
-      if (element.kind->use != ElementKind::Use::surface)
+      n_lines += element.kind->use == InpElementKind::Use::line;
+      if (element.kind->use != InpElementKind::Use::surface)
         continue;
       ++n_surface;
       std::vector<std::size_t> corners;
@@ -409,9 +359,11 @@ private:
     for (const std::size_t number : of)
     {
       const auto element = elements_.find(number);
-      if (element == elements_.end() || element->second.kind->use != ElementKind::Use::solid)
+      if (element == elements_.end() || element->second.kind->use != InpElementKind::Use::solid)
         continue;
-      const auto &faces = faces_of(element->second.kind->gmsh_type);
+      const auto &faces = faces_of_inp_element(element->second.kind->gmsh_type);
+      if (faces.empty())
+        continue; // of a cell that will be refused with the number of its kind
       if (s < 0 || s >= static_cast<int>(faces.size()))
         refuse("surface \"" + side.surface + "\": " + side.side + " is no side of element " + std::to_string(number) +
                "; S1 to S" + std::to_string(faces.size()) + " are.");
@@ -427,7 +379,7 @@ private:
   std::string                                     file_;
   int                                             line_ = 0;
   std::optional<Keyword>                          keyword_;
-  const ElementKind                              *kind_ = nullptr;
+  const InpElementKind                           *kind_ = nullptr;
   std::string                                     set_, node_set_;
   std::size_t                                     element_ = 0; // being read
   std::unordered_set<std::size_t>                 nodes_;

@@ -16,7 +16,7 @@ struct InpMesh
   struct Elements
   {
     std::string              solid; ///< element set of a *SOLID SECTION, else that of the *ELEMENT line, "" for none
-    int                      gmsh_type; ///< 4, 11: tetrahedra of 4, 10 nodes; 5: hexahedra of 8
+    int                      gmsh_type; ///< 4, 11: tetrahedra of 4, 10 nodes; 5: hexahedra of 8; 6, 7: prisms, pyramids
     std::vector<std::size_t> numbers;
     std::vector<std::size_t> nodes; ///< in the order of gmsh
   };

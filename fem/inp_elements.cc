@@ -1,0 +1,45 @@
+#include "fem/inp_elements.h"
+
+namespace gestell::fem
+{
+
+const std::vector<InpElementKind> &inp_element_kinds()
+{
+  using Use                                    = InpElementKind::Use;
+  static const std::vector<InpElementKind> all = {
+      {"C3D10", 10, Use::solid, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}, // gmsh swaps the last two edges
+      {"C3D15", 15, Use::solid, 6, {0, 1, 2, 3, 4, 5}},
+      {"C3D20", 20, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"C3D4", 4, Use::solid, 4, {0, 1, 2, 3}},
+      {"C3D5", 5, Use::solid, 7, {0, 1, 2, 3, 4}},
+      {"C3D6", 6, Use::solid, 6, {0, 1, 2, 3, 4, 5}},
+      {"C3D8", 8, Use::solid, 5, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {"CPS3", 3, Use::surface, 0, {0, 1, 2}},
+      {"CPE3", 3, Use::surface, 0, {0, 1, 2}},
+      {"S3", 3, Use::surface, 0, {0, 1, 2}},
+      {"CPS6", 6, Use::surface, 0, {0, 1, 2}},
+      {"CPE6", 6, Use::surface, 0, {0, 1, 2}},
+      {"S6", 6, Use::surface, 0, {0, 1, 2}},
+      {"STRI65", 6, Use::surface, 0, {0, 1, 2}},
+      {"CPS4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPE4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"S4", 4, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPS8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"CPE8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"S8", 8, Use::surface, 0, {0, 1, 2, 3}},
+      {"T3D2", 2, Use::line, 0, {}},
+      {"T3D3", 3, Use::line, 0, {}},
+  };
+  return all;
+}
+
+const std::vector<std::vector<int>> &faces_of_inp_element(int gmsh_type)
+{
+  static const std::vector<std::vector<int>> tetrahedron = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  static const std::vector<std::vector<int>> hexahedron  = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                                                            {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  static const std::vector<std::vector<int>> none;
+  return gmsh_type == 5 ? hexahedron : gmsh_type == 4 || gmsh_type == 11 ? tetrahedron : none;
+}
+
+} // namespace gestell::fem
