@@ -179,11 +179,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   options.n_modes = std::max(0, n_modes);
   const auto q1   = frame.interface_coordinates();
   require_valid(frame, q1, options);
-  HeldFrame      held(frame, q1);
-  ReductionBasis basis = basis_without_modes(held, frame, q1);
-  FixedModes     fixed(held, frame, q1);
-  fixed.find(options.n_modes);
-  const LowestModes modes = fixed.lowest(options.n_modes);
+  HeldFrame         held(frame, q1);
+  ReductionBasis    basis = basis_without_modes(held, frame, q1);
+  FixedModes        fixed(held, frame, q1);
+  const LowestModes modes = fixed.find_all(options.n_modes);
   basis.set_modes(modes.V, modes.omega);
   return basis;
 }
@@ -358,9 +357,8 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   tell(progress, "factorisation");
   HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  FixedModes fixed(free_frame, frame, {});
-  fixed.find(n_modes);
-  const LowestModes modes = fixed.lowest(n_modes);
+  FixedModes        fixed(free_frame, frame, {});
+  const LowestModes modes = fixed.find_all(n_modes);
   frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
   frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }

@@ -20,6 +20,7 @@ constexpr int    dense_limit   = 600;                       // internal coordina
 constexpr double most_growth   = 1e9;                       // of rounding in the inertia: beyond it a pivot met zero
 constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
 constexpr int    largest_block = 200;                       // with which missing modes are looked for
+constexpr int    most_rounds   = 4;
 constexpr double two_pi        = 6.283185307179586;
 
 /// All modes of the held frame, densely: for few coordinates, where Krylov spaces run out of room.
@@ -63,6 +64,19 @@ void FixedModes::find(int count)
     held_.restore();
     look_for({}, count, options_.block);
   }
+}
+
+LowestModes FixedModes::find_all(int count)
+{
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    find(count);
+    finish();
+    if (confirm())
+      return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+  }
+  throw ConvergenceFailure("fixed-interface modes: in " + std::to_string(most_rounds) +
+                           " rounds some were missing each time; ask for another number of modes");
 }
 
 LowestModes FixedModes::lowest(int count)
