@@ -21,6 +21,8 @@ namespace
 
 using Matrix = Eigen::SparseMatrix<double>;
 
+constexpr int largest_size = 20'000'000; // a number that is wrong would take all memory
+
 std::string lower_case(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -40,6 +42,8 @@ public:
   [[noreturn]] void fail(const std::string &expected) const
   {
     std::string shown = line_.substr(0, 60) + (line_.size() > 60 ? "..." : "");
+    std::replace_if(
+        shown.begin(), shown.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
     throw std::invalid_argument(name_ + ":" + std::to_string(number_) + ": '" + shown + "': " + expected);
   }
 
@@ -90,8 +94,10 @@ public:
       *end  = 'e';
       value = std::strtod(rest_, &end);
     }
-    if (end == rest_ || !std::isfinite(value))
+    if (end == rest_)
       fail(expected);
+    if (!std::isfinite(value))
+      fail("its value is not a finite number; the program that wrote it failed, or divided by zero");
     rest_ = end;
     return value;
   }
@@ -194,6 +200,9 @@ Matrix read_matrix_market(const std::string &file)
   const int rows = reader.integer(expected), columns = reader.integer(expected);
   const int count = header.coordinate ? reader.integer(expected) : 0;
   reader.end_of_line(expected);
+  if (rows > largest_size || columns > largest_size)
+    reader.fail("a matrix of more than " + std::to_string(largest_size) +
+                " rows or columns is larger than any frame that could be computed; check the file");
   if (header.symmetric && rows != columns)
     reader.fail("a symmetric matrix must be square");
 

@@ -52,13 +52,15 @@ public:
 
   std::int64_t integer() { return wide_ ? std::int64_t(take<std::uint64_t>()) : std::int32_t(take<std::uint32_t>()); }
 
-  double real()
+  /// Of row i and column j, counted from 0.
+  double real(int i, int j)
   {
     const auto bits = take<std::uint64_t>();
     double     value;
     std::memcpy(&value, &bits, sizeof value);
     if (!std::isfinite(value))
-      fail("the value before is not a finite number");
+      fail("the value before, of row " + std::to_string(i + 1) + " and column " + std::to_string(j + 1) +
+           ", is not a finite number; the program that wrote it failed, or divided by zero");
     return value;
   }
 
@@ -123,7 +125,7 @@ Matrix read_dense(Reader &reader, int rows, int columns, const std::string &shap
   Eigen::MatrixXd A(rows, columns);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
-      A(i, j) = reader.real();
+      A(i, j) = reader.real(i, j);
   return A.sparseView(0., 0.);
 }
 
@@ -143,8 +145,9 @@ Matrix read_sparse(Reader &reader, int rows, int columns, int entries, const std
   A.resizeNonZeros(entries);
   for (int k = 0; k < entries; ++k)
     A.innerIndexPtr()[k] = checked(reader, reader.integer(), 0, columns, "a column");
-  for (int k = 0; k < entries; ++k)
-    A.valuePtr()[k] = reader.real();
+  for (int i = 0; i < rows; ++i)
+    for (int k = A.outerIndexPtr()[i]; k < A.outerIndexPtr()[i + 1]; ++k)
+      A.valuePtr()[k] = reader.real(i, A.innerIndexPtr()[k]);
   Eigen::SparseMatrix<double> by_columns = A; // also puts entries in order
   return by_columns;
 }

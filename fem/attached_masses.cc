@@ -55,9 +55,17 @@ void require_valid(const std::vector<AttachedMass> &masses, const std::vector<In
     if (!std::isfinite(mass.mass) || !(mass.mass > 0.))
       throw std::invalid_argument(head(mass) + " has " + std::to_string(mass.mass) + " kg, but more than 0 is needed.");
     require_inertia(mass);
-    if (!mass.interface.empty() && std::find(known.begin(), known.end(), mass.interface) == known.end())
+    if (mass.interface.empty())
+      continue;
+    const auto on = std::find(known.begin(), known.end(), mass.interface);
+    if (on == known.end())
       throw std::invalid_argument(head(mass) + ": there is no interface \"" + mass.interface + "\"; " +
                                   nearest_names(mass.interface, known, "interface") + ".");
+    if (interfaces[on - known.begin()].coupling == InterfaceCoupling::node && (mass.centre || !mass.inertia.isZero(0.)))
+      throw std::invalid_argument(head(mass) + ": interface \"" + mass.interface +
+                                  "\" is a single node, which has no rotation and carries a point of mass only; leave "
+                                  "out inertia and position, or give the interface surfaces and coupling = "
+                                  "\"average\".");
   }
 }
 
@@ -102,6 +110,12 @@ Eigen::Matrix<double, 3, 6> motions_of_centre(const AttachedMass &mass, const In
   return rigid_motions_of_point(mass.centre.value_or(node.position), node.position);
 }
 
+/// Three of a node of the mesh, which carries a point of mass; see require_valid().
+int motions_of(const Interface &node)
+{
+  return node.coordinate[rx] < 0 ? 3 : 6;
+}
+
 } // namespace
 
 Eigen::SparseMatrix<double> mass_matrix(const std::vector<AttachedMass> &masses, const std::vector<Interface> &nodes,
@@ -114,8 +128,9 @@ Eigen::SparseMatrix<double> mass_matrix(const std::vector<AttachedMass> &masses,
     const Eigen::Matrix<double, 3, 6> R      = motions_of_centre(mass, node);
     Matrix6                           M_node = mass.mass * R.transpose() * R;
     M_node.bottomRightCorner<3, 3>() += mass.inertia;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j)
+    const int n_motions = motions_of(node);
+    for (int i = 0; i < n_motions; ++i)
+      for (int j = 0; j < n_motions; ++j)
         entries.emplace_back(node.coordinate[i], node.coordinate[j], 0.5 * (M_node(i, j) + M_node(j, i)));
   }
   Eigen::SparseMatrix<double> M(n, n);
@@ -129,7 +144,7 @@ void add_loads(const std::vector<AttachedMass> &masses, const std::vector<Interf
   {
     const Interface                  &node = node_of(mass, nodes);
     const Eigen::Matrix<double, 3, 6> R    = motions_of_centre(mass, node);
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < motions_of(node); ++i)
       load.row(node.coordinate[i]) += mass.mass * R.col(i).transpose();
   }
 }

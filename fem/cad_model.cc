@@ -24,6 +24,8 @@ namespace
 
 constexpr double smallest_diagonal = 1e-3; // [m]
 constexpr double largest_diagonal  = 200.; // [m]
+constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
+constexpr double largest_likely    = 50.;  // [m]
 
 std::string last_part(const std::string &label)
 {
@@ -102,23 +104,38 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
                                   " m^3; it is open or turned inside out: repair it in the CAD program.");
 }
 
+/// How another unit is given, if lengths are wrong by a factor of a thousand.
+std::string way_to_another_unit(const CadModel &model, const CadSource &source)
+{
+  const double diagonal = model.diagonal(), likely = diagonal > 1. ? 1e-3 : 1e3;
+  return (is_step(source.path) ? "export it again with the right unit, or set unit to the true length of what the file "
+                                 "calls a millimetre"
+                               : "set unit to the length of the file's unit, such as \"mm\"") +
+         (" (unit = " + text(likely * (is_step(source.path) && source.unit == 0. ? 1e-3 : model.unit))) +
+         " m would make it " + text(diagonal * likely) + " m)";
+}
+
 void check_size(const CadModel &model, const CadSource &source)
 {
   const double diagonal = model.diagonal();
-  if (diagonal >= smallest_diagonal && diagonal <= largest_diagonal)
-    return;
-  const double likely = diagonal > largest_diagonal ? 1e-3 : 1e3;
-  throw std::invalid_argument(
-      source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " + text(smallest_diagonal) +
-      " m to " + text(largest_diagonal) + " m are expected, so its unit is probably wrong. " +
-      (is_step(source.path)
-           ? "Export it again with the right unit, or set unit to the true length of what the file calls a millimetre"
-           : "Set unit to the length of the file's unit, such as \"mm\"") +
-      " (unit = " + text(likely * (is_step(source.path) && source.unit == 0. ? 1e-3 : model.unit)) +
-      " m would make it " + text(diagonal * likely) + " m).");
+  if (diagonal < smallest_diagonal || diagonal > largest_diagonal)
+    throw std::invalid_argument(
+        source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " +
+        text(smallest_diagonal) + " m to " + text(largest_diagonal) +
+        " m are expected, so its unit is probably wrong: " + way_to_another_unit(model, source) + ".");
 }
 
 } // namespace
+
+std::string suspect_size(const CadModel &model, const CadSource &source)
+{
+  const double diagonal = model.diagonal();
+  if (diagonal >= smallest_likely && diagonal <= largest_likely)
+    return "";
+  return source.path + " is " + text(diagonal) + " m across, which few frames are: are its lengths in " +
+         (diagonal > 1. ? "millimetres, taken for metres" : "metres, taken for millimetres") + "? If so, " +
+         way_to_another_unit(model, source);
+}
 
 double CadModel::diagonal() const
 {
@@ -188,10 +205,15 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
   return model;
 }
 
+CadSource source_of(const FrameSpecification &specification)
+{
+  return {specification.cad, specification.unit, specification.place};
+}
+
 CadModel read_cad(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
 {
-  const CadSource source{specification.cad, specification.unit, specification.place};
-  const CadFile   file = check_cad_file(source);
+  const CadSource source = source_of(specification);
+  const CadFile   file   = check_cad_file(source);
   if (file == CadFile::triangles)
     throw std::invalid_argument(source.place + ": " + source.path +
                                 " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "

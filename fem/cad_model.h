@@ -58,6 +58,13 @@ struct CadModel
  */
 CadModel open_cad(const CadSource &source, const GmshSession &session);
 
+/// The file of a frame.
+CadSource source_of(const FrameSpecification &specification);
+
+/// What speaks for another unit of a frame that may be computed all the same, across less than 2 cm or more than 50 m:
+/// a sentence with the value and the way out, or nothing.
+std::string suspect_size(const CadModel &model, const CadSource &source);
+
 /// A solid of gmsh's geometry, without name.  @param unit  length of gmsh's unit [m]
 Solid measured_solid(int tag, double unit);
 

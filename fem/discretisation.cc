@@ -12,6 +12,8 @@
 #include "fem/supports.h"
 #include "fem/weighing.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace gestell::fem
@@ -19,6 +21,16 @@ namespace gestell::fem
 
 namespace
 {
+
+constexpr double node_tolerance = 1e-4; // of the diagonal, as of selectors
+
+double diagonal(const Mesh &mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const Point3 &point : mesh.points)
+    box.extend(Eigen::Map<const Eigen::Vector3d>(point.data()));
+  return box.diagonal().norm();
+}
 
 std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled, const Constraints &constraints,
                                        const Kinematics &kinematics)
@@ -30,14 +42,14 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
     Interface interface;
     interface.name     = patch.specification.name;
     interface.position = {patch.position[0], patch.position[1], patch.position[2]};
-    for (int &coordinate : interface.coordinate)
-      coordinate = kinematics.coordinate(value++);
+    for (int i = 0; i < patch.n_coordinates(); ++i)
+      interface.coordinate[i] = kinematics.coordinate(value++);
     result.push_back(std::move(interface));
   }
   return result;
 }
 
-/// Nodes with six coordinates: of masses with surfaces of their own, then of interfaces, which thus stand last in q.
+/// Nodes with coordinates: of masses with surfaces of their own, then of interfaces, which thus stand last in q.
 std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &specification)
 {
   require_valid(specification.masses, specification.interfaces);
@@ -198,10 +210,13 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
 
   FrameMatrices frame;
   frame.n_cells                      = mesh.n_cells();
+  frame.notes                        = mesh.notes;
   frame.modal_damping_ratio          = specification.modal_damping_ratio;
   frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
   const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
+  for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
+    frame.notes.push_back(std::move(note));
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
 

@@ -26,7 +26,8 @@ enum Motion
   rz
 };
 
-/// Where the motions of one interface node stand in q: motion i is sign[i] * q[coordinate[i]], or held if -1.
+/// Where the motions of one interface node stand in q: motion i is sign[i] * q[coordinate[i]], or held if -1; a node of
+/// a mesh has no rotations, which are -1 too.
 struct Interface
 {
   std::string           name;
@@ -101,6 +102,7 @@ struct FrameMatrices
   double                   mass = 0.; ///< of the frame with what is attached [kg]
   StressRecovery           stress;    ///< empty unless it was asked for
   int                      n_cells = 0;
+  std::vector<std::string> notes; ///< what a user should know of geometry, mesh and assembly
 
   /// Coordinates q1 of all interfaces, ascending.
   std::vector<int> interface_coordinates() const;

@@ -78,10 +78,11 @@ enum class InterfaceCoupling
 {
   rigid,   ///< RBE2: the surface moves as a rigid body with the node
   average, ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
-  point    ///< the point of the surface nearest to `position`: average over the triangles around it
+  point,   ///< the point of the surface nearest to `position`: average over the triangles around it
+  node     ///< the corner of the mesh nearest to `position`, on the surfaces or, without any, on the whole skin
 };
 
-/// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces.
+/// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces; of `node` only three (ux uy uz).
 struct InterfaceSpecification
 {
   std::string              name;

@@ -24,7 +24,7 @@ using Quad = std::array<int, 4>;
 
 constexpr double straight = 1e-5; // of the size of a cell: digits of files
 
-/// Calls visit(name of the type, corners, their number) for every element of an entity.
+/// Calls visit(corners, their number) for every element of an entity.
 template <typename Visit>
 void for_each_element(int dim, int tag, const Visit &visit)
 {
@@ -38,7 +38,7 @@ void for_each_element(int dim, int tag, const Visit &visit)
     std::vector<double> local;
     gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
     for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
-      visit(name, &nodes[i][j], n_corners);
+      visit(&nodes[i][j], n_corners);
   }
 }
 
@@ -48,13 +48,8 @@ void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes
   {
     const std::size_t before = mesh.hexahedra.size();
     for_each_element(3, solid.tag,
-                     [&](const std::string &type, const std::size_t *corner, int n_corners)
+                     [&](const std::size_t *corner, int)
                      {
-                       if (n_corners != 8)
-                         throw std::invalid_argument(
-                             head + ": solid \"" + solid.name + "\" holds elements of type \"" + type +
-                             "\" beside hexahedra; a mesh is of hexahedra throughout or of tetrahedra throughout: mesh "
-                             "it without recombination, or make every solid transfinite.");
                        std::array<int, 8> cell;
                        for (int i = 0; i < 8; ++i)
                          cell[i] = nodes.index(corner[i], mesh.points, head);
@@ -225,26 +220,6 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
 
 } // namespace
 
-bool holds_hexahedra(const CadModel &model)
-{
-  bool found = false;
-  for (const Solid &solid : model.solids)
-  {
-    std::vector<int>                      types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, 3, solid.tag);
-    for (const int type : types)
-    {
-      std::string         name;
-      int                 d, order, n, n_corners;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(type, name, d, order, n, local, n_corners);
-      found |= n_corners == 8;
-    }
-  }
-  return found;
-}
-
 ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
   ExtractedMesh result;
@@ -267,7 +242,7 @@ ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, 
   gmsh::model::getEntities(surfaces, 2);
   for (const auto &entity : surfaces)
     for_each_element(2, entity.second,
-                     [&](const std::string &, const std::size_t *corner, int n_corners)
+                     [&](const std::size_t *corner, int n_corners)
                      {
                        if (n_corners == 4)
                          surface_of[sorted({known.index(corner[0]), known.index(corner[1]), known.index(corner[2]),

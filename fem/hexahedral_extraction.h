@@ -7,15 +7,12 @@
 namespace gestell::fem
 {
 
-/// Whether gmsh's mesh of the model has hexahedra.
-bool holds_hexahedra(const CadModel &model);
-
 /**
  * Takes the hexahedra out of gmsh as extract_mesh() does tetrahedra: the skin comes as quadrilaterals and as their
  * halves, the surface of each half in `skin_surface`.  Of cells of higher order only the corners are kept.
  *
- * @throws std::invalid_argument if there are cells of other kinds beside hexahedra, a solid has none, more than two
- * cells share a face, or there is another number of bodies than wanted.
+ * @throws std::invalid_argument if a solid has no cells, more than two cells share a face, or there is another number
+ *         of bodies than wanted.
  */
 ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, const ExtractionOptions &options);
 

@@ -23,9 +23,10 @@ struct InpElementKind
 };
 
 /// The kind of elements of a type in capitals, variants (C3D10M, C3D8R, ...) included; null if they are not read.
+/// Prisms and pyramids are known, so that a mesh that holds some is refused with their number.
 const InpElementKind *inp_element_kind(const std::string &type);
 
-/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file.
+/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of prisms and pyramids.
 const std::vector<std::vector<int>> &inp_faces(int gmsh_type);
 
 } // namespace gestell::fem

@@ -325,6 +325,8 @@ private:
       if (element == elements_.end() || element->second.kind->use != InpElementKind::Use::solid)
         continue;
       const auto &faces = inp_faces(element->second.kind->gmsh_type);
+      if (faces.empty())
+        continue; // of a cell that will be refused with the number of its kind
       if (s < 0 || s >= static_cast<int>(faces.size()))
         refuse("surface \"" + side.surface + "\": " + side.side + " is no side of element " + std::to_string(number) +
                "; S1 to S" + std::to_string(faces.size()) + " are.");

@@ -15,8 +15,9 @@ struct InpMesh
 {
   struct Elements
   {
-    std::string              solid; ///< element set of a *SOLID SECTION, else that of the *ELEMENT line, "" for none
-    int                      gmsh_type; ///< 4, 11: tetrahedra of 4, 10 nodes; 5, 17: hexahedra of 8, 20
+    std::string solid;     ///< element set of a *SOLID SECTION, else that of the *ELEMENT line, "" for none
+    int         gmsh_type; ///< 4, 11: tetrahedra of 4, 10 nodes; 5, 17: hexahedra of 8, 20;
+                           ///< 6, 7: prisms, pyramids
     std::vector<std::size_t> numbers;
     std::vector<std::size_t> nodes; ///< in the order of gmsh
   };

@@ -69,6 +69,11 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
   std::vector<CoupledPatch> result;
   for (const InterfaceSpecification &interface : interfaces)
   {
+    if (interface.coupling == InterfaceCoupling::node)
+    {
+      result.push_back(nearest_node(interface, mesh, quadratic));
+      continue;
+    }
     CoupledPatch coupled{interface,
                          surface_patch(mesh, quadratic, interface.surfaces,
                                        interface.what + " \"" + interface.name + "\"", interface.place),
@@ -81,7 +86,9 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
     require_plane(coupled, quadratic);
     result.push_back(std::move(coupled));
   }
-  constraints.n_interface_coordinates = 6 * static_cast<int>(interfaces.size());
+  constraints.n_interface_coordinates = 0;
+  for (const CoupledPatch &coupled : result)
+    constraints.n_interface_coordinates += coupled.n_coordinates();
   constraints.measures.resize(constraints.n_interface_coordinates);
   return result;
 }
@@ -103,11 +110,20 @@ void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const Quadratic
   int first = constraints.first_new();
   for (const CoupledPatch &coupled : interfaces)
   {
-    if (coupled.specification.coupling == InterfaceCoupling::rigid)
+    switch (coupled.specification.coupling)
+    {
+    case InterfaceCoupling::rigid:
       tie_rigid(coupled, mesh, first, constraints);
-    else
+      break;
+    case InterfaceCoupling::average:
+    case InterfaceCoupling::point:
       tie_average(coupled, mesh, first, constraints);
-    first += 6;
+      break;
+    case InterfaceCoupling::node:
+      for (int d = 0; d < 3; ++d)
+        constraints.tie(3 * coupled.patch.nodes.front() + d, {{first + d, 1.}});
+    }
+    first += coupled.n_coordinates();
   }
 }
 

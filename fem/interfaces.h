@@ -10,12 +10,14 @@
 namespace gestell::fem
 {
 
-/// A surface patch and the node with six coordinates it is coupled to.
+/// A surface patch and the node with six coordinates it is coupled to; or a node of the mesh, which has three.
 struct CoupledPatch
 {
   InterfaceSpecification specification;
-  SurfacePatch           patch;
+  SurfacePatch           patch;    ///< of InterfaceCoupling::node its one node, without faces
   Eigen::Vector3d        position; ///< x0 of the node [m]
+
+  int n_coordinates() const { return specification.coupling == InterfaceCoupling::node ? 3 : 6; }
 };
 
 /**
@@ -28,6 +30,20 @@ struct CoupledPatch
  * @throws std::invalid_argument if no triangle lies within the radius.
  */
 void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh);
+
+/**
+ * The corner of the mesh nearest to the position that is asked for, on the named surfaces or on the whole skin; of
+ * several that are equally near the first.
+ *
+ * Its three displacements are coordinates as they are: no rotation, nothing averaged.  A force on it has no finite
+ * flexibility as cells shrink, see shrink_to_point().
+ *
+ * @throws std::invalid_argument without a position, and for unknown surfaces.
+ */
+CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic);
+
+/// Where nodes stand that are farther than `tolerance` [m] from the position asked for, in words.
+std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance);
 
 /// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,

@@ -14,7 +14,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double gib = 1024. * 1024. * 1024.;
+constexpr double gib       = 1024. * 1024. * 1024.;
+constexpr double of_sphere = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
 
 /// The number in a file of a control group; infinite for "max" and for no file.
 double number_in(const char *path)
@@ -26,9 +27,15 @@ double number_in(const char *path)
 
 } // namespace
 
-double reduction_memory(double n_coordinates)
+double compactness(double volume, double skin_area)
 {
-  return 0.25 * gib + 6e3 * n_coordinates * std::pow(n_coordinates / 150e3, 0.15);
+  return skin_area > 0. ? std::min(2. * std::pow(volume, 2. / 3.) / skin_area, of_sphere) : of_sphere;
+}
+
+double reduction_memory(double n_coordinates, double kappa)
+{
+  const double n = n_coordinates / 1e5;
+  return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib;
 }
 
 double coordinates_of(double n_tetrahedra)
@@ -54,9 +61,10 @@ std::string memory_text(double bytes)
                            : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
 }
 
-void require_memory(double n_tetrahedra, double available, const std::string &place, const std::string &advice)
+void require_memory(double n_tetrahedra, double kappa, double available, const std::string &place,
+                    const std::string &advice)
 {
-  const double n = coordinates_of(n_tetrahedra), needed = reduction_memory(n);
+  const double n = coordinates_of(n_tetrahedra), needed = reduction_memory(n, kappa);
   if (needed > available)
     throw std::invalid_argument(place + ": about " + text(n_tetrahedra) + " tetrahedra with " + text(n) +
                                 " coordinates are to be expected, for which mesh and reduction need about " +

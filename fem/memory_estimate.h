@@ -5,10 +5,22 @@
 namespace gestell::fem
 {
 
-/// Memory [byte] that mesh, assembly and reduction of a frame of n coordinates take at their peak,
-///     0.25 GiB + 6 kB n (n / 150 000)^0.15,
-/// measured: 1.2 GiB at 154 000 coordinates (the formula 1.2), 8.9 GiB at 975 000 (7.5).
-double reduction_memory(double n_coordinates);
+/// kappa = 2 V^(2/3) / A of a body of volume V [m^3] and skin A [m^2]: 1/3 of a cube, 0.07 of a welded press frame,
+/// 0.03 of a ladder of thin plates; at most that of a sphere.
+double compactness(double volume, double skin_area);
+
+/**
+ * Memory [byte] that mesh, assembly and reduction of a frame of n coordinates take at their peak,
+ *
+ *     0.22 GiB + 0.37 GiB N + 3.8 GiB kappa N^(4/3),     N = n / 100 000:
+ *
+ * the libraries; mesh, matrices and vectors of 40 modes, so many per coordinate; and the factor of C.  In nested
+ * dissection of a body its entries grow like n^(4/3) (George, SIAM J. Numer. Anal. 10, 1973, 345-363); of plates the
+ * separators are as much smaller as they are thinner, 2 V / A being their thickness.  Fitted to the press frame, 3 to 4
+ * % above what was measured (docs/benchmarks.md); 3 % low for the ladder chassis, high by a tenth to a third for cubes
+ * and beams.  An averaged interface that is a large part of the skin comes on top.
+ */
+double reduction_memory(double n_coordinates, double kappa);
 
 /// Memory [byte] this process may still take: what the system has available, or its container allows; infinite where
 /// neither tells.
@@ -19,7 +31,8 @@ double coordinates_of(double n_tetrahedra);
 
 /// @throws std::invalid_argument if the mesh to be expected needs more memory than there is.
 /// @param advice  what would do, such as "use size = 0.1 m or more"
-void require_memory(double n_tetrahedra, double available, const std::string &place, const std::string &advice);
+void require_memory(double n_tetrahedra, double kappa, double available, const std::string &place,
+                    const std::string &advice);
 
 /// "1.2 GiB"
 std::string memory_text(double bytes);

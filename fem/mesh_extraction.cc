@@ -1,5 +1,6 @@
 #include "fem/mesh_extraction.h"
 
+#include "fem/cell_kinds.h"
 #include "fem/hexahedral_extraction.h"
 #include "fem/mesh_nodes.h"
 #include "fem/mesh_quality.h"
@@ -263,7 +264,7 @@ void note_nodes(Mesh &mesh, const MeshNodes &nodes)
 
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
-  if (holds_hexahedra(model))
+  if (kind_of_cells(model, head) == CellKind::hexahedra)
     return extract_hexahedra(model, head, options);
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;

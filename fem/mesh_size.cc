@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -22,14 +23,6 @@ double area_of(const CadModel &model, const std::vector<int> &tags)
   for (const Face &face : model.faces)
     if (std::find(tags.begin(), tags.end(), face.tag) != tags.end())
       area += face.area;
-  return area;
-}
-
-double skin_area(const CadModel &model)
-{
-  double area = 0.;
-  for (const Face &face : model.faces)
-    area += face.area;
   return area;
 }
 
@@ -117,11 +110,17 @@ int add_field(const std::vector<int> &tags, double s, double h)
 
 } // namespace
 
+double skin_area(const std::vector<Face> &faces)
+{
+  return std::accumulate(faces.begin(), faces.end(), 0., [](double sum, const Face &face) { return sum + face.area; });
+}
+
 double expected_cells(const CadModel &model, double size, const std::map<std::string, double> &surface_size,
                       const Selection &selection)
 {
   const double V = model.volume();
-  double n = std::max(cells_per_volume * V / std::pow(size, 3), cells_per_area * skin_area(model) / (size * size));
+  double       n =
+      std::max(cells_per_volume * V / std::pow(size, 3), cells_per_area * skin_area(model.faces) / (size * size));
   for (const auto &[name, s] : surface_size)
     n += std::min(cells_per_volume * area_of(model, selection.at(name)) / (2. * size_growth * s * s),
                   cells_per_volume * V / std::pow(s, 3));
@@ -131,7 +130,7 @@ double expected_cells(const CadModel &model, double size, const std::map<std::st
 double size_for_cells(const CadModel &model, double n_cells)
 {
   return round_up_to_two_digits(std::max(std::cbrt(cells_per_volume * model.volume() / n_cells),
-                                         std::sqrt(cells_per_area * skin_area(model) / n_cells)));
+                                         std::sqrt(cells_per_area * skin_area(model.faces) / n_cells)));
 }
 
 std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, const Selection &selection)

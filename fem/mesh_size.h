@@ -17,6 +17,9 @@ using Selection = std::map<std::string, std::vector<int>>;
 /// Elements grow from the size on a named surface to the global size by this much per length.
 constexpr double size_growth = 0.3;
 
+/// [m^2]
+double skin_area(const std::vector<Face> &faces);
+
 /**
  * Number of tetrahedra to be expected, right within a factor of about 1.5:
  *     max(10 V / h^3, 4.5 A / h^2),

@@ -89,10 +89,11 @@ void judge_memory(MeshedModel &result, const MeshOptions &options)
   const auto sizes       = resolve_surface_sizes(options, result.selection);
   result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
   const double available = available_memory();
+  const double kappa     = compactness(result.model.volume(), skin_area(result.model.faces));
   double       fitting   = result.expected_cells;
-  while (fitting > 1000. && reduction_memory(coordinates_of(fitting)) > available)
+  while (fitting > 1000. && reduction_memory(coordinates_of(fitting), kappa) > available)
     fitting *= 0.9;
-  require_memory(result.expected_cells, available, options.place,
+  require_memory(result.expected_cells, kappa, available, options.place,
                  "Use size = " + text(size_for_cells(result.model, fitting)) +
                      " m or more, larger sizes on surfaces, or a machine with more memory.");
 }
@@ -235,6 +236,8 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
   const auto work = [&]
   {
     result.model = read_cad(specification, session, attributes);
+    if (const std::string note = suspect_size(result.model, source_of(specification)); !note.empty())
+      result.model.notes.push_back(note);
     if (result.model.meshed)
       read_mesh(result, specification);
     else

@@ -66,7 +66,68 @@ NearestPoint nearest_point(const SurfacePatch &patch, const QuadraticMesh &mesh,
   return result;
 }
 
+using Triangles = std::vector<std::array<int, 6>>;
+
+Triangles triangles_of(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic)
+{
+  if (!interface.surfaces.empty())
+    return surface_patch(mesh, quadratic, interface.surfaces, interface.what + " \"" + interface.name + "\"",
+                         interface.place)
+        .faces;
+  return quadratic.skin;
+}
+
+std::string metres(const Vector3d &x)
+{
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ") m";
+  return text.str();
+}
+
 } // namespace
+
+CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic)
+{
+  if (!interface.position)
+    throw std::invalid_argument((interface.place.empty() ? "" : interface.place + ": ") + interface.what + " \"" +
+                                interface.name +
+                                "\" is a single node, which is found by its position; give one, near a node.");
+  const Eigen::Map<const Vector3d> wanted(interface.position->data());
+  int                              nearest = -1;
+  double                           least   = std::numeric_limits<double>::max();
+  for (const auto &face : triangles_of(interface, mesh, quadratic))
+    for (int k = 0; k < 3; ++k)
+      if (const double squared = (corner(quadratic, face, k) - wanted).squaredNorm(); squared < least)
+      {
+        least   = squared;
+        nearest = face[k];
+      }
+  CoupledPatch coupled{interface, {}, Vector3d(quadratic.points[nearest].data())};
+  coupled.patch.nodes    = {nearest};
+  coupled.patch.centroid = coupled.position;
+  return coupled;
+}
+
+std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance)
+{
+  std::vector<std::string> notes;
+  for (const CoupledPatch &coupled : interfaces)
+  {
+    const InterfaceSpecification &own = coupled.specification;
+    if (own.coupling != InterfaceCoupling::node)
+      continue;
+    const Eigen::Map<const Vector3d> wanted(own.position->data());
+    const double                     distance = (coupled.position - wanted).norm();
+    if (distance <= tolerance)
+      continue;
+    std::ostringstream text;
+    text << own.what << " \"" << own.name << "\" is the node at " << metres(coupled.position) << ", " << 1e3 * distance
+         << " mm from its position " << metres(wanted)
+         << ": elsewhere the mesh has none; a vertex of the geometry is always one";
+    notes.push_back(text.str());
+  }
+  return notes;
+}
 
 void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh)
 {

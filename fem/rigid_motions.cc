@@ -29,8 +29,9 @@ Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector
     const auto R = rigid_motions_of_point(interface.position, x0);
     for (int d = 0; d < 3; ++d)
     {
-      q.row(interface.coordinate[d])     = R.row(d);
-      q.row(interface.coordinate[3 + d]) = Eigen::RowVectorXd::Unit(6, 3 + d);
+      q.row(interface.coordinate[d]) = R.row(d);
+      if (const int rotation = interface.coordinate[3 + d]; rotation >= 0)
+        q.row(rotation) = Eigen::RowVectorXd::Unit(6, 3 + d);
     }
   }
   return q;

@@ -31,8 +31,13 @@ coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification
 {
   std::vector<fem::Interface> interfaces;
   for (const auto &interface : specification.interfaces)
+  {
     interfaces.push_back(
         {interface.name, interface.position.value_or(fem::Vector3{}), {0, 1, 2, 3, 4, 5}, {1., 1., 1., 1., 1., 1.}});
+    if (interface.coupling == fem::InterfaceCoupling::node)
+      for (int rotation = fem::rx; rotation <= fem::rz; ++rotation)
+        interfaces.back().coordinate[rotation] = -1;
+  }
   std::vector<std::string> outputs;
   for (const auto &cut : specification.cuts)
     outputs.push_back("cut." + cut.name);

@@ -141,13 +141,16 @@ fem::InterfaceSpecification read_interface(const SceneTable &table, const fem::F
   fem::InterfaceSpecification interface;
   interface.name             = table.name();
   interface.place            = table.place();
-  interface.surfaces         = read_surface_names(table, frame);
-  const std::string coupling = table.choice("coupling", {"rigid", "average", "point"}, "rigid");
+  const std::string coupling = table.choice("coupling", {"rigid", "average", "point", "node"}, "rigid");
   interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
                                : coupling == "average" ? fem::InterfaceCoupling::average
-                                                       : fem::InterfaceCoupling::point;
+                               : coupling == "point"   ? fem::InterfaceCoupling::point
+                                                       : fem::InterfaceCoupling::node;
   const bool point           = interface.coupling == fem::InterfaceCoupling::point;
-  if (point || table.has("position"))
+  const bool node            = interface.coupling == fem::InterfaceCoupling::node;
+  if (!node || table.has("surface") || table.has("surfaces"))
+    interface.surfaces = read_surface_names(table, frame);
+  if (point || node || table.has("position"))
     interface.position = table.vector("position", kind::length);
   if (table.has("radius") && !point)
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
@@ -213,8 +216,8 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
   std::map<std::string, std::string> owner;
   for (const auto &interface : specification.interfaces)
     for (const auto &surface : interface.surfaces)
-      if (interface.coupling == fem::InterfaceCoupling::point)
-        continue; // takes but a few triangles; that these are its own is checked on the mesh
+      if (interface.coupling == fem::InterfaceCoupling::point || interface.coupling == fem::InterfaceCoupling::node)
+        continue; // takes but a few nodes; that these are its own is checked on the mesh
       else if (const auto [first, is_new] = owner.emplace(surface, "interface '" + interface.name + "'"); !is_new)
         throw std::invalid_argument(interface.place + ": surface '" + surface + "' belongs to " + first->second +
                                     " already; give each interface surfaces of its own");

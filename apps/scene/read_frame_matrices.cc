@@ -22,6 +22,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double symmetry_tolerance     = 1e-9; // of the largest entry: files written with 10 digits pass
 constexpr double semidefinite_tolerance = 1e-9; // of unit diagonal, likewise
+constexpr double largest_entry          = 1e100;
+constexpr double vanishing_mass         = 1e-30; // of the largest
 
 const std::vector<std::string> motion_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
@@ -104,16 +106,22 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
                              "; frames with gyroscopic or follower terms cannot be taken, export the symmetric part");
 }
 
-/// Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
-/// lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -semidefinite_tolerance.
-void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix)
+void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Sparse &matrix)
 {
   const Eigen::VectorXd diagonal = matrix.diagonal();
   Eigen::Index          lowest;
   if (diagonal.minCoeff(&lowest) < 0.)
     throw frame.error(key, "is not positive semidefinite: row " + std::to_string(lowest + 1) + " has " +
-                               std::to_string(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
-  const double          largest = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
+                               number_text(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
+}
+
+/// Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
+/// lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -semidefinite_tolerance.
+void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix)
+{
+  require_positive_diagonal(frame, key, matrix);
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  const double          largest  = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
   const Eigen::VectorXd scale =
       diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
   Sparse unit(matrix.rows(), matrix.rows());
@@ -135,6 +143,21 @@ void check_mass(const SceneTable &frame, const Sparse &M, const Sparse &C)
       throw frame.error("mass", "row " + std::to_string(i + 1) +
                                     " has neither mass nor stiffness, so that nothing says how "
                                     "it moves; remove the row and column from all matrices");
+    else if (mass[i] > 0. && mass[i] < vanishing_mass * mass.maxCoeff())
+      throw frame.error("mass", "row " + std::to_string(i + 1) + " has " + number_text(mass[i]) +
+                                    " on the diagonal, next to nothing beside the largest, " +
+                                    number_text(mass.maxCoeff()) +
+                                    ": its frequency would be beyond all numbers; write 0 where there is no mass");
+}
+
+/// Products of the largest entries must stay numbers.
+void check_magnitude(const SceneTable &frame, const std::string &key, const Sparse &A)
+{
+  const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.;
+  if (largest > largest_entry || (largest > 0. && largest < 1. / largest_entry))
+    throw frame.error(key, "has " + number_text(largest) +
+                               " as its largest entry, which no frame has in kg, m, N and "
+                               "rad; check its units and how it was written");
 }
 
 /// n = 0: any size.
@@ -145,6 +168,7 @@ Sparse read_square(const SceneTable &frame, const std::string &key, const Kind &
     throw frame.error(key, "is " + shape(A.rows(), A.cols()) + ", but must be " +
                                (n > 0 ? shape(n, n) + " like the mass matrix" : "square"));
   check_symmetry(frame, key, A);
+  check_magnitude(frame, key, A);
   return A;
 }
 
@@ -281,6 +305,7 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
   matrices.M           = read_square(frame, "mass", kind::mass_entry, 0);
   const Eigen::Index n = matrices.M.rows();
   matrices.C           = read_square(frame, "stiffness", kind::stiffness_entry, n);
+  require_positive_diagonal(frame, "stiffness", matrices.C); // by the factor all of it is judged later
   matrices.B.resize(n, n);
   if (frame.is_table("damping"))
   {

@@ -12,7 +12,7 @@ namespace
 /// What solids have, and the units a number outside is usually meant in.
 struct Plausible
 {
-  const char *key, *unit;
+  const char *unit;
   double      least, most; ///< beyond these no solid is
   double      low, high;   ///< beyond these hardly any structure is
   const char *below, *above;
@@ -26,8 +26,7 @@ struct Plausible
 
 const Plausible &plausible_density()
 {
-  static const Plausible density{"rho",
-                                 "kg/m^3",
+  static const Plausible density{"kg/m^3",
                                  1.,
                                  30000.,
                                  50.,
@@ -41,7 +40,7 @@ const Plausible &plausible_density()
 const Plausible &plausible_modulus()
 {
   static const Plausible modulus{
-      "E", "Pa", 1e6, 2e12, 1e8, 1.2e12, "softer than rubber", "stiffer than diamond", {{"GPa", 1e9}, {"MPa", 1e6}}};
+      "Pa", 1e6, 2e12, 1e8, 1.2e12, "softer than rubber", "stiffer than diamond", {{"GPa", 1e9}, {"MPa", 1e6}}};
   return modulus;
 }
 
@@ -59,21 +58,32 @@ std::string likely_unit(const Plausible &range, double value, double common_low,
   return {};
 }
 
-/// Plain numbers no solid has are refused as a mistaken unit; with a unit beside them they are meant, and only warned
-/// of.
-void check_plausible(const SceneTable &table, const Plausible &range, double value, double common_low,
-                     double common_high)
+/// What speaks against a value; empty if nothing does.
+std::string suspicion(const Plausible &range, double value, double common_low, double common_high)
 {
   if (value >= range.low && value <= range.high)
-    return;
+    return {};
   std::ostringstream text;
   text << "is " << value << " " << range.unit << ", " << (value < range.low ? range.below : range.above)
        << likely_unit(range, value, common_low, common_high);
-  const bool impossible = value < range.least || value > range.most;
-  if (impossible && !table.is_text(range.key))
-    throw table.error(range.key, text.str() + "; numbers without unit are SI");
-  table.warn(range.key, text.str());
+  return text.str();
 }
+
+/// Plain numbers no solid has are refused as a mistaken unit; with a unit beside them they are meant, and only warned
+/// of.
+void check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
+                     double common_low, double common_high)
+{
+  const std::string text = suspicion(range, value, common_low, common_high);
+  if (text.empty())
+    return;
+  const bool impossible = value < range.least || value > range.most;
+  if (impossible && !table.is_text(key))
+    throw table.error(key, text + "; numbers without unit are SI");
+  table.warn(key, text);
+}
+
+constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
 
 fem::Material material_from(const SceneTable &table)
 {
@@ -84,8 +94,8 @@ fem::Material material_from(const SceneTable &table)
   material.place = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
-  check_plausible(table, plausible_modulus(), material.E, 5e9, 5e11);
-  check_plausible(table, plausible_density(), material.rho, 400., 20000.);
+  check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
+  check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common);
   return material;
 }
 
@@ -120,6 +130,24 @@ fem::Material read_material(const SceneTable &table, const SceneTable &scene, co
   fem::Material material = known.at(table.choice(key, names, fallback));
   material.place         = table.place(key);
   return material;
+}
+
+double read_plausible_density(const SceneTable &table)
+{
+  const double density = table.positive("density", kind::density);
+  check_plausible(table, "density", plausible_density(), density, lightest_common, heaviest_common);
+  return density;
+}
+
+void warn_of_density(const SceneTable &table, double mass, double volume)
+{
+  const std::string text = suspicion(plausible_density(), mass / volume, 0., 0.);
+  if (text.empty())
+    return;
+  std::ostringstream whole;
+  whole << "spread evenly over the " << volume << " m^3 of its shape, its density " << text
+        << ": is the mass in kg, and the unit of its `cad` right?";
+  table.warn("mass", whole.str());
 }
 
 std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,

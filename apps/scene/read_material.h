@@ -18,6 +18,12 @@ namespace gestell::apps
 fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key = "material",
                             const std::string &fallback = "steel");
 
+/// `density` of a body, judged as that of a material.
+double read_plausible_density(const SceneTable &table);
+
+/// Warns if a weighed mass and a volume [m^3] make a density that no solid has: the unit of one of them is wrong.
+void warn_of_density(const SceneTable &table, double mass, double volume);
+
 /// `materials` of a frame, by name of the solid.
 std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,
                                                                         const SceneTable &scene);

@@ -85,9 +85,11 @@ void check_keys(const SceneTable &table, coupling::BodyKind kind)
 
 double read_density(const SceneTable &table, const SceneTable &scene, double volume)
 {
-  if (table.has("mass"))
-    return table.positive("mass", kind::mass) / volume;
-  return table.has("density") ? table.positive("density", kind::density) : read_material(table, scene).rho;
+  if (!table.has("mass"))
+    return table.has("density") ? read_plausible_density(table) : read_material(table, scene).rho;
+  const double mass = table.positive("mass", kind::mass);
+  warn_of_density(table, mass, volume);
+  return mass / volume;
 }
 
 std::string triple(const Vector3d &x)

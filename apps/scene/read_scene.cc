@@ -1,3 +1,4 @@
+#include "apps/scene/node_interfaces.h"
 #include "apps/scene/read_bodies.h"
 #include "apps/scene/read_frame.h"
 #include "apps/scene/read_joints.h"
@@ -193,6 +194,7 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);
   table.finish();
+  refuse_rotations_of_nodes(scene);
   scene.warnings = table.warnings();
   return scene;
 }

@@ -18,6 +18,7 @@ using Eigen::MatrixXd;
 constexpr double most_growth   = 1e9;                       // of rounding in the inertia: beyond it a pivot met zero
 constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
 constexpr int    largest_block = 200;                       // with which missing modes are looked for
+constexpr int    most_rounds   = 4;                         // of finding modes that were missing
 constexpr double two_pi        = 6.283185307179586;
 
 } // namespace
@@ -54,6 +55,19 @@ LowestModes CountedModes::lowest(int count)
   if (search_)
     return search_->modes(count);
   return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+}
+
+LowestModes CountedModes::find_all(int count)
+{
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    find(count);
+    finish();
+    if (confirm())
+      return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+  }
+  throw ConvergenceFailure(kind_ + ": in " + std::to_string(most_rounds) +
+                           " rounds some were missing each time; ask for another number of modes");
 }
 
 void CountedModes::finish()

@@ -31,6 +31,10 @@ public:
   /// The lowest `count` of those found.
   LowestModes lowest(int count);
 
+  /// The lowest `count`, all there are below a gap: find(), finish() and confirm() until none is missing.
+  /// @throws ConvergenceFailure as these do, and if some are missing in every round.
+  LowestModes find_all(int count);
+
   /// No more will be asked for than the modes looked for last: gives back the memory of the search and of the factor.
   void finish();
 

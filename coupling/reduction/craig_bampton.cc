@@ -181,11 +181,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   options.n_modes = std::max(0, n_modes);
   const auto q1   = frame.interface_coordinates();
   require_valid(frame, q1, options);
-  HeldFrame      held(frame, q1);
-  ReductionBasis basis = basis_without_modes(held, frame, q1);
-  FixedModes     fixed(held, frame, q1);
-  fixed.find(options.n_modes);
-  const LowestModes modes = fixed.lowest(options.n_modes);
+  HeldFrame         held(frame, q1);
+  ReductionBasis    basis = basis_without_modes(held, frame, q1);
+  FixedModes        fixed(held, frame, q1);
+  const LowestModes modes = fixed.find_all(options.n_modes);
   basis.set_modes(modes.V, modes.omega);
   return basis;
 }
@@ -287,12 +286,14 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   return shapes;
 }
 
-Reduction reduce(Shapes shapes, std::vector<std::string> notes, const Statics &statics, const fem::FrameMatrices &frame)
+Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Statics &statics,
+                 const fem::FrameMatrices &frame)
 {
   const ReductionBasis &basis = shapes.basis;
   ReducedMatrices      &star  = shapes.star;
   ReducedFrame          reduced;
-  reduced.notes              = std::move(notes);
+  reduced.notes = frame.notes;
+  reduced.notes.insert(reduced.notes.end(), notes.begin(), notes.end());
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), shapes.refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -356,7 +357,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   {
     std::vector<std::string> notes;
     Shapes                   shapes  = held_shapes(std::move(basis), statics, fixed, frame, options, progress, notes);
-    Reduction                reduced = reduce(std::move(shapes), std::move(notes), statics, frame);
+    Reduction                reduced = reduce(std::move(shapes), notes, statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
     {
@@ -381,9 +382,8 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   tell(progress, "factorisation");
   HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  FixedModes fixed(free_frame, frame, {});
-  fixed.find(n_modes);
-  const LowestModes modes = fixed.lowest(n_modes);
+  FixedModes        fixed(free_frame, frame, {});
+  const LowestModes modes = fixed.find_all(n_modes);
   frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
   frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }

@@ -45,11 +45,13 @@ struct Reduction
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
                                    const Progress &progress = {}, const fem::RowsOnRanks *rows = nullptr);
 
-/// T itself with exactly n_modes modes, for those who need the internal coordinates back.
+/// T itself with exactly the lowest n_modes modes, of which none is missing, for those who need the internal
+/// coordinates back.
 ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes);
 
 /// Fills frame.modal_damping with the lowest n_modes modes of the supported frame (rigid motions are not damped):
-/// Z = M Phi, d = 2 zeta omega with zeta = frame.modal_damping_ratio.
+/// Z = M Phi, d = 2 zeta omega with zeta = frame.modal_damping_ratio.  That none is missing is proved by inertia, see
+/// FixedModes.
 /// @throws std::invalid_argument if the frame is not supported or has fewer coordinates; ConvergenceFailure.
 void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress = {});
 

@@ -4,9 +4,6 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/make_mesh_report.h"
 #include "coupling/reduction/openblas.h"
-#include "coupling/reduction/team_assembly.h"
-#include "fem/discretisation.h"
-#include "fem/mesher.h"
 
 namespace gestell::coupling
 {
@@ -23,15 +20,6 @@ public:
   }
 
   fem::Part measure(const fem::CadSource &part) override { return fem::measure_part(part); }
-
-  fem::FrameMatrices assemble(const fem::FrameSpecification &frame, const Progress &progress) override
-  {
-    use_one_blas_thread();
-    const fem::Mesh mesh = fem::make_mesh(frame, progress);
-    if (progress)
-      progress("assembly", -1.);
-    return fem::discretise(mesh, frame, team_assembly());
-  }
 
   ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
                       const Progress &progress) override

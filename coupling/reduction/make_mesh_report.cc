@@ -1,6 +1,7 @@
 #include "coupling/reduction/make_mesh_report.h"
 
 #include "fem/memory_estimate.h"
+#include "fem/mesh_size.h"
 #include "fem/mesher.h"
 
 #include <algorithm>
@@ -91,17 +92,18 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
 {
   const fem::GeometryReport geometry = fem::report_geometry(frame, progress);
   MeshReport                report;
-  report.n_points         = geometry.n_points;
-  report.n_cells          = geometry.n_cells;
-  report.n_coordinates    = geometry.n_coordinates;
-  report.cells            = geometry.hexahedra ? "hexahedra" : "tetrahedra";
-  report.size             = geometry.size;
-  report.volume           = geometry.volume;
-  report.mass             = geometry.volume * frame.material.rho;
-  report.worst_quality    = geometry.worst_quality;
-  report.mean_quality     = geometry.mean_quality;
-  report.expected_cells   = geometry.expected_cells;
-  report.memory           = fem::reduction_memory(geometry.n_coordinates);
+  report.n_points       = geometry.n_points;
+  report.n_cells        = geometry.n_cells;
+  report.n_coordinates  = geometry.n_coordinates;
+  report.cells          = geometry.hexahedra ? "hexahedra" : "tetrahedra";
+  report.size           = geometry.size;
+  report.volume         = geometry.volume;
+  report.mass           = geometry.volume * frame.material.rho;
+  report.worst_quality  = geometry.worst_quality;
+  report.mean_quality   = geometry.mean_quality;
+  report.expected_cells = geometry.expected_cells;
+  report.memory =
+      fem::reduction_memory(geometry.n_coordinates, fem::compactness(geometry.volume, fem::skin_area(geometry.faces)));
   report.available_memory = fem::available_memory();
   report.features         = features_of(geometry);
   report.notes            = geometry.notes;

@@ -35,7 +35,6 @@ public:
         craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
-    reduced.frame.notes.insert(reduced.frame.notes.begin(), mesh.notes.begin(), mesh.notes.end());
     reduced.frame.notes.push_back(mesh_statement(reduced, *discretisation.mesh_error, mesh));
     return {std::move(discretisation.matrices), std::move(reduced.frame)};
   }

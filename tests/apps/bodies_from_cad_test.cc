@@ -18,6 +18,7 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -118,6 +119,20 @@ TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)
   EXPECT_NEAR(slider.mass, 2. * m, 1e-9 * m);
   EXPECT_THAT(slider.part->found, HasSubstr("the sum of 2 solids"));
   EXPECT_NEAR(two.body("type = \"point\"\nmaterial = { E = 1e9, nu = 0.3, rho = 1000 }\n").mass, 4.8, 1e-8);
+}
+
+TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseWarnedOf)
+{
+  const Drawing     drawing(cuboid);
+  const std::string point = "cad = \"part.geo\"\ntype = \"point\"\n";
+  EXPECT_THAT(drawing.complaint(point + "density = 7.85e-9\n"),
+              AllOf(HasSubstr("body.b.density"), HasSubstr("if 7.85e-09 t/mm^3 was meant")));
+  EXPECT_THAT(drawing.scene(point + "density = \"40 kg/m^3\"\n").warnings,
+              ElementsAre(HasSubstr("body.b.density: is 40 kg/m^3, lighter than any solid")));
+  EXPECT_THAT(drawing.scene(point + "mass = 0.0188\n").warnings, // in tonnes
+              ElementsAre(AllOf(HasSubstr("body.b.mass: spread evenly over the 0.0024 m^3 of its shape"),
+                                HasSubstr("is 7.83333 kg/m^3, lighter than any solid"))));
+  EXPECT_TRUE(drawing.scene(point + "density = 7850\n").warnings.empty());
 }
 
 TEST(BodyFromCad, WhatIsMissingContradictsOrIsNoSolidIsRefused)

@@ -1,3 +1,4 @@
+#include "apps/scene/build_machine.h"
 #include "scene_text.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,53 @@ TEST(SceneFrame, MassesMaterialsAndPointsBecomeTheSpecification)
   ASSERT_NE(lug, frame.interfaces.end());
   EXPECT_EQ(lug->coupling, fem::InterfaceCoupling::point);
   EXPECT_DOUBLE_EQ(lug->radius, 0.05);
+}
+
+TEST(SceneFrame, ANodeTakesForcesAndPointsAtItsPositionButNothingThatTurnsWithIt)
+{
+  const std::string node = "[frame.interface.lug]\ncoupling = \"node\"\nposition = [1, 0, 0]\n";
+  const auto        with = [&](const std::string &more)
+  {
+    const SceneFolder folder;
+    folder.write("frame.step", "ISO-10303-21;");
+    try
+    {
+      apps::check_scene(
+          apps::read_scene(folder.write("scene.toml", cad_scene("[frame.cut", node + more + "[frame.cut"))));
+    }
+    catch (const std::invalid_argument &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(with(""), "");
+  EXPECT_EQ(with("[place.eye]\non = \"frame.lug\"\nat = [1, 0, 0]\n"
+                 "[element.spring]\ntype = \"spring-damper\"\nfrom = \"frame.lug\"\ndirection = [1, 0, 0]\n"
+                 "stiffness = 1e6\n"
+                 "[body.load]\ntype = \"rigid\"\nmass = 3\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\n"
+                 "[joint.ball]\ntype = \"spherical\"\nfrom = \"frame.lug\"\nto = \"load\"\nat = [1, 0, 0]\n"
+                 "[frame.mass.box]\nmass = 3\non = \"lug\"\n"),
+            "");
+
+  const std::vector<std::array<std::string, 2>> refused = {
+      {"[place.eye]\non = \"frame.lug\"\nat = [1, 0, 0.1]\n", "place.eye"},
+      {"[element.spring]\ntype = \"spring-damper\"\nfrom = \"frame.lug\"\nabout = [1, 0, 0]\nstiffness = 1e6\n",
+       "element.spring"},
+      {"[body.wheel]\ntype = \"rotor\"\naxis = [0, 1, 0]\ninertia = 1\non = \"frame.lug\"\n", "body.wheel"},
+      {"[body.load]\ntype = \"rigid\"\nmass = 3\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\n"
+       "[joint.weld]\ntype = \"rigid\"\nfrom = \"frame.lug\"\nto = \"load\"\nat = [1, 0, 0]\n",
+       "joint.weld"},
+      {"[element.extra]\ntype = \"point mass\"\non = \"frame.lug\"\nmass = 3\noffset = [0, 0, 1]\n", "element.extra"},
+      {"[measure.tilt]\ntype = \"angle\"\nfrom = \"frame.lug\"\nabout = [1, 0, 0]\n", "measure.tilt"}};
+  for (const auto &[more, place] : refused)
+  {
+    const std::string message = with(more);
+    EXPECT_NE(message.find(place), std::string::npos) << more << message;
+    EXPECT_NE(message.find("'frame.lug' is a single node of the frame's mesh, which has no rotation"),
+              std::string::npos)
+        << more << message;
+  }
 }
 
 TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
@@ -88,6 +136,7 @@ TEST(SceneFrame, MistakesInMassesMaterialsAndDampingAreReportedWithPlaceAndRemed
        "belongs to interface"},
       {"[frame.cut", "[frame.interface.two]\nsurface = \"feet\"\ncoupling = \"point\"\n[frame.cut",
        "frame.interface.two", "'position'"},
+      {"[frame.cut", "[frame.interface.two]\ncoupling = \"node\"\n[frame.cut", "frame.interface.two", "'position'"},
       {"[frame.cut", "[frame.interface.two]\nsurface = \"feet\"\nradius = 0.1\n[frame.cut",
        "frame.interface.two.radius", "belongs to coupling"}};
   for (const auto &[piece, replacement, place, words] : cases)

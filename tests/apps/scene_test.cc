@@ -240,20 +240,23 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     MatrixFrame, SceneMistake,
-    ::testing::Values(Mistake{"[0, \"13 t\"]]", "[0]]", "frame.mass", "row 2 has 1 entries"},
-                      Mistake{"[0, \"13 t\"]]", "[0, \"-13 t\"]]", "frame.mass", "row 2 has -13000"},
-                      Mistake{"0], [0, \"13 t\"]]", "\"12 t\"], [\"12 t\", \"13 t\"]]", "frame.mass",
-                              "not positive semidefinite"}, // 9.5 * 13 < 12^2
-                      Mistake{"[[\"9.5 t\", 0], [0, \"13 t\"]]", "[[0, 0], [0, 0]]", "frame.mass", "zeros"},
-                      Mistake{"[0, \"13 t\"]]", "[\"1 t\", \"13 t\"]]", "frame.mass", "one triangle of a symmetric matrix"},
-                      Mistake{"[0, \"13 t\"]]", "[0, \"13 kN\"]]", "frame.mass", "entry of a mass matrix"},
-                      Mistake{"\"3620 kN/mm\"]]", "\"-3620 kN/mm\"]]", "frame", "negative eigenvalue", 2},
-                      Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 3 }", "frame.interface.table.rows.-uz",
-                              "no row 3"},
-                      Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 1 }", "", "row 1 is crown.uz already"},
-                      Mistake{"rows = { \"-uz\" = 2 }", "rows = { up = 2 }", "", "is no motion"},
-                      Mistake{"[frame.interface.table]\nrows = { \"-uz\" = 2 }", "", "frame", "translations", 6},
-                      Mistake{"stiffness_row = [\"-3200 kN/mm\", ", "stiffness_row = [", "", "has 1 entries"}));
+    ::testing::Values(
+        Mistake{"[0, \"13 t\"]]", "[0]]", "frame.mass", "row 2 has 1 entries"},
+        Mistake{"[0, \"13 t\"]]", "[0, \"-13 t\"]]", "frame.mass", "row 2 has -13000"},
+        Mistake{"0], [0, \"13 t\"]]", "\"12 t\"], [\"12 t\", \"13 t\"]]", "frame.mass",
+                "not positive semidefinite"}, // 9.5 * 13 < 12^2
+        Mistake{"[[\"9.5 t\", 0], [0, \"13 t\"]]", "[[0, 0], [0, 0]]", "frame.mass", "zeros"},
+        Mistake{"[0, \"13 t\"]]", "[0, 1e-308]]", "frame.mass", "row 2 has 1e-308 on the diagonal, next to"},
+        Mistake{"[0, \"13 t\"]]", "[0, 1e308]]", "frame.mass", "has 1e+308 as its largest entry"},
+        Mistake{"[0, \"13 t\"]]", "[\"1 t\", \"13 t\"]]", "frame.mass", "one triangle of a symmetric matrix"},
+        Mistake{"[0, \"13 t\"]]", "[0, \"13 kN\"]]", "frame.mass", "entry of a mass matrix"},
+        Mistake{"\"3620 kN/mm\"]]", "\"-3620 kN/mm\"]]", "frame.stiffness", "row 2 has -3.62e+09 on the diagonal"},
+        Mistake{"\"3620 kN/mm\"]]", "\"1000 kN/mm\"]]", "frame", "negative eigenvalue", 2},
+        Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 3 }", "frame.interface.table.rows.-uz", "no row 3"},
+        Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 1 }", "", "row 1 is crown.uz already"},
+        Mistake{"rows = { \"-uz\" = 2 }", "rows = { up = 2 }", "", "is no motion"},
+        Mistake{"[frame.interface.table]\nrows = { \"-uz\" = 2 }", "", "frame", "translations", 6},
+        Mistake{"stiffness_row = [\"-3200 kN/mm\", ", "stiffness_row = [", "", "has 1 entries"}));
 
 TEST(SceneMistakes, OfTheFileItselfAreNamed)
 {

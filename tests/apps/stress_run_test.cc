@@ -64,9 +64,22 @@ double number(const std::string &json, const std::vector<std::string> &path)
   return std::stod(json.substr(json.find_first_of("0123456789-", at)));
 }
 
-std::string run(const Folder &folder, const std::string &scene)
+const std::string solid = "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 2, 0.2, 0.25};";
+
+/// The same bar in 16 x 2 x 2 hexahedra.
+const std::string bricks = R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 2, 0.2};
+Transfinite Curve{1, 3} = 17;
+Transfinite Curve{2, 4} = 3;
+Transfinite Surface{1};
+Recombine Surface{1};
+Extrude {0, 0, 0.25} { Surface{1}; Layers{2}; Recombine; }
+Mesh 3;
+)";
+
+std::string run(const Folder &folder, const std::string &scene, const std::string &drawing = solid)
 {
-  folder.file("bar.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 2, 0.2, 0.25};");
+  folder.file("bar.geo", drawing);
   const Answer answer = gestell("run " + folder.file("bar.toml", scene) + folder.option());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   return read(folder.results() / "summary.json");
@@ -90,6 +103,31 @@ TEST(StressRun, OfABarAtRestIsThatOfABeam)
   for (const char *name : {"stress.pvd", "stress/stress_00001.vtp", "charts/stress-1.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder.results() / name)) << name;
   EXPECT_NE(read(folder.results() / "report.html").find("Stress in the frame"), std::string::npos);
+}
+
+TEST(StressRun, OfHexahedraInBendingIsThatOfABeam)
+{
+  // Cubic deflections are beyond quadratic cells, by (h / L)^2 / 12 of the curvature or so: 3e-4 of 16 cells.
+  const Folder      folder("stress_hexahedra");
+  const std::string summary = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"), bricks);
+  const double      x       = number(summary, {"stress", "largest", "at"});
+  EXPECT_EQ(x, 0.25) << "two cells from the wall";
+  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 1e-3 * at_edge(x));
+  EXPECT_NEAR(number(summary, {"stress", "largest", "principal"}), at_edge(x), 1e-3 * at_edge(x));
+  EXPECT_LT(number(summary, {"stress", "largest", "disagreement"}), 0.01);
+}
+
+TEST(StressRun, OfHexahedraUnderTheirWeightIsExact)
+{
+  // Along the bar sigma = rho g (L - x): the displacement is quadratic, as the cells are.  Stresses of modes are kept
+  // in single precision.
+  const Folder folder("stress_weight");
+  std::string  scene = bar("[output.stress]\nat = [\"10 ms\"]\n");
+  scene.replace(scene.find("20 kN"), 5, "0 kN");
+  const std::string summary = run(folder, "gravity = [10, 0, 0]\n" + scene, bricks);
+  const double      x       = number(summary, {"stress", "largest", "at"});
+  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), 7850. * 10. * (length - x), 1e-5 * 7850. * 20.);
+  EXPECT_NEAR(number(summary, {"stress", "beside_rigid", "von_mises"}), 7850. * 10. * length, 1e-5 * 7850. * 20.);
 }
 
 TEST(StressRun, OfASuddenLoadIsTwiceThatOfASlowOneButForDamping)

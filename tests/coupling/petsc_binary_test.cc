@@ -116,7 +116,7 @@ TEST_F(PetscBinary, ErrorsNameFilePlaceAndRemedy)
   says(head + "00000001 00000002" + one, "a column is 2; it must be from 0 to 1");
   says(head + "00000003 00000000" + one, "entries of a row");
   says(head + "00000002 00000000" + one, "2 entries together, but 1");
-  says(head + "00000001 00000000 7ff8000000000000", "not a finite number");
+  says(head + "00000001 00000000 7ff8000000000000", "of row 1 and column 1, is not a finite number");
   says("00127b50 ffffffff 00000002 00000001", "number of rows is -1");
   EXPECT_THROW(coupling::read_petsc_matrix(file + ".absent"), std::invalid_argument);
 }

@@ -13,7 +13,10 @@
 using namespace gestell::fem;
 using namespace gestell::fem::test;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 namespace
@@ -118,6 +121,22 @@ TEST(StepFile, InAnotherUnitIsRecognisedByItsSize)
   EXPECT_THAT(refusal(specification(tiny, 0.1)), AllOf(HasSubstr("m across"), HasSubstr("unit = 1 m")));
 }
 
+TEST(StepFile, OfASizeFewFramesHaveIsTakenWithANote)
+{
+  const auto notes = [](double side)
+  {
+    const std::string box = draw("box of " + std::to_string(side) + " mm.step",
+                                 [side] { gmsh::model::occ::addBox(0., 0., 0., side, side, side); });
+    return make_mesh(specification(box, 0.5e-3 * side)).notes;
+  };
+  EXPECT_THAT(notes(10.), ElementsAre(AllOf(HasSubstr("is 0.017321 m across"), HasSubstr("metres, taken for milli"),
+                                            HasSubstr("unit = 1 m would make it 17.321 m"))));
+  EXPECT_THAT(notes(20.), IsEmpty());
+  EXPECT_THAT(notes(25e3), IsEmpty());
+  EXPECT_THAT(notes(60e3), ElementsAre(AllOf(HasSubstr("is 103.92 m across"), HasSubstr("millimetres, taken for m"),
+                                             HasSubstr("would make it 0.10392 m"))));
+}
+
 TEST(BrepFile, ThatWasCutOffIsRefusedThoughOpenCascadeWouldReadItForEver)
 {
   const std::string whole = read_text(draw("box.brep", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); }));
@@ -207,6 +226,37 @@ TEST(MeshFile, OfHexahedraIsTaken)
                                  gmsh::model::mesh::generate(3);
                                });
   EXPECT_EQ(refusal(specification(cad, 0.)), "");
+}
+
+TEST(MeshFile, OfTetrahedraBesideHexahedraIsRefusedWithTheirNumbers)
+{
+  const std::string cad = draw("mixed.msh",
+                               []
+                               {
+                                 namespace occ = gmsh::model::occ;
+                                 gmsh::vectorpair swept;
+                                 occ::addRectangle(0., 0., 0., 1., 1.);
+                                 occ::extrude({{2, 1}}, 0., 0., 1., swept, {2}, {}, true);
+                                 occ::addBox(3., 0., 0., 1., 1., 1.);
+                                 occ::synchronize();
+                                 for (int curve = 1; curve <= 4; ++curve)
+                                   gmsh::model::mesh::setTransfiniteCurve(curve, 3);
+                                 gmsh::model::mesh::setTransfiniteSurface(1);
+                                 gmsh::model::mesh::setRecombine(2, 1);
+                                 gmsh::model::mesh::generate(3);
+                               });
+  EXPECT_THAT(refusal(specification(cad, 0.)),
+              AllOf(StartsWith(frame), ContainsRegex("mixed.msh holds [0-9]+ tetrahedra and 8 hexahedra, but a mesh"),
+                    HasSubstr("gmsh: without Recombine")));
+}
+
+TEST(Script, ThatMeshesPrismsIsRefusedWithTheirNumber)
+{
+  const std::string cad = write_text(
+      "prisms.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nTransfinite Surface{1};\n"
+                    "Transfinite Curve{1:4} = 2;\nExtrude {0, 0, 1} { Surface{1}; Layers{3}; Recombine; }\n"
+                    "Mesh 3;\n");
+  EXPECT_THAT(refusal(specification(cad, 1.)), HasSubstr("prisms.geo holds 6 prisms (wedges), but a mesh must be of"));
 }
 
 TEST(ElementSize, ThatIsNotPositiveIsRefusedWithASizeThatWouldDo)

@@ -111,6 +111,20 @@ TEST(InpMesh, OfQuadraticTetrahedraComesInTheOrderOfGmsh)
   EXPECT_NEAR(volume_of_cells(make_mesh(specification(path, 0.))), 1. / 6., 1e-15);
 }
 
+TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
+{
+  const std::string brick = nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D8R\n1, 1,2,4,3,5,6,8,7\n";
+  EXPECT_THAT(told_of(brick + nodes_of_cube(9, 1.) + cells_of_cube(2, 9, "A") +
+                      "*ELEMENT, TYPE=C3D6\n8, 1,2,3,5,6,7\n*SURFACE, NAME=X\n8, S5\n*ELEMENT, TYPE=C3D5\n9, "
+                      "1,2,4,3,5\n"),
+              AllOf(StartsWith("scene.toml:3: frame: "),
+                    HasSubstr("mesh.inp holds 6 tetrahedra, 1 pyramids, 1 prisms "
+                              "(wedges) and 1 hexahedra, but a mesh must be of"),
+                    HasSubstr("Abaqus: C3D10")));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D15\n1, 1,2,3,5,6,7,1,1,1,1,1,1,1,1,1\n"),
+              HasSubstr("holds 1 prisms (wedges), but"));
+}
+
 TEST(InpMesh, OfHexahedraIsTaken)
 {
   const std::string  text = nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D8R\n1, 1,2,4,3,5,6,8,7\n";

@@ -223,6 +223,21 @@ TEST(FixedModes, PassedOverAreCountedSearchedForAndFound)
   EXPECT_NE(modes.statement().find("passed over"), std::string::npos) << modes.statement();
 }
 
+TEST(FixedModes, AreAllFoundInOneCall)
+{
+  fem::FrameMatrices frame;
+  frame.C          = test::cube_stiffness(9);
+  frame.M          = test::unit_mass(729);
+  const auto exact = test::cube_frequencies(9);
+
+  coupling::HeldFrame held(frame, {});
+  const LowestModes   modes = FixedModes(held, frame, {}, blocks_of(1)).find_all(20);
+  ASSERT_EQ(modes.omega.size(), 20);
+  ASSERT_EQ(modes.V.cols(), 20);
+  for (int j = 0; j < 20; ++j)
+    EXPECT_NEAR(modes.omega(j), exact[j], 1e-10 * exact[j]) << j;
+}
+
 TEST(FixedModes, AllFoundAreConfirmedAtOnce)
 {
   fem::FrameMatrices frame;

@@ -77,6 +77,34 @@ TEST(ModalDamping, ByModeOrByFrequencyGivesEachModeItsOwnRatio)
   }
 }
 
+TEST(ModalDamping, ReachesModesThatAreRepeatedMoreOftenThanTheSearchHasColumns)
+{
+  // Twenty chains of forty masses, fastened at both ends and to nothing else: every frequency comes twenty times,
+  // omega_1 = 2 sin(pi / 82).
+  constexpr int                       chains = 20, masses = 40, n = chains * masses;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i)
+  {
+    entries.emplace_back(i, i, 2.);
+    if (i % masses > 0)
+    {
+      entries.emplace_back(i, i - 1, -1.);
+      entries.emplace_back(i - 1, i, -1.);
+    }
+  }
+  fem::FrameMatrices frame;
+  frame.M.resize(n, n);
+  frame.M.setIdentity();
+  frame.B.resize(n, n);
+  frame.C.resize(n, n);
+  frame.C.setFromTriplets(entries.begin(), entries.end());
+  frame.modal_damping_ratio = 0.02;
+  coupling::add_modal_damping(frame, chains);
+  ASSERT_EQ(frame.modal_damping.d.size(), chains);
+  for (int j = 0; j < chains; ++j)
+    EXPECT_NEAR(frame.modal_damping.d(j), 0.04 * 2. * std::sin(M_PI / 82.), 1e-12) << j;
+}
+
 TEST(ModalDamping, CountsTheModesOfAFloatingFrameFromTheFirstElasticOne)
 {
   fem::ModalRatios ratios;

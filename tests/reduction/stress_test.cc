@@ -4,6 +4,7 @@
 #include "coupling/stress_field.h"
 #include "fem/discretisation.h"
 #include "tests/fem/box_mesh.h"
+#include "tests/fem/brick_mesh.h"
 #include "tests/fem/statics.h"
 
 #include <gtest/gtest.h>
@@ -38,6 +39,16 @@ fem::FrameMatrices loaded_block()
   specification.supports   = {test::clamped("floor", {"z0"})};
   specification.interfaces = {test::interface("load", {"z1"}, fem::InterfaceCoupling::average)};
   return fem::discretise(test::box_mesh({{2, 1, 1}}, {{0.8, 0.4, 0.3}}, 0.2), specification);
+}
+
+/// The block in hexahedra.
+fem::FrameMatrices loaded_bricks()
+{
+  auto specification       = test::free_steel();
+  specification.stress     = true;
+  specification.supports   = {test::clamped("floor", {"z0"})};
+  specification.interfaces = {test::interface("load", {"z1"}, fem::InterfaceCoupling::average)};
+  return fem::discretise(test::brick_mesh({{2, 1, 1}}, {{0.8, 0.4, 0.3}}, 0.2), specification);
 }
 
 ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
@@ -82,7 +93,7 @@ TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
   VectorXd F(6);
   F << 3e4, -1e4, -8e4, 2e3, 5e3, -1e3;
   const Eigen::Vector3d g(1., -2., -9.81);
-  for (const auto &frame : {column(), loaded_block()})
+  for (const auto &frame : {column(), loaded_block(), loaded_bricks()})
     for (const int modes : {0, 5})
     {
       const ReducedFrame small = reduced(frame, modes);
