@@ -13,6 +13,9 @@ namespace gestell::fem
 
 static_assert(std::is_same<idx_t, int>::value, "METIS must be built with 32-bit indices");
 
+namespace
+{
+
 std::vector<int> part_cells(const QuadraticMesh &mesh, int parts)
 {
   std::vector<int> part_of_cell(mesh.n_cells(), 0);
@@ -56,6 +59,21 @@ std::vector<int> part_nodes(const QuadraticMesh &mesh, const std::vector<int> &p
   return part_of_node;
 }
 
+} // namespace
+
+FrameDivision divide(const QuadraticMesh &mesh, const Kinematics &kinematics, int parts)
+{
+  FrameDivision division{part_nodes(mesh, part_cells(mesh, parts), parts),
+                         std::vector<int>(kinematics.n_coordinates(), -1)};
+  for (int i = 0; i < kinematics.n_displacements(); ++i)
+    for (const auto &[coordinate, weight] : kinematics.row(i))
+      if (kinematics.coordinate(i) == coordinate || division.part_of_coordinate[coordinate] < 0)
+        division.part_of_coordinate[coordinate] = division.part_of_node[i / 3];
+  if (std::count(division.part_of_coordinate.begin(), division.part_of_coordinate.end(), -1) > 0)
+    throw std::logic_error("divide: no node follows one of the coordinates");
+  return division;
+}
+
 namespace
 {
 
@@ -73,27 +91,46 @@ void take_cells(const std::vector<std::array<int, n>> &cells, const std::vector<
   }
 }
 
+/// Nodes whose cells the part needs.
+std::vector<char> nodes_needed(const Kinematics &kinematics, const FrameDivision &division, int part)
+{
+  std::vector<char> needed(division.part_of_node.size(), 0);
+  for (std::size_t node = 0; node < needed.size(); ++node)
+    needed[node] = division.part_of_node[node] == part;
+  for (int i = 0; i < kinematics.n_displacements(); ++i)
+    if (!needed[i / 3] && kinematics.coordinate(i) < 0)
+      for (const auto &[coordinate, weight] : kinematics.row(i))
+        if (division.part_of_coordinate[coordinate] == part)
+          needed[i / 3] = 1;
+  return needed;
+}
+
 } // namespace
 
 FramePart frame_part(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
-                     const std::vector<int> &part_of_cell, int part, std::vector<int> &nodes)
+                     const FrameDivision &division, int part, std::vector<int> &nodes)
 {
-  FramePart         result;
-  std::vector<int>  cells;
-  std::vector<char> used(mesh.n_nodes(), 0);
+  const std::vector<char> needed = nodes_needed(kinematics, division, part);
+  FramePart               result;
+  std::vector<int>        cells;
+  std::vector<char>       used(mesh.n_nodes(), 0);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    if (part_of_cell[cell] == part)
-    {
-      cells.push_back(cell);
-      for (int k = 0; k < mesh.nodes_per_cell(); ++k)
-        used[mesh.nodes(cell)[k]] = 1;
-    }
+  {
+    const int *const begin = mesh.nodes(cell), *const end = begin + mesh.nodes_per_cell();
+    if (std::none_of(begin, end, [&](int node) { return needed[node]; }))
+      continue;
+    cells.push_back(cell);
+    for (const int *node = begin; node != end; ++node)
+      used[*node] = 1;
+  }
   nodes.clear();
   std::vector<int> number(mesh.n_nodes(), -1);
   for (int node = 0; node < mesh.n_nodes(); ++node)
     if (used[node])
     {
       number[node] = static_cast<int>(nodes.size());
+      if (division.part_of_node[node] == part)
+        result.own_nodes.push_back(number[node]);
       nodes.push_back(node);
       result.mesh.points.push_back(mesh.points[node]);
     }
@@ -107,6 +144,11 @@ FramePart frame_part(const QuadraticMesh &mesh, const CellMaterials &materials, 
       result.mesh.curved.push_back(mesh.curved[cell]);
   }
   result.kinematics = kinematics.of_nodes(nodes);
+  for (std::size_t k = 0; k < result.kinematics.coordinates.size(); ++k)
+    if (division.part_of_coordinate[result.kinematics.coordinates[k]] == part)
+      result.own_coordinates.push_back(static_cast<int>(k));
+  std::sort(result.own_coordinates.begin(), result.own_coordinates.end(),
+            [&](int a, int b) { return result.kinematics.coordinates[a] < result.kinematics.coordinates[b]; });
   return result;
 }
 

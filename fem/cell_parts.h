@@ -9,22 +9,36 @@
 namespace gestell::fem
 {
 
-/// Which of `parts` every cell belongs to: parts alike in size, few faces between them (METIS, on the dual graph).
-std::vector<int> part_cells(const QuadraticMesh &mesh, int parts);
+/// Which of several parts of a frame every node, and every coordinate of q, belongs to.
+struct FrameDivision
+{
+  std::vector<int> part_of_node, part_of_coordinate;
+};
 
-/// Which part every node belongs to: the one with fewest nodes so far among those of its cells.
-std::vector<int> part_nodes(const QuadraticMesh &mesh, const std::vector<int> &part_of_cell, int parts);
+/**
+ * Cells are parted alike in size with few faces between them (METIS, on the dual graph); a node goes to the part with
+ * fewest nodes so far among those of its cells, a displacement with its node, any other coordinate with the first node
+ * that follows it.
+ */
+FrameDivision divide(const QuadraticMesh &mesh, const Kinematics &kinematics, int parts);
 
-/// The cells of one part with their nodes and nothing else, as one rank needs them.
+/**
+ * What one rank needs to sum up the rows of its coordinates without others: the cells at its nodes, and at all nodes
+ * that follow one of its coordinates; so those next to other parts belong to several.
+ *
+ * Cells and nodes stand in the order of the whole mesh.
+ */
 struct FramePart
 {
   QuadraticMesh     mesh; ///< points and cells
   CellMaterials     materials;
   Kinematics::Lists kinematics;
+  std::vector<int>  own_nodes;       ///< those that belong to the part, as numbered in `mesh`; ascending
+  std::vector<int>  own_coordinates; ///< those that belong to the part, as numbered in `kinematics`; in the order of q
 };
 
 /// @param nodes those of the part's cells in the whole mesh, ascending, are given back.
 FramePart frame_part(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
-                     const std::vector<int> &part_of_cell, int part, std::vector<int> &nodes);
+                     const FrameDivision &division, int part, std::vector<int> &nodes);
 
 } // namespace gestell::fem

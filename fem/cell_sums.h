@@ -24,16 +24,21 @@ struct CellSums
   double                             rigid_energy = 0.; ///< FrameFacts::rigid_energy
   Eigen::VectorXd                    nodal_mass;        ///< [n_nodes] kg
   MassProperties                     whole;
-  std::shared_ptr<const RowsOnRanks> rows;
+  std::shared_ptr<const RowsOnRanks> rows; ///< if several ranks have summed them up
 };
 
-/// Several ranks that share the cells among them and sum up their matrices.
+/// By this process alone.
+CellSums sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics);
+
+/// Several ranks that share the cells among them and sum up their matrices: each entry in the order of sum_cells(), so
+/// that it is the same to the last bit.
 class CellAssembly
 {
 public:
   virtual ~CellAssembly() = default;
 
-  /// @param C_beside, M_beside [n x n] of foundations and attached masses, added to C and M.
+  /// @param C_beside, M_beside [n x n] of foundations and attached masses, which the ranks add to their rows.
+  /// @returns C and M without them.
   virtual CellSums sum(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
                        const Eigen::SparseMatrix<double> &C_beside,
                        const Eigen::SparseMatrix<double> &M_beside) const = 0;

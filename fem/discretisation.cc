@@ -117,37 +117,8 @@ void add_support_forces(const Ingredients &of, const BlockMatrix &C, FrameMatric
     frame.outputs.push_back(std::move(output));
 }
 
-/// M, B, C and what is read off them, by this process alone.
-void add_matrices(const Ingredients &of, FrameMatrices &frame)
-{
-  const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
-  Eigen::SparseMatrix<double> rayleigh(kinematics.n_coordinates(), kinematics.n_coordinates());
-  // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
-  {
-    BlockMatrix C            = assemble_stiffness(mesh, materials);
-    frame.facts.rigid_energy = rigid_energy(mesh, C);
-    add_support_forces(of, C, frame);
-    if (specification.rayleigh_stiffness > 0.)
-      rayleigh += specification.rayleigh_stiffness * kinematics.project(C);
-    add_foundations(supports, &Support::stiffness, C);
-    frame.C = kinematics.project(C);
-  }
-  {
-    const BlockMatrix M = assemble_mass(mesh, materials);
-    frame.M             = kinematics.project(M);
-    if (specification.rayleigh_mass > 0.)
-      rayleigh += specification.rayleigh_mass * frame.M;
-    weigh(of, weigh(mesh, M), nodal_mass(M), frame);
-    if (!specification.masses.empty())
-      frame.M += mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
-  }
-  frame.B = kinematics.project(assemble_foundations(supports, &Support::damping, mesh.n_nodes()));
-  if (rayleigh.nonZeros() > 0)
-    frame.B += rayleigh;
-}
-
-/// The same by several ranks; what they keep.
-std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const CellAssembly &ranks, FrameMatrices &frame)
+/// M, B, C and what is read off them, by this process alone or by several ranks; what those keep.
+std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const CellAssembly *ranks, FrameMatrices &frame)
 {
   const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
   const auto foundations                                                    = [&](Vector3 Support::*totals)
@@ -155,7 +126,8 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
 
-  CellSums sums            = ranks.sum(mesh, materials, kinematics, C_beside, M_beside);
+  CellSums sums =
+      ranks ? ranks->sum(mesh, materials, kinematics, C_beside, M_beside) : sum_cells(mesh, materials, kinematics);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
@@ -163,9 +135,13 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
   weigh(of, sums.whole, sums.nodal_mass, frame);
   frame.B = foundations(&Support::damping);
   if (specification.rayleigh_stiffness > 0.)
-    frame.B += specification.rayleigh_stiffness * (frame.C - C_beside);
+    frame.B += specification.rayleigh_stiffness * frame.C;
   if (specification.rayleigh_mass > 0.)
-    frame.B += specification.rayleigh_mass * (frame.M - M_beside);
+    frame.B += specification.rayleigh_mass * frame.M;
+  if (C_beside.nonZeros() > 0)
+    frame.C += C_beside;
+  if (M_beside.nonZeros() > 0)
+    frame.M += M_beside;
   return sums.rows;
 }
 
@@ -220,12 +196,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
 
-  const Ingredients                  ingredients{specification, quadratic, materials, supports, kinematics, nodes};
-  std::shared_ptr<const RowsOnRanks> rows_on_ranks;
-  if (ranks)
-    rows_on_ranks = add_matrices(ingredients, *ranks, frame);
-  else
-    add_matrices(ingredients, frame);
+  auto rows_on_ranks = add_matrices({specification, quadratic, materials, supports, kinematics, nodes}, ranks, frame);
 
   frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);

@@ -73,14 +73,17 @@ Kinematics::Lists Kinematics::of_nodes(const std::vector<int> &nodes) const
       lists.column.push_back(column_[i] < 0 ? -1 : number_of(column_[i]));
   lists.n_free = static_cast<int>(lists.coordinates.size());
 
-  lists.tie_begin.push_back(0);
+  std::vector<std::pair<int, int>> ties; // rows of G_t, and their displacements in the lists
   for (std::size_t k = 0; k < lists.column.size(); ++k)
+    if (const int row = tied_row_[3 * nodes[k / 3] + static_cast<int>(k % 3)]; row >= 0)
+      ties.emplace_back(row, static_cast<int>(k));
+  std::sort(ties.begin(), ties.end());
+  lists.tied_row.assign(lists.column.size(), -1);
+  lists.tie_begin.push_back(0);
+  for (const auto &[row, displacement] : ties)
   {
-    const int row = tied_row_[3 * nodes[k / 3] + static_cast<int>(k % 3)];
-    lists.tied_row.push_back(row < 0 ? -1 : static_cast<int>(lists.tied.size()));
-    if (row < 0)
-      continue;
-    lists.tied.push_back(static_cast<int>(k));
+    lists.tied_row[displacement] = static_cast<int>(lists.tied.size());
+    lists.tied.push_back(displacement);
     for (decltype(G_t_)::InnerIterator entry(G_t_, row); entry; ++entry)
     {
       lists.tie_column.push_back(number_of(static_cast<int>(entry.col())));

@@ -47,7 +47,8 @@ class Kinematics
 public:
   explicit Kinematics(const Constraints &constraints);
 
-  /// The same of some nodes alone, as plain lists that can be sent: free coordinates first, in the order of the nodes.
+  /// The same of some nodes alone, as plain lists that can be sent: free coordinates first, in the order of the nodes;
+  /// ties in the order of the whole, so that project() sums them alike.
   struct Lists
   {
     int                 n_free = 0, n_coordinates = 0;

@@ -19,33 +19,30 @@ Eigen::Map<const Eigen::Vector3d> point(const QuadraticMesh &mesh, int node)
 
 } // namespace
 
-Eigen::VectorXd nodal_mass(const BlockMatrix &M)
+NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const Eigen::Vector3d &origin)
 {
   const BlockMatrix::Rows rows = M.rows();
-  Eigen::VectorXd         mass = Eigen::VectorXd::Zero(M.n_nodes());
+  NodalMasses             masses{Eigen::VectorXd::Zero(M.n_nodes()), Eigen::Matrix3Xd::Zero(3, M.n_nodes())};
   for (int i = 0; i < M.n_nodes(); ++i)
     for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
-      mass[i] += rows.values[k];
-  return mass;
+    {
+      masses.mass[i] += rows.values[k];
+      masses.moment.col(i) += rows.values[k] * (point(mesh, rows.columns[k]) - origin);
+    }
+  return masses;
 }
 
-MassProperties weigh(const QuadraticMesh &mesh, const BlockMatrix &M)
+MassProperties weigh(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin)
 {
-  const Eigen::VectorXd nodal = nodal_mass(M);
-  MassProperties        whole;
-  whole.mass = nodal.sum();
-  for (int i = 0; i < mesh.n_nodes(); ++i)
-    whole.centre += nodal[i] / whole.mass * point(mesh, i);
+  MassProperties whole;
+  whole.mass                = masses.mass.sum();
+  const Eigen::Vector3d arm = masses.moment.rowwise().sum() / whole.mass;
+  whole.centre              = origin + arm;
 
-  const BlockMatrix::Rows rows = M.rows();
-  Eigen::Matrix3d         S    = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
   for (int i = 0; i < mesh.n_nodes(); ++i)
-  {
-    Eigen::Vector3d y = Eigen::Vector3d::Zero();
-    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
-      y += rows.values[k] * (point(mesh, rows.columns[k]) - whole.centre);
-    S += (point(mesh, i) - whole.centre) * y.transpose();
-  }
+    S += (point(mesh, i) - origin) * masses.moment.col(i).transpose();
+  S -= whole.mass * arm * arm.transpose();
   S             = 0.5 * (S + S.transpose()).eval();
   whole.inertia = S.trace() * Eigen::Matrix3d::Identity() - S;
   return whole;
@@ -82,12 +79,13 @@ Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh)
   return middle;
 }
 
-RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle)
+RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle,
+                             const std::vector<int> &nodes)
 {
   using Motions                = Eigen::Matrix<double, 3, 6>;
   const BlockMatrix::Rows rows = C.rows();
   RigidEnergies           result;
-  for (int i = 0; i < mesh.n_nodes(); ++i)
+  for (const int i : nodes)
   {
     Motions force = Motions::Zero(), terms = Motions::Zero();
     for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
@@ -102,11 +100,6 @@ RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, co
     result.cancelling += u.cwiseAbs().cwiseProduct(terms).colwise().sum();
   }
   return result;
-}
-
-double rigid_energy(const QuadraticMesh &mesh, const BlockMatrix &C)
-{
-  return rigid_energies(mesh, C, middle_of_nodes(mesh)).share();
 }
 
 } // namespace gestell::fem

@@ -155,7 +155,11 @@ MumpsFactor::MumpsFactor(Mat A, const std::vector<int> &held, const std::vector<
   m.negative_pivots = m.infog(12);
   m.largest_memory  = m.infog(21);
   m.whole_memory    = m.infog(22);
-  m.row = m.column = {}, m.value = {};
+  m.id.irn_loc = m.id.jcn_loc = nullptr; // the entries are not needed any more: new vectors, for clear() keeps memory
+  m.id.a_loc                  = nullptr;
+  m.row                       = std::vector<int>();
+  m.column                    = std::vector<int>();
+  m.value                     = std::vector<double>();
 }
 
 MumpsFactor::~MumpsFactor() = default;

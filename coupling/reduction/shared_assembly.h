@@ -18,9 +18,8 @@ struct AssemblySource
 };
 
 /**
- * Sums up C and M, each rank the cells of its part of the mesh (fem::part_cells()), of which it has nothing else.
- *
- * Rows that several parts share are summed on the rank that owns their node; then rank 0 collects all of them.
+ * Sums up C and M, each rank the rows of its part of the frame (fem::divide()) from the cells it needs for them, of
+ * which it has nothing else; then rank 0 collects all rows.  Each entry is the sum of one process, in the same order.
  * Collective.
  *
  * @param source nullptr on the ranks above 0.

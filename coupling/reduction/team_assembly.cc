@@ -2,7 +2,6 @@
 
 #include "coupling/reduction/team_tasks.h"
 
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,9 +59,8 @@ private:
 
 const fem::CellAssembly *team_assembly()
 {
-  const Team *const team   = Team::of_this_run();
-  const char *const wanted = std::getenv("GESTELL_ASSEMBLE_ON_RANKS");
-  if (!team || !wanted || std::string(wanted) != "1")
+  const Team *const team = Team::of_this_run();
+  if (!team)
     return nullptr;
   static const TeamAssembly assembly(*team);
   return &assembly;

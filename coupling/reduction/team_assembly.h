@@ -6,8 +6,7 @@
 namespace gestell::coupling
 {
 
-/// The ranks of this run, summing up the cells of frames; nullptr in a run of one process, and unless the environment
-/// asks for it by GESTELL_ASSEMBLE_ON_RANKS=1: sums in another order move the lowest frequencies by some 1e-9.
+/// The ranks of this run, summing up the cells of frames; nullptr in a run of one process.
 const fem::CellAssembly *team_assembly();
 
 /// Number of the SharedMatrices that an assembly of this run has left on all ranks; 0 if there are none.

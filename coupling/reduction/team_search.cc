@@ -1,9 +1,12 @@
 #include "coupling/reduction/team_search.h"
 
+#include "coupling/integration/second_order_system.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,8 +22,8 @@ constexpr double gap    = 1e-3; // relative distance of two frequencies that a s
 /// Both, in ascending order.
 LowestModes joined(const LowestModes &a, const LowestModes &b)
 {
-  if (a.omega.size() == 0)
-    return b;
+  if (a.omega.size() == 0 || b.omega.size() == 0)
+    return a.omega.size() == 0 ? b : a;
   const auto       n = a.V.rows(), m = a.omega.size() + b.omega.size();
   Eigen::VectorXd  omega(m), bound(m);
   Eigen::MatrixXd  V(n, m);
@@ -44,8 +47,17 @@ TeamSearch::TeamSearch(const TeamHeldFrame &held, LowestModes known) : held_(hel
 void TeamSearch::find(int count)
 {
   const int most = std::min(count + beyond, held_.n_free());
-  while (int(found_.omega.size()) < most)
-    found_ = joined(found_, held_.lowest_modes(most - int(found_.omega.size()), found_.V));
+  while (int(found_.omega.size()) < most && !exhausted_)
+  {
+    const int wanted = most - int(found_.omega.size());
+    auto      more   = held_.lowest_modes(wanted, found_.V);
+    exhausted_       = int(more.omega.size()) < wanted;
+    found_           = joined(found_, more);
+  }
+  if (found_.omega.size() < count)
+    throw ConvergenceFailure("lowest modes: " + std::to_string(found_.omega.size()) + " of " + std::to_string(count) +
+                             " are found; ask for fewer modes: the mass matrix of the internal coordinates has no "
+                             "higher rank, or a part is almost loose");
 }
 
 LowestModes TeamSearch::modes(int count) const

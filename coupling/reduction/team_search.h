@@ -22,6 +22,7 @@ private:
 
   const TeamHeldFrame &held_;
   LowestModes          found_;
+  bool                 exhausted_ = false; // there were fewer than looked for
 };
 
 } // namespace gestell::coupling

@@ -1,5 +1,7 @@
 // A team of ranks with a task that fails, or does not, in the way the one argument says.  Called by team_test.
 
+#include "coupling/integration/second_order_system.h"
+#include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/team.h"
 #include "coupling/reduction/team_held_frame.h"
 #include "tests/reduction/lattice.h"
@@ -58,10 +60,38 @@ void count_modes(const Team &team)
             << std::endl;
 }
 
+/// Looks for modes up to all there are, and beyond: few points have mass.
+void exhaust_modes()
+{
+  gestell::test::Lattice lattice;
+  lattice.nx = 10, lattice.ny = 4, lattice.nz = 10;
+  auto                                frame = gestell::test::frame_of(lattice);
+  std::vector<Eigen::Triplet<double>> M;
+  for (int p = 100; p < 108; ++p) // one of them belongs to an interface: 21 internal coordinates have mass
+    for (int d = 0; d < 3; ++d)
+      M.emplace_back(3 * p + d, 3 * p + d, 2. + 0.1 * p + d);
+  frame.M.setFromTriplets(M.begin(), M.end());
+  for (const int count : {16, 19, 21, 22})
+    try
+    {
+      gestell::coupling::ReductionOptions options;
+      options.n_modes    = count;
+      const auto reduced = gestell::coupling::craig_bampton(frame, options);
+      std::cout << count << " of 21 modes found: " << reduced.omega0.size() << ", " << reduced.notes.front()
+                << std::endl;
+    }
+    catch (const gestell::coupling::ConvergenceFailure &failure)
+    {
+      std::cout << failure.what() << std::endl;
+    }
+}
+
 int lead(const std::string &how)
 {
   Team::use();
   const Team *team = Team::of_this_run();
+  if (how == "exhaust")
+    exhaust_modes();
   if (how == "count")
     count_modes(*team);
   try
