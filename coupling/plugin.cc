@@ -25,7 +25,7 @@ void *load_plugin(const fs::path &file)
 {
   void *handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle)
-    throw std::invalid_argument("frame_service: " + file.string() + " cannot be loaded: " + dlerror() +
+    throw std::invalid_argument("plugin: " + file.string() + " cannot be loaded: " + dlerror() +
                                 "; install the libraries it names");
   return handle;
 }
@@ -34,7 +34,7 @@ void *function_of_plugin(void *plugin, const char *name, const char *library)
 {
   void *const function = dlsym(plugin, name);
   if (!function)
-    throw std::invalid_argument(std::string("frame_service: ") + library + " is not a plugin of Gestell: " + dlerror() +
+    throw std::invalid_argument(std::string("plugin: ") + library + " is not a plugin of Gestell: " + dlerror() +
                                 "; rebuild it together with the program");
   return function;
 }

@@ -62,14 +62,10 @@ public:
   /// From now on the inertia takes the loads along motions that nothing holds.
   void relieve()
   {
-    MatrixXd saddle;
-    VectorXd residual;
-    balance_.evaluate(q_, lambda_, 1., saddle, residual);
-    const MatrixXd K = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
-    const MatrixXd Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    const auto [Z, K] = admissible();
     if (Z.cols() == 0)
       return;
-    const DenseModes modes = dense_modes(Z.transpose() * K * Z, Z.transpose() * M_ * Z, cancelled);
+    const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z, cancelled);
     const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
     floating_              = Z * modes.V.leftCols(n); // first, for omega ascends; what grows is no free motion
     if (modes.growth.head(n).any())
@@ -144,6 +140,22 @@ public:
   }
 
 private:
+  struct Admissible
+  {
+    MatrixXd Z; ///< motions that joints allow
+    MatrixXd K; ///< Z^T C Z, symmetric part
+  };
+  Admissible admissible()
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd C = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
+    MatrixXd       Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    MatrixXd       K = Z.transpose() * C * Z;
+    return {std::move(Z), std::move(K)};
+  }
+
   static std::string rate_text(double rate)
   {
     std::ostringstream text;
@@ -270,17 +282,13 @@ private:
   /// The fastest motion that leaves where the machine stands.
   Growth growing()
   {
-    MatrixXd saddle;
-    VectorXd residual;
-    balance_.evaluate(q_, lambda_, 1., saddle, residual);
-    const MatrixXd K = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
-    const MatrixXd Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
-    Growth         growth;
+    const auto [Z, K] = admissible();
+    Growth growth;
     if (Z.cols() == 0)
       return growth;
     try
     {
-      const DenseModes modes = dense_modes(Z.transpose() * K * Z, Z.transpose() * M_ * Z);
+      const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z);
       Eigen::Index     fastest;
       if (modes.growth.size() == 0)
         return growth;

@@ -1,55 +1,38 @@
 // Finds the plugin that holds PETSc: loading it takes half a second, which only those pay who ask for it.
 
 #include "apps/peers/stepper.h"
-
-#include <dlfcn.h>
+#include "coupling/plugin.h"
 
 #include <cstdlib>
-#include <filesystem>
+#include <memory>
 #include <stdexcept>
+#include <string>
 
 namespace gestell::peers
 {
 namespace
 {
 
-namespace fs = std::filesystem;
-
 constexpr const char *library = "libgestell_petsc_peers.so";
 
 using Entry = Stepper *(*)(Callbacks *, const PeerProblem *, const PeerOptions *);
 
-fs::path plugin()
-{
-  std::error_code ignored;
-  const fs::path  beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / library;
-  if (fs::exists(beside, ignored))
-    return beside;
-  const char *folder = std::getenv("GESTELL_PLUGIN_DIR");
-  return folder && fs::exists(fs::path(folder) / library, ignored) ? fs::path(folder) / library : fs::path();
-}
-
 Entry load()
 {
-  const fs::path path = plugin();
-  if (path.empty())
+  const auto file = coupling::find_plugin(library);
+  if (file.empty())
     throw std::invalid_argument(std::string("peers: ") + library +
                                 " not found: this build has no PETSc; build it with " + "GESTELL_FEM=ON.");
   setenv("OPENBLAS_NUM_THREADS", "1", 0); // read when the library loads: waiting threads spin
-  void *handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle)
-    throw std::invalid_argument("peers: " + path.string() + " cannot be loaded: " + dlerror());
-  const auto entry = reinterpret_cast<Entry>(dlsym(handle, "gestell_petsc_stepper"));
-  if (!entry)
-    throw std::invalid_argument("peers: " + path.string() + " is not a plugin of Gestell: " + dlerror());
-  return entry;
+  return reinterpret_cast<Entry>(
+      coupling::function_of_plugin(coupling::load_plugin(file), "gestell_petsc_stepper", library));
 }
 
 } // namespace
 
 bool petsc_available()
 {
-  return !plugin().empty();
+  return !coupling::find_plugin(library).empty();
 }
 
 std::unique_ptr<Stepper> make_petsc(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)

@@ -1,9 +1,10 @@
 #include "coupling/reduction/enough_modes.h"
 
+#include "coupling/reduction/rounded.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 namespace gestell::coupling
 {
@@ -59,22 +60,6 @@ int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &r
     (error <= tolerance ? high : low) = middle;
   }
   return high;
-}
-
-std::string percent(double x)
-{
-  std::ostringstream out;
-  out.precision(3);
-  out << 100. * x << " %";
-  return out.str();
-}
-
-std::string rounded(double x)
-{
-  std::ostringstream out;
-  out.precision(4);
-  out << x;
-  return out.str();
 }
 
 /// Whether the modes in the basis hold those that are needed, and how many these are.

@@ -2,10 +2,10 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/integration/second_order_system.h"
+#include "coupling/reduction/rounded.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace gestell::coupling
@@ -30,14 +30,6 @@ LowestModes dense_fixed_modes(const fem::FrameMatrices &frame, const std::vector
   LowestModes all{modes.omega, MatrixXd::Zero(M.rows(), modes.omega.size()), Eigen::VectorXd::Zero(modes.omega.size())};
   all.V(q2, Eigen::all) = modes.V;
   return all;
-}
-
-std::string rounded(double value)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
 }
 
 } // namespace

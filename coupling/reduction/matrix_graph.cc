@@ -40,24 +40,18 @@ Leaders leaders_of(Mat A, const std::vector<int> &held)
   const auto       is_held = [&](int row) { return std::binary_search(held.begin(), held.end(), row); };
   Leaders          leaders;
   std::vector<int> before;
-  int              first = 0, last = 0;
-  MatGetOwnershipRange(A, &first, &last);
-  for (int i = first; i < last; ++i)
-  {
-    PetscInt        count   = 0;
-    const PetscInt *columns = nullptr;
-    require_petsc(MatGetRow(A, i, &count, &columns, nullptr), "MatrixGraph");
-    if (i == first || is_held(i) || is_held(i - 1) || int(before.size()) != count ||
-        !std::equal(before.begin(), before.end(), columns))
-    {
-      before.assign(columns, columns + count);
-      leaders.row.push_back(i);
-      if (!is_held(i))
-        std::remove_copy_if(columns, columns + count, std::back_inserter(leaders.column), is_held);
-      leaders.begin.push_back(int(leaders.column.size()));
-    }
-    require_petsc(MatRestoreRow(A, i, &count, &columns, nullptr), "MatrixGraph");
-  }
+  for_each_own_row(A, "MatrixGraph",
+                   [&](PetscInt i, PetscInt count, const PetscInt *columns, const PetscScalar *)
+                   {
+                     if (!leaders.row.empty() && !is_held(i) && !is_held(i - 1) && int(before.size()) == count &&
+                         std::equal(before.begin(), before.end(), columns))
+                       return;
+                     before.assign(columns, columns + count);
+                     leaders.row.push_back(i);
+                     if (!is_held(i))
+                       std::remove_copy_if(columns, columns + count, std::back_inserter(leaders.column), is_held);
+                     leaders.begin.push_back(int(leaders.column.size()));
+                   });
   return leaders;
 }
 

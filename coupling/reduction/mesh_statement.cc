@@ -1,11 +1,11 @@
 #include "coupling/reduction/mesh_statement.h"
 
 #include "coupling/dense_modes.h"
+#include "coupling/reduction/rounded.h"
 #include "fem/wall_thickness.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 namespace gestell::coupling
@@ -18,22 +18,6 @@ constexpr int    most_modes = 6;     // whose stresses are looked at: each costs
 constexpr double cancelled  = 1e-10; // as in supported_modes()
 constexpr double two_pi     = 6.283185307179586;
 constexpr double coarse     = 0.02; // error from which a way out is told
-
-std::string percent(double share)
-{
-  std::ostringstream text;
-  text.precision(2);
-  text << 100. * share << " %";
-  return text.str();
-}
-
-std::string rounded(double value)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 } // namespace
 
@@ -58,16 +42,16 @@ std::string mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_
   if (error.size() > 0)
   {
     const double low = error.minCoeff(), high = error.maxCoeff();
-    text += "; judged by the stresses of the modes, frequencies up to " + rounded(reduced.frame.frequency_limit_hz) +
+    text += "; judged by the stresses of the modes, frequencies up to " + rounded(reduced.frame.frequency_limit_hz, 3) +
             " Hz are ";
-    text += std::isfinite(high) ? percent(low) + (low < high ? " to " + percent(high) : "") +
-                                      " too high, the first by " + percent(error[0])
+    text += std::isfinite(high) ? percent(low, 2) + (low < high ? " to " + percent(high, 2) : "") +
+                                      " too high, the first by " + percent(error[0], 2)
                                 : "of no use: errors take up the whole energy";
     const fem::WallThickness walls = fem::wall_thickness(mesh);
     if (walls.thin_share > 0.05)
-      text += "; " + percent(walls.thin_share) + " of the surface belongs to walls thinner than the elements, " +
-              rounded(walls.median_ratio) + " times on the average (thinnest wall " + rounded(1000. * walls.thinnest) +
-              " mm)";
+      text += "; " + percent(walls.thin_share, 2) + " of the surface belongs to walls thinner than the elements, " +
+              rounded(walls.median_ratio, 3) + " times on the average (thinnest wall " +
+              rounded(1000. * walls.thinnest, 3) + " mm)";
     if (!(high < coarse))
       text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls need "
               "far fewer coordinates";

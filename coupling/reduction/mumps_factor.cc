@@ -85,23 +85,17 @@ void read_lower_triangle(Mat A, const std::vector<int> &held, std::vector<int> &
                          std::vector<double> &value)
 {
   const auto is_held = [&](int i) { return std::binary_search(held.begin(), held.end(), i); };
-  int        first = 0, last = 0;
-  MatGetOwnershipRange(A, &first, &last);
-  for (int i = first; i < last; ++i)
-  {
-    PetscInt           count   = 0;
-    const PetscInt    *columns = nullptr;
-    const PetscScalar *values  = nullptr;
-    require_petsc(MatGetRow(A, i, &count, &columns, &values), "MumpsFactor");
-    for (int k = 0; k < count; ++k)
-      if (columns[k] == i || (columns[k] < i && !is_held(i) && !is_held(columns[k])))
-      {
-        row.push_back(i + 1);
-        column.push_back(columns[k] + 1);
-        value.push_back(is_held(i) ? std::max(std::abs(values[k]), 1e-300) : values[k]);
-      }
-    require_petsc(MatRestoreRow(A, i, &count, &columns, &values), "MumpsFactor");
-  }
+  for_each_own_row(A, "MumpsFactor",
+                   [&](PetscInt i, PetscInt count, const PetscInt *columns, const PetscScalar *values)
+                   {
+                     for (PetscInt k = 0; k < count; ++k)
+                       if (columns[k] == i || (columns[k] < i && !is_held(i) && !is_held(columns[k])))
+                       {
+                         row.push_back(i + 1);
+                         column.push_back(columns[k] + 1);
+                         value.push_back(is_held(i) ? std::max(std::abs(values[k]), 1e-300) : values[k]);
+                       }
+                   });
 }
 
 } // namespace

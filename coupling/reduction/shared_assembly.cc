@@ -170,19 +170,13 @@ struct Rows
 Rows own_rows(Mat A)
 {
   Rows rows;
-  int  first = 0, last = 0;
-  MatGetOwnershipRange(A, &first, &last);
-  for (int i = first; i < last; ++i)
-  {
-    PetscInt           count   = 0;
-    const PetscInt    *columns = nullptr;
-    const PetscScalar *values  = nullptr;
-    require_petsc(MatGetRow(A, i, &count, &columns, &values), "assemble_on_ranks");
-    rows.column.insert(rows.column.end(), columns, columns + count);
-    rows.value.insert(rows.value.end(), values, values + count);
-    rows.begin.push_back(int(rows.column.size()));
-    require_petsc(MatRestoreRow(A, i, &count, &columns, &values), "assemble_on_ranks");
-  }
+  for_each_own_row(A, "assemble_on_ranks",
+                   [&](PetscInt, PetscInt count, const PetscInt *columns, const PetscScalar *values)
+                   {
+                     rows.column.insert(rows.column.end(), columns, columns + count);
+                     rows.value.insert(rows.value.end(), values, values + count);
+                     rows.begin.push_back(int(rows.column.size()));
+                   });
   return rows;
 }
 

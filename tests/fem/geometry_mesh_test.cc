@@ -5,6 +5,7 @@
 #include "fem/mesher.h"
 #include "fem/vector3.h"
 #include "tests/fem/cad_samples.h"
+#include "tests/fem/mesh_measures.h"
 
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -21,14 +22,6 @@ using namespace gestell::fem::test;
 namespace
 {
 
-double volume_of_cells(const Mesh &mesh)
-{
-  double V = 0.;
-  for (const auto &cell : mesh.cells)
-    V += six_volumes(mesh, cell) / 6.;
-  return V;
-}
-
 /// Gauss:  V = 1/3 of the integral of x.n over the skin, exact for plane triangles.
 double volume_of_skin(const Mesh &mesh)
 {
@@ -36,18 +29,6 @@ double volume_of_skin(const Mesh &mesh)
   for (const auto &[a, b, c] : mesh.skin)
     V += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c])) / 6.;
   return V;
-}
-
-/// Integral of the outward normal over a named surface [m^2].
-Vector3 area_vector(const Mesh &mesh, const std::string &surface)
-{
-  Vector3 sum{};
-  for (const int t : mesh.surfaces.at(surface))
-  {
-    const auto &[a, b, c] = mesh.skin[t];
-    sum                   = sum + 0.5 * cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-  }
-  return sum;
 }
 
 double longest_edge(const Mesh &mesh, const std::string &surface)

@@ -5,6 +5,7 @@
 #include "fem/mesher.h"
 #include "fem/vector3.h"
 #include "tests/fem/cad_samples.h"
+#include "tests/fem/mesh_measures.h"
 
 #include <gmock/gmock.h>
 #include <gmsh.h>
@@ -51,25 +52,6 @@ std::string cube()
          "210000, 0.3\n";
 }
 
-double volume(const Mesh &mesh)
-{
-  double sum = 0.;
-  for (const auto &cell : mesh.cells)
-    sum += six_volumes(mesh, cell) / 6.;
-  return sum;
-}
-
-Vector3 area_vector(const Mesh &mesh, const std::string &surface)
-{
-  Vector3 sum{};
-  for (const int t : mesh.surfaces.at(surface))
-  {
-    const auto &[a, b, c] = mesh.skin[t];
-    sum                   = sum + 0.5 * cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-  }
-  return sum;
-}
-
 std::string told_of(const std::string &text)
 {
   return refusal(specification(write_text("mesh.inp", text), 0.));
@@ -81,7 +63,7 @@ TEST(InpMesh, IsTakenWithItsSolidsAndItsNodeSetsAsSurfaces)
   s.surfaces["foot"]   = group("FOOT");
   s.surfaces["right"]  = plane({1., 0., 0.}, {1., 0., 0.}); // surfaces come from the skin's sharp edges
   const Mesh mesh      = make_mesh(s);
-  EXPECT_NEAR(volume(mesh), 1., 1e-14);
+  EXPECT_NEAR(volume_of_cells(mesh), 1., 1e-14);
   EXPECT_EQ(mesh.solids, std::vector<std::string>{"BLOCK"});
   EXPECT_NEAR(norm(area_vector(mesh, "foot") - Vector3{0., 0., -1.}), 0., 1e-14);
   EXPECT_NEAR(norm(area_vector(mesh, "right") - Vector3{1., 0., 0.}), 0., 1e-14);
@@ -95,7 +77,7 @@ TEST(InpMesh, InMillimetresIsScaledByItsUnit)
       text.replace(at, from.size(), ", 1.0D3");
   FrameSpecification s = specification(write_text("mm.inp", text), 0.);
   s.unit               = 1e-3;
-  EXPECT_NEAR(volume(make_mesh(s)), 1e-6, 1e-18); // 1 mm x 1 mm x 1 m
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 1e-6, 1e-18); // 1 mm x 1 mm x 1 m
 }
 
 TEST(InpMesh, TakesSurfacesOfElementSides)
@@ -126,7 +108,7 @@ TEST(InpMesh, OfQuadraticTetrahedraComesInTheOrderOfGmsh)
   const InpMesh     mesh = read_inp({path, 0., "here"});
   ASSERT_EQ(mesh.elements.size(), 1u);
   EXPECT_EQ(mesh.elements[0].nodes, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 10, 9}));
-  EXPECT_NEAR(volume(make_mesh(specification(path, 0.))), 1. / 6., 1e-15);
+  EXPECT_NEAR(volume_of_cells(make_mesh(specification(path, 0.))), 1. / 6., 1e-15);
 }
 
 TEST(InpMesh, OfHexahedraIsTaken)
@@ -153,7 +135,7 @@ TEST(InpMesh, WrittenByGmshIsRead)
   FrameSpecification s   = specification(cad, 0.);
   s.surfaces["top"]      = plane({0., 0., 1.}, {0., 0., 1.});
   const Mesh mesh        = make_mesh(s);
-  EXPECT_NEAR(volume(mesh), 1., 1e-9);
+  EXPECT_NEAR(volume_of_cells(mesh), 1., 1e-9);
   EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-9);
 }
 
@@ -201,7 +183,7 @@ TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
   s.mesh.gap           = 1e-6;
   const Mesh merged    = make_mesh(s);
   EXPECT_EQ(merged.points.size(), 12u);
-  EXPECT_NEAR(volume(merged), 2., 1e-14);
+  EXPECT_NEAR(volume_of_cells(merged), 2., 1e-14);
   EXPECT_THAT(merged.notes, Contains(HasSubstr("4 nodes are taken for one with another")));
   s.mesh.gap    = 0.;
   s.mesh.bodies = 2;

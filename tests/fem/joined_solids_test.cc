@@ -4,6 +4,7 @@
 #include "fem/mesher.h"
 #include "fem/vector3.h"
 #include "tests/fem/cad_samples.h"
+#include "tests/fem/mesh_measures.h"
 
 #include <gmock/gmock.h>
 #include <gmsh.h>
@@ -31,14 +32,6 @@ std::string two_cubes(double x, double y = 0., double z = 0.)
               });
 }
 
-double volume(const Mesh &mesh)
-{
-  double sum = 0.;
-  for (const auto &cell : mesh.cells)
-    sum += six_volumes(mesh, cell) / 6.;
-  return sum;
-}
-
 double area_of_skin(const Mesh &mesh)
 {
   double sum = 0.;
@@ -51,7 +44,7 @@ TEST(SolidsThatTouch, ShareTheNodesOfTheirCommonFace)
 {
   const Mesh mesh = make_mesh(specification(two_cubes(100., 20., 0.), 0.05));
   EXPECT_EQ(mesh.solids.size(), 2u);
-  EXPECT_NEAR(volume(mesh), 2e-3, 1e-12);
+  EXPECT_NEAR(volume_of_cells(mesh), 2e-3, 1e-12);
   EXPECT_NEAR(area_of_skin(mesh), 12 * 0.01 - 2 * 0.1 * 0.08, 1e-10); // what they share is inside
   ASSERT_FALSE(mesh.notes.empty());
   EXPECT_THAT(mesh.notes[0], HasSubstr("2 solids are joined at 1 common face"));
@@ -70,7 +63,7 @@ TEST(SolidsThatOverlap, AreRefusedWithTheVolumeThatWouldCountTwice)
                                                        HasSubstr("overlaps = \"once\"")));
   FrameSpecification s = specification(cad, 0.05);
   s.mesh.overlaps      = Overlaps::once;
-  EXPECT_NEAR(volume(make_mesh(s)), 1.5e-3, 1e-12);
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 1.5e-3, 1e-12);
 }
 
 TEST(SolidsWithAGap, AreRefusedWithItsWidthItsPlaceAndItsFaces)
@@ -86,7 +79,7 @@ TEST(SolidsWithAGap, AreJoinedWhereTheGapIsAllowed)
   FrameSpecification s = specification(two_cubes(100.05), 0.05);
   s.mesh.gap           = 0.1e-3;
   const Mesh mesh      = make_mesh(s);
-  EXPECT_NEAR(volume(mesh), 2e-3, 2e-6); // 0.05 mm of 200 mm
+  EXPECT_NEAR(volume_of_cells(mesh), 2e-3, 2e-6); // 0.05 mm of 200 mm
   EXPECT_NEAR(area_of_skin(mesh), 10 * 0.01, 1e-4);
 }
 
@@ -94,7 +87,7 @@ TEST(SolidsWithAGap, AreTwoBodiesWhereTwoAreExpected)
 {
   FrameSpecification s = specification(two_cubes(100.05), 0.05);
   s.mesh.bodies        = 2;
-  EXPECT_NEAR(volume(make_mesh(s)), 2e-3, 1e-12);
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 2e-3, 1e-12);
   s.mesh.bodies = 3;
   EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:4: frame.mesh"), HasSubstr("bodies = 3"), HasSubstr("holds 2")));
 }
