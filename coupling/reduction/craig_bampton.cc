@@ -233,12 +233,19 @@ void warn_of_few_modes(const ReductionBasis &basis, int n, const ReductionOption
 }
 
 /// @param basis with its constraint modes.
-Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fixed, const fem::FrameMatrices &frame,
-                   const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame &held, FixedModes &fixed,
+                   const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
+                   std::vector<std::string> &notes)
 {
-  Shapes shapes{std::move(basis), {}, {}, {}, 0.};
+  Shapes   shapes{std::move(basis), {}, {}, {}, 0.};
+  MatrixXd more = statics.relief;
   if (options.n_modes < 0)
-    shapes.refined = enough_modes(shapes.basis, fixed, statics.response, frame, options, progress, notes);
+  {
+    auto enough    = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
+    shapes.refined = std::move(enough.refined);
+    more.resize(frame.M.rows(), enough.shapes.cols() + statics.relief.cols());
+    more << enough.shapes, statics.relief;
+  }
   else
   {
     tell(progress, "fixed-interface modes");
@@ -256,13 +263,13 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, FixedModes &fix
   {
     const InterfaceReceptance receptance(shapes.basis, shapes.star, statics.response, shapes.refined,
                                          frame.modal_damping_ratio, two_pi * options.frequency);
-    notes.push_back(receptance_statement(receptance, shapes.basis, m, options.frequency));
+    notes.push_back(receptance_statement(receptance, shapes.basis, {m}, options.frequency));
   }
   if (options.n_modes >= 0)
     warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
   shapes.damped = shapes.refined;
   shapes.limit  = highest_of_interest(options, shapes.refined);
-  if (append_shapes(shapes.basis, frame, statics.relief) > 0)
+  if (append_shapes(shapes.basis, frame, std::move(more)) > 0)
   {
     shapes.star   = reduced_matrices(shapes.basis, frame.B, frame.C);
     shapes.damped = ritz_modes(shapes.star);
@@ -356,8 +363,8 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   for (int round = 0; round < most_rounds; ++round)
   {
     std::vector<std::string> notes;
-    Shapes                   shapes  = held_shapes(std::move(basis), statics, fixed, frame, options, progress, notes);
-    Reduction                reduced = reduce(std::move(shapes), notes, statics, frame);
+    Shapes    shapes  = held_shapes(std::move(basis), statics, held, fixed, frame, options, progress, notes);
+    Reduction reduced = reduce(std::move(shapes), notes, statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
     {

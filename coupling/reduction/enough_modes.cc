@@ -65,8 +65,8 @@ int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &r
 /// Whether the modes in the basis hold those that are needed, and how many these are.
 struct Judgement
 {
-  bool        good   = false;
-  int         fewest = 0;
+  bool        good = false;
+  InsideCount fewest;
   std::string shortcoming; // if not good
 };
 
@@ -75,33 +75,48 @@ Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &
 {
   const double error = largest_error(frequency_estimate(star, basis.n1(), basis.m(), refined), refined, limit);
   if (error > tolerance)
-    return {false, 0, "a frequency error of " + percent(error)};
-  return {true, smallest_number(star, basis.n1(), refined, tolerance, limit), "a frequency that may be missing"};
+    return {false, {}, "a frequency error of " + percent(error)};
+  return {true, {smallest_number(star, basis.n1(), refined, tolerance, limit)}, "a frequency that may be missing"};
 }
 
-Judgement judge_receptance(const InterfaceReceptance &receptance, int m, double tolerance)
+/// @param more there are than the m known: modes alone may yet be fewer than with shapes.
+Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool more, double tolerance)
 {
-  const double doubt  = receptance.uncertainty();
-  const int    fewest = doubt < allowed_doubt * tolerance ? receptance.fewest(tolerance - doubt) : -1;
-  return {fewest >= 0, fewest, "an error of the interface's receptance of " + percent(receptance.error(m) + doubt)};
+  Judgement    judgement;
+  const double doubt = receptance.uncertainty();
+  judgement.shortcoming =
+      "an error of the interface's receptance of " + percent(receptance.error(m, Inside::modes) + doubt);
+  if (doubt >= allowed_doubt * tolerance)
+    return judgement;
+  const InsideCount modes  = receptance.fewest(tolerance - doubt, Inside::modes),
+                    shapes = receptance.fewest(tolerance - doubt, Inside::modes_and_shapes);
+  const bool by_shapes =
+      shapes.enough() && (modes.enough() ? shapes.total() < modes.total() : shapes.total() <= m || !more);
+  judgement.fewest = by_shapes ? shapes : modes;
+  judgement.good   = judgement.fewest.enough();
+  return judgement;
 }
 
 } // namespace
 
-std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis, int m,
-                                 double frequency_hz)
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
+                                 const InsideCount &inside, double frequency_hz)
 {
-  const auto within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
-  const auto known       = within_rule < basis.m() || basis.m() == 0;
-  return "reduction: " + std::to_string(m) + " fixed-interface modes keep the receptance of the interface up to " +
-         rounded(frequency_hz) + " Hz within " + percent(receptance.error(m) + receptance.uncertainty()) +
+  const auto   within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
+  const auto   known       = within_rule < basis.m() || basis.m() == 0;
+  const bool   with_shapes = inside.shapes > 0;
+  const double error =
+      receptance.error(inside.modes, with_shapes ? Inside::modes_and_shapes : Inside::modes) + receptance.uncertainty();
+  return "reduction: " + std::to_string(inside.modes) + " fixed-interface modes " +
+         (with_shapes ? "and " + std::to_string(inside.shapes) + " static shapes of the inertia " : "") +
+         "keep the receptance of the interface up to " + rounded(frequency_hz) + " Hz within " + percent(error) +
          " of the full frame's; the rule of " + rounded(rule) + " times the highest frequency would take " +
          (known ? "" : "at least ") + std::to_string(within_rule);
 }
 
-SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const InteriorResponse &response,
-                            const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
-                            std::vector<std::string> &notes)
+EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
+                         const InteriorResponse &response, const fem::FrameMatrices &frame,
+                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
 {
   const int  n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
   const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
@@ -114,8 +129,9 @@ SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const Inte
     basis.set_modes(modes.V, modes.omega);
     if (progress)
       progress("error estimate", -1.);
-    const ReducedMatrices star    = reduced_matrices(basis, frame.B, frame.C);
-    SupportedModes        refined = supported_modes(basis, star, response);
+    const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+    EnoughModes           found{supported_modes(basis, star, response), Eigen::MatrixXd(frame.M.rows(), 0)};
+    const SupportedModes &refined = found.refined;
     const double          within  = highest_of_interest(options, refined);
     const double          highest = m > 0 && m < n2 ? basis.omega0(m - 1) : INFINITY;
     const bool            reaches = highest >= reach * within;
@@ -123,9 +139,9 @@ SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const Inte
     std::optional<InterfaceReceptance> receptance;
     if (by_receptance && highest > within)
       receptance.emplace(basis, star, response, refined, frame.modal_damping_ratio, within);
-    Judgement judgement{false, 0, "modes below that frequency out"};
+    Judgement judgement{false, {}, "modes below that frequency out"};
     if (receptance)
-      judgement = judge_receptance(*receptance, m, options.tolerance);
+      judgement = judge_receptance(*receptance, m, m < most, options.tolerance);
     else if (!by_receptance)
       judgement = judge_frequencies(basis, star, refined, options.tolerance, within);
     const bool good = judgement.good && reaches;
@@ -139,11 +155,13 @@ SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const Inte
     {
       if (receptance)
         notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency));
-      basis.truncate(judgement.fewest);
-      fixed.find(judgement.fewest); // known by then: that many are to be proved complete
+      basis.truncate(judgement.fewest.modes);
+      if (judgement.fewest.shapes > 0)
+        found.shapes = inertia_shapes(held, basis);
+      fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
     }
     fixed.finish();
-    return refined;
+    return found;
   }
 }
 

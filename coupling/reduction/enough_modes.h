@@ -17,25 +17,33 @@ double highest_of_interest(const ReductionOptions &options, const SupportedModes
 
 /// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", and what
 /// the book's rule, modes up to 3.5 times the highest frequency, would take.
-std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis, int m,
-                                 double frequency_hz);
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
+                                 const InsideCount &inside, double frequency_hz);
+
+/// What enough_modes() found.
+struct EnoughModes
+{
+  SupportedModes  refined; // the choice rests on them
+  Eigen::MatrixXd shapes;  // [n x n1] to be appended to the modes, or [n x 0]
+};
 
 /**
  * Brings the basis to the smallest number m of modes that will do.
  *
  * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
- * frame's (InterfaceReceptance).  Without, or without an interface: the twelve lowest elastic frequencies of the
- * supported frame are.
+ * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
+ * are fewer together.  Without, or without an interface: the twelve lowest elastic frequencies of the supported frame
+ * are, by modes.
  *
  * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
  * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is
  * then looked for among the modes there are.  At 200 modes growth
  * stops, for frequencies at the book's rule, modes up to 3.5 times the highest; then a note tells what was reached.
  *
- * @return the refined modes the choice rests on.
+ * @param held with its factor, unless `fixed` makes it anew.
  */
-SupportedModes enough_modes(ReductionBasis &basis, FixedModes &fixed, const InteriorResponse &response,
-                            const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
-                            std::vector<std::string> &notes);
+EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
+                         const InteriorResponse &response, const fem::FrameMatrices &frame,
+                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
 
 } // namespace gestell::coupling

@@ -10,9 +10,19 @@ InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &
   Eigen::MatrixXd both(M.rows(), basis.n1() + loads.cols());
   both << basis.M_Psi, loads;
   held.solve_in_place(both);
-  const auto X = both.leftCols(basis.n1());
-  return {symmetric(basis.M_Psi.transpose() * X), symmetric(X.transpose() * symmetric_product(M, X)),
+  const auto            X   = both.leftCols(basis.n1());
+  const Eigen::MatrixXd M_X = symmetric_product(M, X);
+  Eigen::MatrixXd       X2  = M_X;
+  held.solve_in_place(X2);
+  return {symmetric(basis.M_Psi.transpose() * X), symmetric(X.transpose() * M_X), symmetric(M_X.transpose() * X2),
           both.rightCols(loads.cols())};
+}
+
+Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis)
+{
+  Eigen::MatrixXd X = basis.M_Psi;
+  held.solve_in_place(X);
+  return X;
 }
 
 } // namespace gestell::coupling

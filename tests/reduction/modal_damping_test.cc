@@ -193,8 +193,7 @@ TEST(AutomaticNumber, KeepsTheFirstTwelveFrequenciesWithinTheToleranceWithTheFew
 TEST(AutomaticNumber, TellsWhereItStopsShort)
 {
   coupling::ReductionOptions options;
-  options.tolerance = 1e-9;
-  options.frequency = 50.;
+  options.frequency = 400.; // more than 200 modes lie below 1.5 times as much
   Lattice lattice;
   lattice.nx = 9, lattice.ny = 5, lattice.nz = 9;
   const auto reduced = craig_bampton(frame_of(lattice), options);
