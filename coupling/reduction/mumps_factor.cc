@@ -80,34 +80,54 @@ struct MumpsFactor::Instance
 namespace
 {
 
-/// Rows of this rank, lower triangle, counted from 1.
-void read_lower_triangle(Mat A, const std::vector<int> &held, std::vector<int> &row, std::vector<int> &column,
-                         std::vector<double> &value)
+/// Calls visit(row, column, value) for the lower triangle of A on this rank, of held rows the diagonal alone.
+template <typename Visit>
+void along_lower_triangle(Mat A, const std::vector<int> &held, const Visit &visit)
 {
   const auto is_held = [&](int i) { return std::binary_search(held.begin(), held.end(), i); };
   for_each_own_row(A, "MumpsFactor",
                    [&](PetscInt i, PetscInt count, const PetscInt *columns, const PetscScalar *values)
                    {
                      for (PetscInt k = 0; k < count; ++k)
-                       if (columns[k] == i || (columns[k] < i && !is_held(i) && !is_held(columns[k])))
-                       {
-                         row.push_back(i + 1);
-                         column.push_back(columns[k] + 1);
-                         value.push_back(is_held(i) ? std::max(std::abs(values[k]), 1e-300) : values[k]);
-                       }
+                       if (columns[k] == i)
+                         visit(i, i, is_held(i) ? std::max(std::abs(values[k]), 1e-300) : values[k]);
+                       else if (columns[k] < i && !is_held(i) && !is_held(columns[k]))
+                         visit(i, columns[k], values[k]);
                    });
+}
+
+/// Rows of this rank, lower triangle, counted from 1; MUMPS adds entries at the same place.
+void read_lower_triangle(const MumpsFactor::Shifted &A, const std::vector<int> &held, std::vector<int> &row,
+                         std::vector<int> &column, std::vector<double> &value)
+{
+  std::size_t size = 0; // counted first: vectors that grow would take twice the memory
+  for (Mat part : {A.A, A.B})
+    if (part)
+      along_lower_triangle(part, held, [&](int, int, double) { ++size; });
+  row.reserve(size), column.reserve(size), value.reserve(size);
+  const auto add = [&](int i, int j, double a)
+  {
+    row.push_back(i + 1);
+    column.push_back(j + 1);
+    value.push_back(a);
+  };
+  along_lower_triangle(A.A, held, add);
+  if (A.B)
+    along_lower_triangle(A.B, held,
+                         [&](int i, int j, double b)
+                         { add(i, j, std::binary_search(held.begin(), held.end(), i) ? 0. : A.factor * b); });
 }
 
 } // namespace
 
-MumpsFactor::MumpsFactor(Mat A, const std::vector<int> &held, const std::vector<int> &places, Sign sign)
+MumpsFactor::MumpsFactor(const Shifted &A, const std::vector<int> &held, const std::vector<int> &places, Sign sign)
     : instance_(std::make_unique<Instance>())
 {
   Instance        &m = *instance_;
   const fem::Ranks ranks;
   int              last = 0, n = 0;
-  MatGetSize(A, &n, nullptr);
-  MatGetOwnershipRange(A, &m.first_row, &last);
+  MatGetSize(A.A, &n, nullptr);
+  MatGetOwnershipRange(A.A, &m.first_row, &last);
   m.n_rows = last - m.first_row;
   ranks.agree(
       [&]

@@ -23,10 +23,18 @@ public:
     indefinite ///< pivots are chosen, and the negative ones counted
   };
 
-  /// @param A      [n x n] MATMPIAIJ; only its lower triangle is read.
-  /// @param held   rows, ascending, the same on all ranks, that count as if A had nothing there but |its diagonal|.
+  /// A + factor B, of which no matrix is made.
+  struct Shifted
+  {
+    Mat    A;
+    Mat    B      = nullptr; ///< rows as those of A; nullptr: A alone
+    double factor = 0.;
+  };
+
+  /// @param A      [n x n] MATMPIAIJ; only the lower triangles are read.
+  /// @param held   rows, ascending, the same on all ranks, that count as if A had nothing there but its |diagonal|.
   /// @param places rank 0: place of every row in the elimination [n]; on others empty.
-  MumpsFactor(Mat A, const std::vector<int> &held, const std::vector<int> &places, Sign sign);
+  MumpsFactor(const Shifted &A, const std::vector<int> &held, const std::vector<int> &places, Sign sign);
   ~MumpsFactor();
   MumpsFactor(const MumpsFactor &)            = delete;
   MumpsFactor &operator=(const MumpsFactor &) = delete;

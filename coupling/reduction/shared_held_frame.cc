@@ -42,7 +42,8 @@ void SharedHeldFrame::factorise()
 {
   if (factor_)
     return;
-  factor_   = std::make_unique<MumpsFactor>(matrices_->C(), held_, places_, MumpsFactor::Sign::positive);
+  factor_ =
+      std::make_unique<MumpsFactor>(MumpsFactor::Shifted{matrices_->C()}, held_, places_, MumpsFactor::Sign::positive);
   positive_ = !factor_->failed() && factor_->negative_pivots() == 0;
 }
 
@@ -50,11 +51,8 @@ int SharedHeldFrame::modes_below(double omega)
 {
   matrices_->ranks().broadcast(omega);
   factor_.reset();
-  Mat shifted = nullptr;
-  require_petsc(MatDuplicate(matrices_->C(), MAT_COPY_VALUES, &shifted), "SharedHeldFrame");
-  const PetscOwned<Mat> owned(shifted);
-  require_petsc(MatAXPY(shifted, -omega * omega, matrices_->M(), DIFFERENT_NONZERO_PATTERN), "SharedHeldFrame");
-  const MumpsFactor factor(shifted, held_, places_, MumpsFactor::Sign::indefinite);
+  const MumpsFactor factor({matrices_->C(), matrices_->M(), -omega * omega}, held_, places_,
+                           MumpsFactor::Sign::indefinite);
   if (factor.failed())
     throw fem::AgreedFailure(fem::AgreedFailure::Kind::method,
                              "modes cannot be counted: C - omega^2 M is singular at omega = " + std::to_string(omega) +
