@@ -1,3 +1,5 @@
+#include "fem/free_motions.h"
+
 #include "fem/rigid_motions.h"
 
 #include <Eigen/Cholesky>
@@ -172,14 +174,39 @@ std::vector<std::string> names_of(Eigen::MatrixXd space, const Eigen::Vector3d &
   return names;
 }
 
+/// That makes turns comparable with displacements [m].
+double length_of(const FrameMatrices &frame)
+{
+  return std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
+                   std::max(frame.rigid_motions.leftCols(3).squaredNorm(), 1e-300));
+}
+
 } // namespace
+
+Eigen::MatrixXd free_displacements(const FrameMatrices &frame)
+{
+  Eigen::MatrixXd result(frame.C.rows(), 0);
+  if (frame.rigid_motions.cols() != 6)
+    return result;
+  const double length = length_of(frame);
+  for (const std::vector<int> &part : connected_parts(frame.C, {}))
+  {
+    const Eigen::MatrixXd space = free_space(frame, part, length);
+    Eigen::MatrixXd       Z     = frame.rigid_motions(part, Eigen::all);
+    Z.rightCols(3) /= length;
+    result.conservativeResize(Eigen::NoChange, result.cols() + space.cols());
+    result.rightCols(space.cols()).setZero();
+    for (Eigen::Index k = 0; k < space.cols(); ++k)
+      result.col(result.cols() - space.cols() + k)(part) = Z * space.col(k);
+  }
+  return result;
+}
 
 std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vector<int> &held)
 {
   if (frame.rigid_motions.cols() != 6)
     return {};
-  const double                        length = std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
-                                                         std::max(frame.rigid_motions.leftCols(3).squaredNorm(), 1e-300));
+  const double                        length = length_of(frame);
   const std::vector<std::vector<int>> parts  = connected_parts(frame.C, held);
   std::vector<std::string>            names;
   for (std::size_t part = 0; part < std::min(parts.size(), most_parts); ++part)

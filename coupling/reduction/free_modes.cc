@@ -2,8 +2,10 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/integration/second_order_system.h"
+#include "fem/free_motions.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +26,30 @@ constexpr int    default_elastic = 12;  // modes of interest if no frequency is 
 constexpr double reach           = 1.5; // highest mode over the highest frequency of interest
 constexpr int    dense_limit     = 600; // coordinates that are solved densely
 constexpr int    most_rounds     = 4;   // of finding modes that were missing
+
+/// Motions without stiffness [n x k].  A frame that knows its rigid motions is asked for them: the softest eigenvalues
+/// of S may lie no higher than rounding.
+MatrixXd motions_without_stiffness(const MatrixXd &scaled, const VectorXd &d, const ReductionBasis &basis,
+                                   const fem::FrameMatrices &frame)
+{
+  if (frame.rigid_motions.cols() == 6)
+    return fem::free_displacements(frame);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> S(scaled);
+  const auto                                    n_rigid = (S.eigenvalues().array() <= singular).count();
+  return basis.T * (d.asDiagonal() * S.eigenvectors().leftCols(n_rigid));
+}
+
+/// A^+ on the complement of the null vectors Z [n x k]: what rounding leaves of A along them is cut off.
+MatrixXd inverse_beside(const MatrixXd &A, const MatrixXd &Z)
+{
+  MatrixXd Q(A.rows(), Z.cols());
+  if (Z.cols() > 0)
+    Q = Eigen::HouseholderQR<MatrixXd>(Z).householderQ() * MatrixXd::Identity(A.rows(), Z.cols());
+  const MatrixXd                                P = MatrixXd::Identity(A.rows(), A.rows()) - Q * Q.transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> beside(P * A * P + Q * Q.transpose());
+  const VectorXd inverse = beside.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
+  return P * beside.eigenvectors() * inverse.asDiagonal() * beside.eigenvectors().transpose() * P;
+}
 
 /// Circular frequency up to which modes are kept, infinite if their number is given or there are too few to tell.
 double highest_kept(const ReductionOptions &options, const VectorXd &omega)
@@ -53,21 +79,18 @@ void find_enough(FreeInterfaceModes &modes, const ReductionOptions &options, int
 FreeInverse::FreeInverse(const HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame)
     : held_(held), Psi_(basis.T), S_inverse_(0, 0), R_(basis.T.rows(), 0)
 {
-  const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
-  const MatrixXd       &S    = star.C;
+  const MatrixXd S = reduced_matrices(basis, frame.B, frame.C).C;
   if (S.rows() > 0)
   {
-    const VectorXd d = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
-    const VectorXd                                inverse =
-        scaled.eigenvalues().unaryExpr([](double lambda) { return lambda > singular ? 1. / lambda : 0.; });
-    const MatrixXd U = d.asDiagonal() * scaled.eigenvectors();
-    S_inverse_       = U * inverse.asDiagonal() * U.transpose();
-    if (const auto n_rigid = (inverse.array() == 0.).count(); n_rigid > 0)
+    const VectorXd d      = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
+    const MatrixXd scaled = d.asDiagonal() * S * d.asDiagonal();
+    R_                    = motions_without_stiffness(scaled, d, basis, frame);
+    S_inverse_ = d.asDiagonal() * inverse_beside(scaled, d.cwiseInverse().asDiagonal() * R_(basis.q1, Eigen::all)) *
+                 d.asDiagonal();
+    if (R_.cols() > 0)
     {
-      const MatrixXd                                on_q1 = U.leftCols(n_rigid);
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(on_q1.transpose() * star.M * on_q1);
-      R_ = Psi_ * (on_q1 * mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal());
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(R_.transpose() * symmetric_product(frame.M, R_));
+      R_ *= mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
     }
   }
   MR_ = symmetric_product(frame.M, R_);

@@ -1,4 +1,5 @@
 #include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/held_frame.h"
 #include "fem/discretisation.h"
 #include "tests/fem/box_mesh.h"
 
@@ -115,6 +116,27 @@ TEST(FreeFrame, OnWheelsHasTheMotionsItsSpringsLeave)
       coupling::craig_bampton(fem::discretise(box_mesh({{3, 2, 1}}, {{1., 0.6, 0.1}}), specification), with_modes(10));
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 3);
   EXPECT_EQ(reduced.facts.free_motions.size(), 3u);
+}
+
+/// A frame so slender that its softest elastic motion costs hardly more than rounding of its rigid ones.
+TEST(FreeFrame, OfGreatSlendernessHasItsRigidMotionsApartFromTheModesWithTheInterfaceFree)
+{
+  auto specification       = free_steel();
+  specification.interfaces = {test::interface("left", {"x0"}, fem::InterfaceCoupling::average),
+                              test::interface("right", {"x1"}, fem::InterfaceCoupling::average)};
+  const auto frame         = fem::discretise(box_mesh({{24, 1, 1}}, {{20., 0.05, 0.02}}), specification);
+  auto       options       = with_modes(6);
+  options.inner            = coupling::InnerModes::interface_free;
+  const auto reduced       = coupling::craig_bampton(frame, options);
+
+  coupling::HeldFrame full(frame, frame.interface_coordinates());
+  EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 6);
+  for (int j = 6; j < 12; ++j) // the inertia of C - omega^2 M tells how many frequencies lie below
+  {
+    const double omega = 2. * M_PI * reduced.frequencies_hz[j];
+    EXPECT_EQ(full.below_if_free((1. - 1e-5) * omega).negative, j);
+    EXPECT_EQ(full.below_if_free((1. + 1e-5) * omega).negative, j + 1);
+  }
 }
 
 } // namespace
