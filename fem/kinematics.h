@@ -40,7 +40,8 @@ struct Constraints
  * The transformation  u = G q  to the coordinates q of the constrained frame.
  *
  * q holds the displacements that are neither held nor tied, in the order of u; then inner coordinates of averaged
- * surfaces; then six coordinates for every interface, or three.  G has a one in most rows, so only the others are stored.
+ * surfaces; then six coordinates for every interface, or three.  G has a one in most rows, so only the others are
+ * stored.
  */
 class Kinematics
 {
