@@ -364,7 +364,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   {
     std::vector<std::string> notes;
     Shapes    shapes  = held_shapes(std::move(basis), statics, held, fixed, frame, options, progress, notes);
-    Reduction reduced = reduce(std::move(shapes), notes, statics, frame);
+    Reduction reduced = reduce(std::move(shapes), std::move(notes), statics, frame);
     tell(progress, "count of the modes");
     if (!fixed.confirm())
     {
