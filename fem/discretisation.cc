@@ -193,6 +193,8 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
   for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
+  for (std::string &note : positions_far_off(coupled, diagonal(mesh)))
+    frame.notes.push_back(std::move(note));
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
 

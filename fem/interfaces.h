@@ -45,6 +45,10 @@ CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &m
 /// Where nodes stand that are farther than `tolerance` [m] from the position asked for, in words.
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance);
 
+/// A note on every interface or attached mass that stands farther than `distance` [m] from its surface: a unit
+/// mistaken?
+std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance);
+
 /// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
                                          const std::vector<InterfaceSpecification> &interfaces,

@@ -129,6 +129,24 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
   return notes;
 }
 
+std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance)
+{
+  std::vector<std::string> notes;
+  for (const CoupledPatch &coupled : interfaces)
+  {
+    const InterfaceSpecification &own = coupled.specification;
+    const double                  off = (coupled.position - coupled.patch.centroid).norm();
+    if (off <= distance)
+      continue;
+    std::ostringstream text;
+    text << own.what << " \"" << own.name << "\" stands at " << metres(coupled.position) << ", " << off
+         << " m from the middle of its surface and farther than the frame is large: the position is in metres where it "
+            "has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres";
+    notes.push_back(text.str());
+  }
+  return notes;
+}
+
 void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh)
 {
   const InterfaceSpecification &own     = coupled.specification;

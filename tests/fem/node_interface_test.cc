@@ -182,6 +182,19 @@ TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
   EXPECT_EQ(discretise(known, clamped_block({node("tip", size)})).notes, known.notes) << "what the mesh tells stays";
 }
 
+TEST(Interfaces, FarFromTheirSurfaceAreTold)
+{
+  auto near         = interface("tip", {"z1"}, fem::InterfaceCoupling::rigid);
+  near.position     = Vector3{1., 0.8, 2.5};
+  auto far          = near;
+  far.position      = Vector3{10., 60., 140.};
+  const auto before = discretise(tetrahedra(), clamped_block({near})).notes;
+  const auto notes  = discretise(tetrahedra(), clamped_block({far})).notes;
+  EXPECT_TRUE(before.empty());
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("interface \"tip\" stands at (10, 60, 140) m, 15"), std::string::npos) << notes[0];
+}
+
 TEST(NodeInterfaces, RefuseWhatTheyCannotBe)
 {
   const auto message = [](const fem::InterfaceSpecification &interface)
