@@ -82,16 +82,17 @@ public:
     return most;
   }
 
+protected:
+  const Fronts &fronts_;
+
 private:
-  const Fronts    &fronts_;
   std::vector<int> parent_;
 };
 
 class Elimination : Fall
 {
 public:
-  Elimination(const Fronts &fronts, const HeldMatrix &A)
-      : Fall(fronts), fronts_(fronts), A_(A), place_of_(fronts.n), local_(fronts.n)
+  Elimination(const Fronts &fronts, const HeldMatrix &A) : Fall(fronts), A_(A), place_of_(fronts.n), local_(fronts.n)
   {
     for (int k = 0; k < fronts.n; ++k)
       place_of_[fronts.order[k]] = k;
@@ -314,7 +315,6 @@ private:
     double *begin, *end;
   };
 
-  const Fronts             &fronts_;
   const HeldMatrix         &A_;
   std::vector<int>          place_of_, local_;
   std::unique_ptr<double[]> stack_, panel_;

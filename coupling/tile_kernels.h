@@ -49,16 +49,21 @@ struct Block
   static Vector load(const double *x) { return *reinterpret_cast<const Vector *>(x); }
   static void   store(double *x, const Vector &v) { *reinterpret_cast<Vector *>(x) = v; }
 
+  __attribute__((always_inline)) static inline void load_rows(const double *const *row, Vector (&values)[R][V])
+  {
+#pragma GCC unroll 8
+    for (int i = 0; i < R; ++i)
+#pragma GCC unroll 2
+      for (int v = 0; v < V; ++v)
+        values[i][v] = load(row[i] + v * lanes);
+  }
+
   /// row[i] -= sum_k l(i, k) x[k] over the first `length` columns; l(i, k) lies at i row_step + k column_step.
   template <int row_step, int column_step>
   static void subtract_products(const double *l, int length, const double *x, double *const *row)
   {
     Vector sum[R][V];
-#pragma GCC unroll 8
-    for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
-      for (int v = 0; v < V; ++v)
-        sum[i][v] = load(row[i] + v * lanes);
+    load_rows(row, sum);
     for (int k = 0; k < length; ++k, x += columns, l += column_step)
     {
       Vector xk[V];
@@ -83,11 +88,7 @@ struct Block
   static void subtract_transposed(const double *l, int length, double *x, const double *const *row)
   {
     Vector z[R][V];
-#pragma GCC unroll 8
-    for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
-      for (int v = 0; v < V; ++v)
-        z[i][v] = load(row[i] + v * lanes);
+    load_rows(row, z);
     for (int k = 0; k < length; ++k, x += columns, l += column_step)
     {
       Vector xk[V];

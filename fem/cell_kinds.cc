@@ -1,6 +1,6 @@
 #include "fem/cell_kinds.h"
 
-#include <gmsh.h>
+#include "fem/gmsh_elements.h"
 
 #include <map>
 #include <stdexcept>
@@ -17,19 +17,8 @@ std::map<int, std::size_t> count_by_corners(const CadModel &model)
 {
   std::map<int, std::size_t> count;
   for (const Solid &solid : model.solids)
-  {
-    std::vector<int>                      types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, 3, solid.tag);
-    for (std::size_t i = 0; i < types.size(); ++i)
-    {
-      std::string         name;
-      int                 d, order, n, n_corners;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
-      count[n_corners] += elements[i].size();
-    }
-  }
+    for (const GmshElements &elements : elements_of(3, solid.tag))
+      count[elements.n_corners] += elements.count();
   return count;
 }
 

@@ -1,5 +1,6 @@
 #include "fem/hexahedral_extraction.h"
 
+#include "fem/gmsh_elements.h"
 #include "fem/hexahedral_mesh.h"
 #include "fem/hexahedron.h"
 #include "fem/mesh_nodes.h"
@@ -28,18 +29,9 @@ constexpr double straight = 1e-5; // of the size of a cell: digits of files
 template <typename Visit>
 void for_each_element(int dim, int tag, const Visit &visit)
 {
-  std::vector<int>                      types;
-  std::vector<std::vector<std::size_t>> elements, nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, dim, tag);
-  for (std::size_t i = 0; i < types.size(); ++i)
-  {
-    std::string         name;
-    int                 d, order, n, n_corners;
-    std::vector<double> local;
-    gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
-    for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
-      visit(&nodes[i][j], n_corners);
-  }
+  for (const GmshElements &elements : elements_of(dim, tag))
+    for (std::size_t j = 0; j < elements.nodes.size(); j += static_cast<std::size_t>(elements.n_nodes))
+      visit(&elements.nodes[j], elements.n_corners);
 }
 
 void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes, Mesh &mesh)
@@ -93,37 +85,28 @@ Offset largest_offset(const CadModel &model, const std::string &head, const Mesh
 {
   Offset largest;
   for (const Solid &solid : model.solids)
-  {
-    std::vector<int>                      types;
-    std::vector<std::vector<std::size_t>> elements, tags;
-    gmsh::model::mesh::getElements(types, elements, tags, 3, solid.tag);
-    for (std::size_t i = 0; i < types.size(); ++i)
+    for (const auto &[n, n_corners, local, tags] : elements_of(3, solid.tag))
     {
-      std::string         name;
-      int                 d, order, n, n_corners;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
       if (n_corners != 8 || n == n_corners)
         continue;
-      for (std::size_t j = 0; j < tags[i].size(); j += static_cast<std::size_t>(n))
+      for (std::size_t j = 0; j < tags.size(); j += static_cast<std::size_t>(n))
       {
         std::array<Point3, 8> corner;
         double                diagonal = 0.;
         for (int k = 0; k < 8; ++k)
         {
-          corner[k] = nodes.position(tags[i][j + k], head);
+          corner[k] = nodes.position(tags[j + k], head);
           diagonal  = std::max(diagonal, norm(corner[k] - corner[0]));
         }
         for (int k = 8; k < n; ++k)
         {
           const double length =
-              norm(nodes.position(tags[i][j + k], head) - trilinear(corner, local.data(), &local[3 * k]));
+              norm(nodes.position(tags[j + k], head) - trilinear(corner, local.data(), &local[3 * k]));
           largest.length = std::max(largest.length, length);
           largest.share  = std::max(largest.share, length / diagonal);
         }
       }
     }
-  }
   return largest;
 }
 

@@ -91,6 +91,23 @@ TEST(SparseCholesky, NamesTheCoordinateThatHasNoStiffness)
   }
 }
 
+TEST(SparseCholesky, ThatWouldNotFitIsRefusedWithWhatItNeeds)
+{
+  const auto   frame  = block();
+  const double needed = 8. * SparseCholesky(frame.C).entries(); // and work beside it
+  EXPECT_NO_THROW(SparseCholesky(frame.C, {}, 100. * needed));
+  try
+  {
+    SparseCholesky factor(frame.C, {}, needed);
+    FAIL();
+  }
+  catch (const coupling::NotEnoughMemory &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("GiB are there; mesh the frame more coarsely"), std::string::npos)
+        << failure.what();
+  }
+}
+
 TEST(Inertia, IsTheNumberOfFrequenciesBelow)
 {
   const auto frame = block();
