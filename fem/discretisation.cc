@@ -9,6 +9,7 @@
 #include "fem/rigid_motions.h"
 #include "fem/skin.h"
 #include "fem/skin_stress.h"
+#include "fem/sparse_sum.h"
 #include "fem/supports.h"
 #include "fem/weighing.h"
 
@@ -135,13 +136,11 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
   weigh(of, sums.whole, sums.nodal_mass, frame);
   frame.B = foundations(&Support::damping);
   if (specification.rayleigh_stiffness > 0.)
-    frame.B += specification.rayleigh_stiffness * frame.C;
+    add(frame.B, specification.rayleigh_stiffness * frame.C);
   if (specification.rayleigh_mass > 0.)
-    frame.B += specification.rayleigh_mass * frame.M;
-  if (C_beside.nonZeros() > 0)
-    frame.C += C_beside;
-  if (M_beside.nonZeros() > 0)
-    frame.M += M_beside;
+    add(frame.B, specification.rayleigh_mass * frame.M);
+  add(frame.C, C_beside);
+  add(frame.M, M_beside);
   return sums.rows;
 }
 

@@ -153,49 +153,66 @@ void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, in
 
 } // namespace
 
-Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix &A) const
+Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix                 &A,
+                                                     const Eigen::SparseMatrix<double> &beside) const
 {
   // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
-  const BlockMatrix::Rows rows       = A.rows();
-  const auto              visit_free = [&](int i, const auto &visit)
+  const BlockMatrix::Rows rows         = A.rows();
+  const auto              visit_column = [&](int i, const auto &visit)
   {
+    Eigen::SparseMatrix<double>::InnerIterator more(beside, column_[i]);
     along_row(A, rows, i / 3, i % 3,
-              [&](int j, double value)
+              [&](int displacement, double value)
               {
-                if (column_[j] >= 0)
-                  visit(column_[j], value);
+                const int j = column_[displacement];
+                if (j < 0)
+                  return;
+                for (; more && more.row() < j; ++more)
+                  visit(more.row(), more.value());
+                const bool both = more && more.row() == j;
+                visit(j, both ? value + more.value() : value);
+                if (both)
+                  ++more;
               });
+    for (; more; ++more)
+      visit(more.row(), more.value());
   };
 
-  Eigen::SparseMatrix<double> free(n_coordinates_, n_coordinates_);
+  Eigen::SparseMatrix<double> sum(n_coordinates_, n_coordinates_);
   int                         count = 0;
   for (int i = 0; i < n_displacements(); ++i)
     if (column_[i] >= 0)
     {
-      visit_free(i, [&](int, double) { ++count; });
-      free.outerIndexPtr()[column_[i] + 1] = count;
+      visit_column(i, [&](int, double) { ++count; });
+      sum.outerIndexPtr()[column_[i] + 1] = count;
     }
-  std::fill(free.outerIndexPtr() + n_free_ + 1, free.outerIndexPtr() + n_coordinates_ + 1, count);
+  for (int j = n_free_; j < n_coordinates_; ++j)
+  {
+    count += beside.outerIndexPtr()[j + 1] - beside.outerIndexPtr()[j];
+    sum.outerIndexPtr()[j + 1] = count;
+  }
 
-  free.resizeNonZeros(count);
-  int k = 0;
+  sum.resizeNonZeros(count);
+  int        k   = 0;
+  const auto put = [&](int row, double value)
+  {
+    sum.innerIndexPtr()[k] = row;
+    sum.valuePtr()[k++]    = value;
+  };
   for (int i = 0; i < n_displacements(); ++i)
     if (column_[i] >= 0)
-      visit_free(i,
-                 [&](int j, double value)
-                 {
-                   free.innerIndexPtr()[k] = j;
-                   free.valuePtr()[k++]    = value;
-                 });
-  return free;
+      visit_column(i, put);
+  for (int j = n_free_; j < n_coordinates_; ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator more(beside, j); more; ++more)
+      put(int(more.row()), more.value());
+  return sum;
 }
 
 Eigen::SparseMatrix<double> Kinematics::project(const BlockMatrix &A) const
 {
   assert(3 * A.n_nodes() == n_displacements());
-  Eigen::SparseMatrix<double> free = project_free(A);
   if (tied_.empty())
-    return free;
+    return project_free(A, Eigen::SparseMatrix<double>(n_coordinates_, n_coordinates_));
 
   const BlockMatrix::Rows rows = A.rows();
 
@@ -218,8 +235,7 @@ Eigen::SparseMatrix<double> Kinematics::project(const BlockMatrix &A) const
   Y += Eigen::SparseMatrix<double>(G_t.transpose() * A_tt);
   const Eigen::SparseMatrix<double> X  = Y * G_t;
   const Eigen::SparseMatrix<double> XT = X.transpose();
-  free += Eigen::SparseMatrix<double>(X + XT);
-  return free;
+  return project_free(A, X + XT);
 }
 
 } // namespace gestell::fem
