@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cassert>
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 namespace gestell::coupling
 {
 
@@ -15,6 +19,20 @@ constexpr int lanes = 8; // columns that travel together
 using Lanes         = Eigen::Array<double, lanes, 1>;
 using Rows          = Eigen::Array<double, lanes, Eigen::Dynamic>;
 
+#if defined(__FMA__)
+
+/// What the product a b loses.
+inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
+{
+  Lanes lost;
+  for (int i = 0; i < lanes; i += 4)
+    _mm256_storeu_pd(lost.data() + i, _mm256_fmsub_pd(_mm256_set1_pd(a), _mm256_loadu_pd(b.data() + i),
+                                                      _mm256_loadu_pd(product.data() + i)));
+  return lost;
+}
+
+#else
+
 /// The upper half of the digits of x (Veltkamp).
 template <typename T>
 T upper_half(const T &x)
@@ -22,6 +40,16 @@ T upper_half(const T &x)
   const T scaled = 134217729. * x; // 2^27 + 1
   return scaled - (scaled - x);
 }
+
+/// What the product a b loses (Dekker).
+inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
+{
+  const double a_upper = upper_half(a), a_lower = a - a_upper;
+  const Lanes  b_upper = upper_half(b), b_lower = b - b_upper;
+  return a_lower * b_lower - (((product - a_upper * b_upper) - a_lower * b_upper) - a_upper * b_lower);
+}
+
+#endif
 
 } // namespace
 
@@ -43,14 +71,11 @@ Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen:
       Lanes sum = Lanes::Zero(), lost = Lanes::Zero();
       for (int k = start[j]; k < start[j + 1]; ++k)
       {
-        const double a_upper = upper_half(a[k]), a_lower = a[k] - a_upper;
-        const Lanes  b = x.col(row[k]), b_upper = upper_half(b), b_lower = b - b_upper;
-        const Lanes  product = a[k] * b; // and what it loses, after Dekker
-        const Lanes  of_product =
-            a_lower * b_lower - (((product - a_upper * b_upper) - a_lower * b_upper) - a_upper * b_lower);
-        const Lanes next = sum + product; // and what it loses, after Knuth
-        const Lanes part = next - sum;
-        lost += ((sum - (next - part)) + (product - part)) + of_product;
+        const Lanes b       = x.col(row[k]);
+        const Lanes product = a[k] * b;
+        const Lanes next    = sum + product; // and what it loses, after Knuth
+        const Lanes part    = next - sum;
+        lost += ((sum - (next - part)) + (product - part)) + lost_by_product(a[k], b, product);
         sum = next;
       }
       const Lanes whole              = sum + lost;
