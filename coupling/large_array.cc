@@ -11,8 +11,7 @@ namespace gestell::coupling
 
 LargeArray::LargeArray(std::size_t size) : bytes_(std::max<std::size_t>(1, size) * sizeof(double))
 {
-  void *const memory =
-      mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void *const memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
     throw std::bad_alloc();
   madvise(memory, bytes_, MADV_HUGEPAGE); // a wish

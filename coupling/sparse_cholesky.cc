@@ -28,19 +28,34 @@ std::ptrdiff_t tiles_size(std::ptrdiff_t h, std::ptrdiff_t w)
   return tile_rows * (tile_rows * rising * (rising + 1) / 2 + (tiles - rising) * w);
 }
 
+constexpr int tiles_together = 8; // whose rows of a column follow each other in the panel
+
 void put_in_tiles(const double *panel, int h, int w, double *l)
 {
-  for (int t = 0; t < h; t += tile_rows)
+  for (int first = 0; first < h;)
   {
-    const int rows = std::min(tile_rows, h - t), length = std::min(w, t + tile_rows);
+    // Tiles without an end of the front or of the diagonal, side by side: the panel is read in long pieces.
+    const int together = first >= w ? std::min(tiles_together, (h - first) / tile_rows) : 0;
+    if (together > 1)
+    {
+      const auto step = std::ptrdiff_t(tile_rows) * w; // from tile to tile
+      for (int k = 0; k < w; ++k)
+        for (int t = 0; t < together; ++t)
+          std::copy_n(panel + first + t * tile_rows + std::ptrdiff_t(k) * h, tile_rows, l + t * step + k * tile_rows);
+      l += together * step;
+      first += together * tile_rows;
+      continue;
+    }
+    const int rows = std::min(tile_rows, h - first), length = std::min(w, first + tile_rows);
     for (int k = 0; k < length; ++k, l += tile_rows)
     {
-      const int     above  = std::max(0, k - t); // of the diagonal
-      const double *column = panel + t + std::ptrdiff_t(k) * h;
+      const int     above  = std::max(0, k - first); // of the diagonal
+      const double *column = panel + first + std::ptrdiff_t(k) * h;
       std::fill_n(l, above, 0.);
       std::copy(column + above, column + rows, l + above);
       std::fill(l + rows, l + tile_rows, 0.);
     }
+    first += tile_rows;
   }
 }
 
@@ -53,8 +68,8 @@ struct SparseCholesky::Factor
   int                         n        = 0;
   std::vector<int>            held; // ascending
   LargeArray                  L;
-  std::vector<std::ptrdiff_t> place; // [fronts + 1] of their tiles in L
-  std::vector<double>         X;     // right-hand sides in the order of elimination
+  std::vector<std::ptrdiff_t> place;  // [fronts + 1] of their tiles in L
+  std::vector<double>         single; // right-hand side in the order of elimination
 
   Factor()
   {
@@ -245,29 +260,38 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
   Factor &f = *factor_;
   eigen_assert(X.rows() == f.n && !released());
-  const TiledFactor tiles = f.tiles();
-  const int        *order = f.fronts().order;
+  const TiledFactor tiles       = f.tiles();
+  const int        *order       = f.fronts().order;
+  const auto        columns_for = [](int width)
+  {
+    return *std::find_if(tile_sweeps().begin(), tile_sweeps().end(),
+                         [&](const TileSweeps &sweeps) { return sweeps.columns >= width; });
+  };
+  const int  most = std::min(tile_sweeps().back().columns, int(X.cols()));
+  LargeArray several; // right-hand sides in the order of elimination; a single one has its place for the next time
+  if (most > 1)
+    several = LargeArray(std::size_t(columns_for(most).columns) * (f.n + 1));
+  else
+    f.single.resize(f.n + 1);
+  double *const rhs = most > 1 ? several.data() : f.single.data();
   for (int first = 0; first < X.cols();)
   {
-    const TileSweeps *sweeps = tile_sweeps();
-    const int         width  = std::min(sweeps[2].columns, int(X.cols()) - first);
-    while (sweeps->columns < width)
-      ++sweeps;
-    const std::ptrdiff_t columns = sweeps->columns;
-    f.X.resize(std::max(f.X.size(), std::size_t(columns * (f.n + 1))));
+    const int            width   = std::min(most, int(X.cols()) - first);
+    const TileSweeps     sweeps  = columns_for(width);
+    const std::ptrdiff_t columns = sweeps.columns;
     for (std::ptrdiff_t k = 0; k < f.n; ++k)
     {
-      double *const x = f.X.data() + k * columns;
+      double *const x = rhs + k * columns;
       for (int j = 0; j < width; ++j)
         x[j] = X(order[k], first + j);
       std::fill(x + width, x + columns, 0.);
     }
-    std::fill_n(f.X.data() + columns * f.n, columns, 0.);
-    sweeps->forward(tiles, f.X.data());
-    sweeps->backward(tiles, f.X.data());
+    std::fill_n(rhs + columns * f.n, columns, 0.);
+    sweeps.forward(tiles, rhs);
+    sweeps.backward(tiles, rhs);
     for (std::ptrdiff_t k = 0; k < f.n; ++k)
       for (int j = 0; j < width; ++j)
-        X(order[k], first + j) = f.X[k * columns + j];
+        X(order[k], first + j) = rhs[k * columns + j];
     first += width;
   }
 }
@@ -288,7 +312,7 @@ std::vector<int> SparseCholesky::order() const
 void SparseCholesky::solve_in_place(TallMatrix &X) const
 {
   eigen_assert(X.rows() == factor_->n && !released());
-  const TileSweeps &sweeps = tile_sweeps()[2];
+  const TileSweeps &sweeps = block_sweeps();
   const TiledFactor tiles  = factor_->tiles();
   for (int p = 0; p < X.n_panels(); ++p)
   {
@@ -325,8 +349,8 @@ double SparseCholesky::entries() const
 
 void SparseCholesky::release()
 {
-  factor_->L = LargeArray();
-  factor_->X = std::vector<double>();
+  factor_->L      = LargeArray();
+  factor_->single = std::vector<double>();
 }
 
 bool SparseCholesky::released() const

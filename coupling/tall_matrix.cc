@@ -126,6 +126,24 @@ MatrixXd gram(const TallMatrix &X, const TallMatrix &Y)
   return G;
 }
 
+namespace
+{
+
+struct Entry
+{
+  int    column;
+  double value;
+};
+
+/// Whether the entries of `other` are those of `row`, `shift` columns further on.
+bool alike(const std::vector<Entry> &row, const std::vector<Entry> &other, int shift)
+{
+  return std::equal(row.begin(), row.end(), other.begin(), other.end(),
+                    [&](const Entry &a, const Entry &b) { return b.column == a.column + shift && b.value == a.value; });
+}
+
+} // namespace
+
 ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std::vector<int> &order,
                                  const std::vector<int> &held)
     : n_(int(A.rows())), begin_(1, 0)
@@ -136,26 +154,42 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
     place[order[k]] = k;
   for (const int i : held)
     place[i] = -1;
-  column_.reserve(A.nonZeros());
-  value_.reserve(A.nonZeros());
-  for (int k = 0; k < n_; ++k)
+  const auto row = [&](int k)
   {
-    if (place[order[k]] >= 0)
+    std::vector<Entry> entries;
+    if (k < n_ && place[order[k]] >= 0)
       for (Eigen::SparseMatrix<double>::InnerIterator a(A, order[k]); a; ++a)
         if (place[a.row()] >= 0)
-        {
-          column_.push_back(place[a.row()]);
-          value_.push_back(a.value());
-        }
+          entries.push_back({place[a.row()], a.value()});
+    return entries;
+  };
+  std::vector<Entry> x = row(0), y = row(1), z = row(2);
+  for (int k = 0; k < n_;)
+  {
+    const int rows = k + 2 < n_ && alike(x, y, 1) && alike(x, z, 2) ? 3 : 1;
+    first_.push_back(k);
+    for (const auto &[column, value] : x)
+    {
+      column_.push_back(column);
+      value_.push_back(value);
+    }
     begin_.push_back(int(column_.size()));
+    k += rows;
+    x = rows == 3 ? row(k) : std::move(y);
+    y = rows == 3 ? row(k + 1) : std::move(z);
+    z = row(k + 2);
   }
+  first_.push_back(n_);
+  column_.shrink_to_fit();
+  value_.shrink_to_fit();
 }
 
 void ReorderedMatrix::multiply(const TallMatrix &X, TallMatrix &Y) const
 {
   assert(X.rows() == n_ && Y.rows() == n_ && Y.columns() == X.columns());
+  const SparseRows rows{int(first_.size()) - 1, first_.data(), begin_.data(), column_.data(), value_.data()};
   for (int p = 0; p < X.n_panels(); ++p)
-    block_algebra().sparse_product(begin_.data(), column_.data(), value_.data(), n_, X.panel(p), Y.panel(p));
+    block_algebra().sparse_product(rows, X.panel(p), Y.panel(p));
 }
 
 void TallSpace::append(const TallMatrix &X)

@@ -47,7 +47,7 @@ private:
 /// X^T Y
 Eigen::MatrixXd gram(const TallMatrix &X, const TallMatrix &Y);
 
-/// A sparse matrix with rows and columns in another order.
+/// A sparse matrix with rows and columns in another order; rows of a node that are alike are kept once.
 class ReorderedMatrix
 {
 public:
@@ -59,7 +59,7 @@ public:
 
 private:
   int                 n_;
-  std::vector<int>    begin_, column_;
+  std::vector<int>    first_, begin_, column_; // as SparseRows
   std::vector<double> value_;
 };
 

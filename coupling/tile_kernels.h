@@ -11,6 +11,9 @@ namespace
 
 using std::ptrdiff_t;
 
+/// Numbers of L that are asked of the memory before they are needed: some 4 KB, the time of a few hundred products.
+constexpr int ahead = 512;
+
 inline int least(int a, int b)
 {
   return a < b ? a : b;
@@ -53,7 +56,7 @@ struct Block
   {
 #pragma GCC unroll 8
     for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
+#pragma GCC unroll 3
       for (int v = 0; v < V; ++v)
         values[i][v] = load(row[i] + v * lanes);
   }
@@ -66,19 +69,20 @@ struct Block
     load_rows(row, sum);
     for (int k = 0; k < length; ++k, x += columns, l += column_step)
     {
+      __builtin_prefetch(l + ahead);
       Vector xk[V];
-#pragma GCC unroll 2
+#pragma GCC unroll 3
       for (int v = 0; v < V; ++v)
         xk[v] = load(x + v * lanes);
 #pragma GCC unroll 8
       for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
+#pragma GCC unroll 3
         for (int v = 0; v < V; ++v)
           sum[i][v] -= l[i * row_step] * xk[v];
     }
 #pragma GCC unroll 8
     for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
+#pragma GCC unroll 3
       for (int v = 0; v < V; ++v)
         store(row[i] + v * lanes, sum[i][v]);
   }
@@ -89,18 +93,20 @@ struct Block
   {
     Vector z[R][V];
     load_rows(row, z);
+    const ptrdiff_t before = ahead < length * column_step ? length * column_step : ahead; // a tile, or more small ones
     for (int k = 0; k < length; ++k, x += columns, l += column_step)
     {
+      __builtin_prefetch(l - before, 0, 2);
       Vector xk[V];
-#pragma GCC unroll 2
+#pragma GCC unroll 3
       for (int v = 0; v < V; ++v)
         xk[v] = load(x + v * lanes);
 #pragma GCC unroll 8
       for (int i = 0; i < R; ++i)
-#pragma GCC unroll 2
+#pragma GCC unroll 3
         for (int v = 0; v < V; ++v)
           xk[v] -= l[i * row_step] * z[i][v];
-#pragma GCC unroll 2
+#pragma GCC unroll 3
       for (int v = 0; v < V; ++v)
         store(x + v * lanes, xk[v]);
     }
@@ -109,31 +115,36 @@ struct Block
   /// to += factor * from
   static void add(double factor, const double *from, double *to)
   {
-#pragma GCC unroll 2
+#pragma GCC unroll 3
     for (int v = 0; v < V; ++v)
       store(to + v * lanes, load(to + v * lanes) + factor * load(from + v * lanes));
   }
   static void scale(double factor, double *x)
   {
-#pragma GCC unroll 2
+#pragma GCC unroll 3
     for (int v = 0; v < V; ++v)
       store(x + v * lanes, factor * load(x + v * lanes));
   }
 
-  /// y = sum_k a[k] X[at[k]]
+  /// y[d] = sum_k a[k] X[at[k] + d], d < n
+  template <int n>
   static void combine(const int *at, const double *a, int count, const double *X, double *y)
   {
-    Vector sum[V] = {};
+    Vector sum[n][V] = {};
     for (int k = 0; k < count; ++k)
     {
       const double *const x = X + ptrdiff_t(at[k]) * columns;
-#pragma GCC unroll 2
-      for (int v = 0; v < V; ++v)
-        sum[v] += a[k] * load(x + v * lanes);
+#pragma GCC unroll 3
+      for (int d = 0; d < n; ++d)
+#pragma GCC unroll 3
+        for (int v = 0; v < V; ++v)
+          sum[d][v] += a[k] * load(x + d * columns + v * lanes);
     }
-#pragma GCC unroll 2
-    for (int v = 0; v < V; ++v)
-      store(y + v * lanes, sum[v]);
+#pragma GCC unroll 3
+    for (int d = 0; d < n; ++d)
+#pragma GCC unroll 3
+      for (int v = 0; v < V; ++v)
+        store(y + d * columns + v * lanes, sum[d][v]);
   }
 
   static void forward_tile(const double *l, int length, const double *x, double *const *row)
@@ -302,11 +313,19 @@ public:
       }
   }
 
-  static void sparse_product(const int *begin, const int *column, const double *value, int n, const double *X,
-                             double *Y)
+  static void sparse_product(const SparseRows &A, const double *X, double *Y)
   {
-    for (int i = 0; i < n; ++i, Y += B::columns)
-      B::combine(column + begin[i], value + begin[i], begin[i + 1] - begin[i], X, Y);
+    for (int g = 0; g < A.groups; ++g)
+    {
+      const int     count = A.begin[g + 1] - A.begin[g], rows = A.first[g + 1] - A.first[g];
+      const int    *column = A.column + A.begin[g];
+      const double *value  = A.value + A.begin[g];
+      double *const y      = Y + ptrdiff_t(A.first[g]) * B::columns;
+      if (rows == 3)
+        B::template combine<3>(column, value, count, X, y);
+      else
+        B::template combine<1>(column, value, count, X, y);
+    }
   }
 
 private:

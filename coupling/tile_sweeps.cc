@@ -14,8 +14,9 @@ namespace
 
 using Wide = Block<Four, 2, 4>;
 
-constexpr TileSweeps   any_processor[3] = {sweeps_of<Single>, sweeps_of<Block<Four, 1, 8>>, sweeps_of<Wide>};
-constexpr BlockAlgebra any_algebra      = algebra_of<Wide>;
+constexpr SweepKernels any_processor = {sweeps_of<Single>, sweeps_of<Block<Four, 1, 8>>, sweeps_of<Wide>,
+                                        sweeps_of<Block<Four, 3, 4>>};
+constexpr BlockAlgebra any_algebra   = algebra_of<Wide>;
 
 /// Whether the kernels for AVX-512 are there, wanted, and within what the processor can do.
 bool has_avx512()
@@ -33,7 +34,7 @@ bool has_avx512()
 
 } // namespace
 
-const TileSweeps (&tile_sweeps())[3]
+const SweepKernels &tile_sweeps()
 {
   return has_avx512() ? avx512_tile_sweeps() : any_processor;
 }
@@ -43,8 +44,13 @@ const BlockAlgebra &block_algebra()
   return has_avx512() ? avx512_block_algebra() : any_algebra;
 }
 
+const TileSweeps &block_sweeps()
+{
+  return tile_sweeps()[2];
+}
+
 #if !defined(GESTELL_AVX512_KERNELS)
-const TileSweeps (&avx512_tile_sweeps())[3]
+const SweepKernels &avx512_tile_sweeps()
 {
   return any_processor;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace gestell::coupling
@@ -32,6 +33,20 @@ struct TileSweeps
   void (*backward)(const TiledFactor &, double *X); ///< X <- L^-T X
 };
 
+/**
+ * A sparse matrix by groups of one row, or of three that differ by a shift alone: group g has the rows
+ * first[g] .. first[g + 1] - 1, and the entries begin[g] .. begin[g + 1] - 1 of its first row.  Row d of a group has
+ * the same values d columns further on, as masses have that act alike along x, y and z.
+ */
+struct SparseRows
+{
+  int           groups = 0;
+  const int    *first  = nullptr; ///< [groups + 1]
+  const int    *begin  = nullptr; ///< [groups + 1]
+  const int    *column = nullptr;
+  const double *value  = nullptr;
+};
+
 /// Algebra with blocks X [columns x (8 n_tiles)], a row of the columns together, and with Q in tiles of eight rows and
 /// `length` columns; small matrices H, F, G [length or columns x columns] by rows.
 struct BlockAlgebra
@@ -41,14 +56,17 @@ struct BlockAlgebra
   void (*subtract_projection)(const double *Q, int length, int n_tiles, const double *X, double *H); ///< H -= Q^T X
   void (*subtract_gram)(int n_tiles, const double *X, const double *Y, double *G);                   ///< G -= X^T Y
   void (*subtract_transform)(int n_tiles, const double *Y, const double *F, double *X);              ///< X -= Y F
-  /// Y = A X, A [n x n] by rows: those of row i lie at begin[i] .. begin[i + 1] - 1.
-  void (*sparse_product)(const int *begin, const int *column, const double *value, int n, const double *X, double *Y);
+  void (*sparse_product)(const SparseRows &A, const double *X, double *Y);                           ///< Y = A X
 };
 
-/// For 1, a few and many right-hand sides, with columns ascending, as the processor at hand does them best.
-const TileSweeps (&tile_sweeps())[3];
+/// For 1, a few, many and most right-hand sides, with columns ascending.
+using SweepKernels = std::array<TileSweeps, 4>;
 
-/// For blocks of as many columns as the last of tile_sweeps() takes.
+/// As the processor at hand does them best.
+const SweepKernels &tile_sweeps();
+
+/// For blocks of as many columns as those of tile_sweeps() for many right-hand sides take.
 const BlockAlgebra &block_algebra();
+const TileSweeps   &block_sweeps();
 
 } // namespace gestell::coupling

@@ -11,14 +11,15 @@ namespace
 
 using Wide = Block<Eight, 2, 8>;
 
-constexpr TileSweeps   sweeps[3] = {sweeps_of<Single>, sweeps_of<Block<Eight, 1, 8>>, sweeps_of<Wide>};
-constexpr BlockAlgebra algebra   = algebra_of<Wide>;
+constexpr SweepKernels kernels = {sweeps_of<Single>, sweeps_of<Block<Eight, 1, 8>>, sweeps_of<Wide>,
+                                  sweeps_of<Block<Eight, 3, 8>>};
+constexpr BlockAlgebra algebra = algebra_of<Wide>;
 
 } // namespace
 
-const TileSweeps (&avx512_tile_sweeps())[3]
+const SweepKernels &avx512_tile_sweeps()
 {
-  return sweeps;
+  return kernels;
 }
 
 const BlockAlgebra &avx512_block_algebra()

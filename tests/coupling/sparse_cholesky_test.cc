@@ -43,6 +43,12 @@ TEST(SparseCholesky, SolvesAsADenseFactorDoes)
   factor.solve_in_place(X);
   const MatrixXd exact = dense.llt().solve(F);
   EXPECT_LT((X - exact).cwiseAbs().maxCoeff(), 1e-10 * exact.cwiseAbs().maxCoeff());
+  for (const int columns : {2, 7, 11, 16, 18, 24, 25}) // those of every kernel, and some left over
+  {
+    MatrixXd some = F.leftCols(columns);
+    factor.solve_in_place(some);
+    EXPECT_LT((some - X.leftCols(columns)).cwiseAbs().maxCoeff(), 1e-14 * exact.cwiseAbs().maxCoeff()) << columns;
+  }
   VectorXd x(dense.rows());
   factor.solve(F.col(3).data(), x.data());
   EXPECT_LT((x - X.col(3)).cwiseAbs().maxCoeff(), 1e-14 * exact.cwiseAbs().maxCoeff());

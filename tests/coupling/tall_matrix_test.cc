@@ -136,5 +136,35 @@ TEST(ReorderedMatrix, LeavesHeldCoordinatesOut)
   EXPECT_LT((Y - dense * X).cwiseAbs().maxCoeff(), rounding(n, 2.));
 }
 
+TEST(ReorderedMatrix, MultipliesRowsOfANodeThatAreAlikeAndOthersBesideThem)
+{
+  constexpr int nodes = 12, others = 4, n = 3 * nodes + others;
+  MatrixXd      dense = MatrixXd::Zero(n, n);
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j)
+      if ((i + j) % 3 != 1)
+        dense.block<3, 3>(3 * i, 3 * j) = std::sin(1. + i + j) * Eigen::Matrix3d::Identity();
+  dense.rightCols(others) = irregular(n, others, 2.);
+  dense.topRows(12).rightCols(others).setZero(); // the first nodes alone have three rows that are alike
+  dense.bottomRows(others) = dense.rightCols(others).transpose();
+  dense.bottomRightCorner(others, others).setIdentity();
+  dense(0, 3) = dense(3, 0) = 0.7; // nor do they all
+  const Eigen::SparseMatrix<double> A = dense.sparseView();
+  std::vector<int>                  as_they_are(n);
+  std::iota(as_they_are.begin(), as_they_are.end(), 0);
+  std::vector<int> later = as_they_are; // nodes in another order, their coordinates together
+  std::rotate(later.begin(), later.begin() + 9, later.begin() + 3 * nodes);
+  for (const auto &order : {as_they_are, later, mixed(n)})
+  {
+    const MatrixXd X = irregular(n, 20, 3.);
+    TallMatrix     x(n, 20), y(n, 20);
+    x.take(X, order);
+    coupling::ReorderedMatrix(A, order, {}).multiply(x, y);
+    MatrixXd Y(n, 20);
+    y.give(Y, order);
+    EXPECT_LT((Y - dense * X).cwiseAbs().maxCoeff(), rounding(n, 2.));
+  }
+}
+
 } // namespace
 } // namespace gestell
