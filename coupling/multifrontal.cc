@@ -268,13 +268,14 @@ private:
     pass_on(s);
   }
 
-  /// The contribution is moved down to where those it was made of lay.
+  /// The contribution's lower triangle is moved down to where those it was made of lay.
   void pass_on(int s)
   {
-    const auto size = contribution_size(s);
+    const ptrdiff_t r = below(s);
     if (top_ != contribution_)
-      std::memmove(top_, contribution_, sizeof(double) * size);
-    waiting_.push_back({s, top_, top_ + size});
+      for (ptrdiff_t j = 0; j < r; ++j)
+        std::memmove(top_ + j * r + j, contribution_ + j * r + j, sizeof(double) * (r - j));
+    waiting_.push_back({s, top_, top_ + r * r});
   }
 
   /// A11 = L11 S L11^T, S = diag(+-1), by blocks; L21 and the contribution -L21 S L21^T.  Counts what is negative.
