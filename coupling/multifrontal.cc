@@ -178,6 +178,12 @@ public:
   }
 
 private:
+  struct Waiting
+  {
+    int     front;
+    double *begin, *end;
+  };
+
   static void copy_block(const double *from, int from_height, double *to, int to_height, int w)
   {
     for (int j = 0; j < w; ++j)
@@ -187,26 +193,17 @@ private:
   /// Entries of A in the columns of a front, and what earlier fronts pass on to it.
   void assemble(int s, double *panel)
   {
-    const int h = height(s), w = width(s), r = below(s);
+    const int h = height(s), w = width(s);
     std::fill_n(panel, ptrdiff_t(h) * w, 0.);
     for (int i = 0; i < h; ++i)
       local_[fronts_.rows[fronts_.begin[s] + i]] = i;
     for (int k = fronts_.first[s]; k < fronts_.first[s + 1]; ++k)
       add_column(k, panel + ptrdiff_t(k - fronts_.first[s]) * h);
 
-    top_                = waiting_.empty() ? stack_.data() : waiting_.back().end;
-    contribution_       = top_;
-    contribution_is_set = false;
-    while (!waiting_.empty() && parent(waiting_.back().front) == s)
-    {
-      if (!contribution_is_set)
-        for (int j = 0; j < r; ++j)
-          std::memset(contribution_ + ptrdiff_t(j) * r + j, 0, sizeof(double) * (r - j));
-      contribution_is_set = true;
-      add_contribution(waiting_.back().front, waiting_.back().begin, panel, h, w);
-      top_ = waiting_.back().begin;
-      waiting_.pop_back();
-    }
+    contribution_ = waiting_.empty() ? stack_.data() : waiting_.back().end;
+    first_child_  = waiting_.size();
+    while (first_child_ > 0 && parent(waiting_[first_child_ - 1].front) == s)
+      add_columns(waiting_[--first_child_], 0, w, panel, h);
   }
 
   void add_column(int k, double *column) const
@@ -229,28 +226,34 @@ private:
         column[local_[row]] += factor * x.value();
   }
 
-  void add_contribution(int child, const double *from, double *panel, int h, int w)
+  /// Of what a front passes on, the columns first .. last - 1 of the front that takes it, to a matrix whose first row
+  /// is `first`, too.
+  void add_columns(const Waiting &child, int first, int last, double *matrix, ptrdiff_t height)
   {
-    const int  rc = below(child), r = h - w;
-    const int *rows = fronts_.rows + fronts_.begin[child] + width(child);
+    const int  r    = below(child.front);
+    const int *rows = fronts_.rows + fronts_.begin[child.front] + width(child.front);
     runs_.clear();
-    for (int i = 0; i < rc; ++i)
+    for (int i = 0; i < r; ++i)
       if (const int to = local_[rows[i]]; !runs_.empty() && runs_.back().to + runs_.back().length == to)
         ++runs_.back().length;
       else
         runs_.push_back({i, to, 1});
-    std::size_t first = 0;
-    for (int j = 0; j < rc; ++j)
+    std::size_t own = 0;
+    for (int j = 0; j < r; ++j)
     {
-      while (runs_[first].from + runs_[first].length <= j)
-        ++first;
-      const int     column = runs_[first].to + j - runs_[first].from;
-      double       *to     = column < w ? panel + ptrdiff_t(column) * h : contribution_ + ptrdiff_t(column - w) * r - w;
-      const double *values = from + ptrdiff_t(j) * rc;
-      for (std::size_t run = first; run < runs_.size(); ++run)
+      while (runs_[own].from + runs_[own].length <= j)
+        ++own;
+      const int column = runs_[own].to + j - runs_[own].from;
+      if (column < first)
+        continue;
+      if (column >= last)
+        break;
+      double *const       to     = matrix + (column - first) * height;
+      const double *const values = child.begin + ptrdiff_t(j) * r;
+      for (std::size_t run = own; run < runs_.size(); ++run)
       {
         const auto &[at, place, length] = runs_[run];
-        const int begin = std::max(at, j), shift = place - at;
+        const int begin = std::max(at, j), shift = place - at - first;
         for (int i = begin; i < at + length; ++i)
           to[i + shift] += values[i];
       }
@@ -261,21 +264,31 @@ private:
   void divide_and_pass_on(int s, double *panel)
   {
     const int h = height(s), w = width(s), r = below(s);
-    if (r == 0)
-      return;
-    divide_(panel, h, w, r, panel + w);
-    dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, contribution_is_set ? &one : &zero, contribution_, &r);
+    if (r > 0)
+      divide_(panel, h, w, r, panel + w);
+    if (r > 0)
+      dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, &zero, contribution_, &r);
     pass_on(s);
   }
 
-  /// The contribution's lower triangle is moved down to where those it was made of lay.
+  /// What the front itself contributes is joined by what it was passed and keeps on passing; the lower triangle of all
+  /// that moves down to where this lay.
   void pass_on(int s)
   {
-    const ptrdiff_t r = below(s);
-    if (top_ != contribution_)
+    const int       w  = width(s);
+    const ptrdiff_t r  = below(s);
+    double         *to = contribution_;
+    for (; waiting_.size() > first_child_; waiting_.pop_back())
+    {
+      add_columns(waiting_.back(), w, height(s), contribution_, r);
+      to = waiting_.back().begin;
+    }
+    if (r == 0)
+      return;
+    if (to != contribution_)
       for (ptrdiff_t j = 0; j < r; ++j)
-        std::memmove(top_ + j * r + j, contribution_ + j * r + j, sizeof(double) * (r - j));
-    waiting_.push_back({s, top_, top_ + r * r});
+        std::memmove(to + j * r + j, contribution_ + j * r + j, sizeof(double) * (r - j));
+    waiting_.push_back({s, to, to + r * r});
   }
 
   /// A11 = L11 S L11^T, S = diag(+-1), by blocks; L21 and the contribution -L21 S L21^T.  Counts what is negative.
@@ -319,10 +332,9 @@ private:
         for (int i = j; i < h; ++i)
           growth_[fronts_.rows[fronts_.begin[s] + i]] += 2. * column[i] * column[i];
       }
-    if (r == 0)
-      return negative;
-    dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, contribution_is_set ? &one : &zero, contribution_, &r);
-    if (negative > 0)
+    if (r > 0)
+      dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, &zero, contribution_, &r);
+    if (r > 0 && negative > 0)
       dsyrk_("L", "N", &r, &negative, &two, turned.data(), &r, &one, contribution_, &r);
     pass_on(s);
     return negative;
@@ -344,19 +356,13 @@ private:
     }
   }
 
-  struct Waiting
-  {
-    int     front;
-    double *begin, *end;
-  };
-
   const HeldMatrix    &A_;
   std::vector<int>     place_of_, local_;
   LargeArray           stack_, panel_;
   Division             divide_;
   std::vector<Waiting> waiting_;
-  double              *top_ = nullptr, *contribution_ = nullptr;
-  bool                 contribution_is_set = false;
+  double              *contribution_ = nullptr; // of the front at work
+  std::size_t          first_child_  = 0;       // of those waiting for it
   std::vector<Run>     runs_;
   std::vector<double>  growth_;
 };
