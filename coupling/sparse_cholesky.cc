@@ -312,7 +312,7 @@ std::vector<int> SparseCholesky::order() const
 void SparseCholesky::solve_in_place(TallMatrix &X) const
 {
   eigen_assert(X.rows() == factor_->n && !released());
-  const TileSweeps &sweeps = block_sweeps();
+  const TileSweeps &sweeps = block_sweeps(X.lanes());
   const TiledFactor tiles  = factor_->tiles();
   for (int p = 0; p < X.n_panels(); ++p)
   {

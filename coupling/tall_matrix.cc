@@ -17,30 +17,19 @@ using std::ptrdiff_t;
 
 constexpr int strip = 64; // tiles that stay in the cache while all columns are gone through
 
-int lanes()
+int panels_for(int columns, int lanes)
 {
-  return block_algebra().columns;
+  return (columns + lanes - 1) / lanes;
 }
 
-int panels_for(int columns)
+/// Columns `panel * lanes` and on of A by rows, filled up with zeros.
+std::vector<double> by_rows(const MatrixXd &A, int panel, int lanes)
 {
-  return (columns + lanes() - 1) / lanes();
-}
-
-/// Numbers in eight rows of a panel.
-ptrdiff_t tile_step()
-{
-  return ptrdiff_t(tile_rows) * lanes();
-}
-
-/// Columns `panel * lanes()` and on of A by rows, filled up with zeros.
-std::vector<double> by_rows(const MatrixXd &A, int panel)
-{
-  const int           first = panel * lanes(), columns = std::min<int>(lanes(), int(A.cols()) - first);
-  std::vector<double> rows(A.rows() * lanes(), 0.);
+  const int           first = panel * lanes, columns = std::min<int>(lanes, int(A.cols()) - first);
+  std::vector<double> rows(A.rows() * lanes, 0.);
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (int j = 0; j < columns; ++j)
-      rows[i * lanes() + j] = A(i, first + j);
+      rows[i * lanes + j] = A(i, first + j);
   return rows;
 }
 
@@ -53,9 +42,9 @@ void for_each_strip(int n_tiles, const Visit &visit)
 
 } // namespace
 
-TallMatrix::TallMatrix(int n, int columns) : n_(n), columns_(columns)
+TallMatrix::TallMatrix(int n, int columns) : n_(n), columns_(columns), algebra_(&block_algebra(columns))
 {
-  for (int p = 0; p < panels_for(columns); ++p)
+  for (int p = 0; p < panels_for(columns, lanes()); ++p)
     panels_.emplace_back(n_tiles() * tile_step());
 }
 
@@ -86,8 +75,8 @@ void TallMatrix::transform(const MatrixXd &F)
   std::vector<std::vector<double>> minus_F; // by panels of the result
   MatrixXd                         padded = MatrixXd::Zero(n_panels() * lanes(), F.cols());
   padded.topRows(F.rows())                = -F;
-  for (int q = 0; q < panels_for(int(F.cols())); ++q)
-    minus_F.push_back(by_rows(padded, q));
+  for (int q = 0; q < panels_for(int(F.cols()), lanes()); ++q)
+    minus_F.push_back(by_rows(padded, q, lanes()));
   const auto          step = tile_step();
   std::vector<double> before(n_panels() * strip * step);
   for_each_strip(n_tiles(),
@@ -101,9 +90,9 @@ void TallMatrix::transform(const MatrixXd &F)
                    }
                    for (std::size_t q = 0; q < minus_F.size(); ++q)
                      for (int p = 0; p < n_panels(); ++p)
-                       block_algebra().subtract_transform(count, before.data() + p * strip * step,
-                                                          minus_F[q].data() + ptrdiff_t(p) * lanes() * lanes(),
-                                                          panels_[q].data() + first * step);
+                       algebra_->subtract_transform(count, before.data() + p * strip * step,
+                                                    minus_F[q].data() + ptrdiff_t(p) * lanes() * lanes(),
+                                                    panels_[q].data() + first * step);
                  });
   columns_ = int(F.cols());
   panels_.resize(minus_F.size());
@@ -111,17 +100,18 @@ void TallMatrix::transform(const MatrixXd &F)
 
 MatrixXd gram(const TallMatrix &X, const TallMatrix &Y)
 {
-  assert(X.rows() == Y.rows());
+  assert(X.rows() == Y.rows() && X.lanes() == Y.lanes());
+  const int           lanes = X.lanes();
   MatrixXd            G(X.columns(), Y.columns());
-  std::vector<double> minus(lanes() * lanes());
+  std::vector<double> minus(lanes * lanes);
   for (int p = 0; p < X.n_panels(); ++p)
     for (int q = 0; q < Y.n_panels(); ++q)
     {
       std::fill(minus.begin(), minus.end(), 0.);
-      block_algebra().subtract_gram(X.n_tiles(), X.panel(p), Y.panel(q), minus.data());
-      for (int i = p * lanes(); i < std::min(X.columns(), (p + 1) * lanes()); ++i)
-        for (int j = q * lanes(); j < std::min(Y.columns(), (q + 1) * lanes()); ++j)
-          G(i, j) = -minus[(i - p * lanes()) * lanes() + j - q * lanes()];
+      X.algebra().subtract_gram(X.n_tiles(), X.panel(p), Y.panel(q), minus.data());
+      for (int i = p * lanes; i < std::min(X.columns(), (p + 1) * lanes); ++i)
+        for (int j = q * lanes; j < std::min(Y.columns(), (q + 1) * lanes); ++j)
+          G(i, j) = -minus[(i - p * lanes) * lanes + j - q * lanes];
     }
   return G;
 }
@@ -186,10 +176,10 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
 
 void ReorderedMatrix::multiply(const TallMatrix &X, TallMatrix &Y) const
 {
-  assert(X.rows() == n_ && Y.rows() == n_ && Y.columns() == X.columns());
+  assert(X.rows() == n_ && Y.rows() == n_ && Y.columns() == X.columns() && Y.lanes() == X.lanes());
   const SparseRows rows{int(first_.size()) - 1, first_.data(), begin_.data(), column_.data(), value_.data()};
   for (int p = 0; p < X.n_panels(); ++p)
-    block_algebra().sparse_product(rows, X.panel(p), Y.panel(p));
+    X.algebra().sparse_product(rows, X.panel(p), Y.panel(p));
 }
 
 void TallSpace::append(const TallMatrix &X)
@@ -197,11 +187,11 @@ void TallSpace::append(const TallMatrix &X)
   const int  width = X.columns();
   Part       part{LargeArray(ptrdiff_t(n_tiles()) * tile_rows * width), width, width};
   double    *to = part.tiles.data();
-  const auto c  = lanes();
+  const auto c  = X.lanes();
   for (int t = 0; t < n_tiles(); ++t)
     for (int j = 0; j < width; ++j, to += tile_rows)
     {
-      const double *from = X.panel(j / c) + t * tile_step() + j % c;
+      const double *from = X.panel(j / c) + t * X.tile_step() + j % c;
       for (int i = 0; i < tile_rows; ++i)
         to[i] = from[i * c];
     }
@@ -211,12 +201,13 @@ void TallSpace::append(const TallMatrix &X)
 
 MatrixXd TallSpace::project(const TallMatrix &X, int from) const
 {
+  const int         lanes = X.lanes();
   MatrixXd          H(columns_ - from, X.columns());
   const std::size_t first_part = part_at(from);
   int               height     = 0;
   for (std::size_t a = first_part; a < parts_.size(); ++a)
     height += parts_[a].width;
-  std::vector<double> minus_H(height * lanes());
+  std::vector<double> minus_H(height * lanes);
   for (int q = 0; q < X.n_panels(); ++q)
   {
     std::fill(minus_H.begin(), minus_H.end(), 0.);
@@ -227,18 +218,17 @@ MatrixXd TallSpace::project(const TallMatrix &X, int from) const
                      for (std::size_t a = first_part; a < parts_.size(); ++a)
                      {
                        const Part &part = parts_[a];
-                       block_algebra().subtract_projection(part.tiles.data() +
-                                                               ptrdiff_t(first) * tile_rows * part.width,
-                                                           part.width, count, X.panel(q) + first * tile_step(), h);
-                       h += part.width * lanes();
+                       X.algebra().subtract_projection(part.tiles.data() + ptrdiff_t(first) * tile_rows * part.width,
+                                                       part.width, count, X.panel(q) + first * X.tile_step(), h);
+                       h += part.width * lanes;
                      }
                    });
     int           row = 0;
     const double *h   = minus_H.data();
-    for (std::size_t a = first_part; a < parts_.size(); h += parts_[a].width * lanes(), ++a)
+    for (std::size_t a = first_part; a < parts_.size(); h += parts_[a].width * lanes, ++a)
       for (int k = 0; k < parts_[a].used; ++k, ++row)
-        for (int j = q * lanes(); j < std::min(X.columns(), (q + 1) * lanes()); ++j)
-          H(row, j) = -h[k * lanes() + j - q * lanes()];
+        for (int j = q * lanes; j < std::min(X.columns(), (q + 1) * lanes); ++j)
+          H(row, j) = -h[k * lanes + j - q * lanes];
   }
   return H;
 }
@@ -259,14 +249,14 @@ MatrixXd TallSpace::rows_of_parts(const MatrixXd &H, std::size_t first_part) con
   return padded;
 }
 
-void TallSpace::subtract_strip(std::size_t first_part, int first, int count, const double *H, double *X) const
+void TallSpace::subtract_strip(const BlockAlgebra &algebra, std::size_t first_part, int first, int count,
+                               const double *H, double *X) const
 {
   for (std::size_t a = first_part; a < parts_.size(); ++a)
   {
     const Part &part = parts_[a];
-    block_algebra().subtract_product(part.tiles.data() + ptrdiff_t(first) * tile_rows * part.width, part.width, count,
-                                     H, X);
-    H += part.width * lanes();
+    algebra.subtract_product(part.tiles.data() + ptrdiff_t(first) * tile_rows * part.width, part.width, count, H, X);
+    H += part.width * algebra.columns;
   }
 }
 
@@ -276,28 +266,32 @@ void TallSpace::subtract(TallMatrix &X, const MatrixXd &H, int from) const
   const MatrixXd    padded     = rows_of_parts(H, first_part);
   for (int q = 0; q < X.n_panels(); ++q)
   {
-    const auto h = by_rows(padded, q);
-    for_each_strip(n_tiles(), [&](int first, int count)
-                   { subtract_strip(first_part, first, count, h.data(), X.panel(q) + first * tile_step()); });
+    const auto h = by_rows(padded, q, X.lanes());
+    for_each_strip(
+        n_tiles(), [&](int first, int count)
+        { subtract_strip(X.algebra(), first_part, first, count, h.data(), X.panel(q) + first * X.tile_step()); });
   }
 }
 
 template <typename Visit>
 void TallSpace::for_each_product(const MatrixXd &S, const Visit &visit) const
 {
-  const MatrixXd                   minus_S = rows_of_parts(-S, 0);
+  const BlockAlgebra              &algebra   = block_algebra(int(S.cols()));
+  const int                        lanes     = algebra.columns;
+  const ptrdiff_t                  tile_step = ptrdiff_t(tile_rows) * lanes;
+  const MatrixXd                   minus_S   = rows_of_parts(-S, 0);
   std::vector<std::vector<double>> s;
-  for (int q = 0; q < panels_for(int(S.cols())); ++q)
-    s.push_back(by_rows(minus_S, q));
-  std::vector<double> rows(s.size() * strip * tile_step());
+  for (int q = 0; q < panels_for(int(S.cols()), lanes); ++q)
+    s.push_back(by_rows(minus_S, q, lanes));
+  std::vector<double> rows(s.size() * strip * tile_step);
   const auto          at = [&](int i, int j) -> double &
-  { return rows[(j / lanes()) * strip * tile_step() + ptrdiff_t(i) * lanes() + j % lanes()]; };
+  { return rows[(j / lanes) * strip * tile_step + ptrdiff_t(i) * lanes + j % lanes]; };
   for_each_strip(n_tiles(),
                  [&](int first, int count)
                  {
                    std::fill(rows.begin(), rows.end(), 0.);
                    for (std::size_t q = 0; q < s.size(); ++q)
-                     subtract_strip(0, first, count, s[q].data(), rows.data() + q * strip * tile_step());
+                     subtract_strip(algebra, 0, first, count, s[q].data(), rows.data() + q * strip * tile_step);
                    visit(first, count, at);
                  });
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "coupling/large_array.h"
+#include "coupling/tile_sweeps.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <cstddef>
 #include <vector>
 
 namespace gestell::coupling
@@ -12,8 +14,8 @@ namespace gestell::coupling
 
 /**
  * Few columns of many numbers, X [n x columns], laid out for products: in panels of as many columns as the processor
- * takes together, in which the numbers of a row lie side by side.  Rows beyond n, up to a multiple of eight and at
- * least one, and columns beyond those in use are zero.
+ * takes together (fewer for few columns), in which the numbers of a row lie side by side.  Rows beyond n, up to a
+ * multiple of eight and at least one, and columns beyond those in use are zero.
  */
 class TallMatrix
 {
@@ -25,6 +27,10 @@ public:
   int columns() const { return columns_; }
   int n_tiles() const { return (n_ + 8) / 8; } ///< groups of eight rows
   int n_panels() const { return int(panels_.size()); }
+
+  const BlockAlgebra &algebra() const { return *algebra_; }
+  int                 lanes() const { return algebra_->columns; }                  ///< columns of a panel
+  std::ptrdiff_t tile_step() const { return std::ptrdiff_t(tile_rows) * lanes(); } ///< numbers in eight of its rows
 
   double       *panel(int p) { return panels_[p].data(); }
   const double *panel(int p) const { return panels_[p].data(); }
@@ -41,10 +47,11 @@ public:
 
 private:
   int                     n_ = 0, columns_ = 0;
+  const BlockAlgebra     *algebra_ = &block_algebra(0);
   std::vector<LargeArray> panels_;
 };
 
-/// X^T Y
+/// X^T Y; both with panels of as many lanes.
 Eigen::MatrixXd gram(const TallMatrix &X, const TallMatrix &Y);
 
 /// A sparse matrix with rows and columns in another order; rows of a node that are alike are kept once.
@@ -93,7 +100,8 @@ private:
 
   std::size_t     part_at(int column) const;
   Eigen::MatrixXd rows_of_parts(const Eigen::MatrixXd &H, std::size_t first_part) const; // zeros for columns not used
-  void            subtract_strip(std::size_t first_part, int first, int count, const double *H, double *X) const;
+  void subtract_strip(const BlockAlgebra &algebra, std::size_t first_part, int first, int count, const double *H,
+                      double *X) const;
   /// Calls visit(first tile, number of tiles, row) for Q S, row(i, j) being its entries there.
   template <typename Visit>
   void for_each_product(const Eigen::MatrixXd &S, const Visit &visit) const;

@@ -12,11 +12,12 @@ namespace gestell::coupling
 namespace
 {
 
-using Wide = Block<Four, 2, 4>;
+using Narrow = Block<Four, 1, 8>;
+using Wide   = Block<Four, 2, 4>;
 
-constexpr SweepKernels any_processor = {sweeps_of<Single>, sweeps_of<Block<Four, 1, 8>>, sweeps_of<Wide>,
-                                        sweeps_of<Block<Four, 3, 4>>};
-constexpr BlockAlgebra any_algebra   = algebra_of<Wide>;
+constexpr SweepKernels   any_processor = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>,
+                                          sweeps_of<Block<Four, 3, 4>>};
+constexpr AlgebraKernels any_algebra   = {algebra_of<Narrow>, algebra_of<Wide>};
 
 /// Whether the kernels for AVX-512 are there, wanted, and within what the processor can do.
 bool has_avx512()
@@ -39,14 +40,25 @@ const SweepKernels &tile_sweeps()
   return has_avx512() ? avx512_tile_sweeps() : any_processor;
 }
 
-const BlockAlgebra &block_algebra()
+namespace
 {
-  return has_avx512() ? avx512_block_algebra() : any_algebra;
+
+/// Of kernels for few and for many columns.
+bool wants_many(int columns)
+{
+  return columns > tile_sweeps()[1].columns;
 }
 
-const TileSweeps &block_sweeps()
+} // namespace
+
+const BlockAlgebra &block_algebra(int columns)
 {
-  return tile_sweeps()[2];
+  return (has_avx512() ? avx512_block_algebra() : any_algebra)[wants_many(columns) ? 1 : 0];
+}
+
+const TileSweeps &block_sweeps(int columns)
+{
+  return tile_sweeps()[wants_many(columns) ? 2 : 1];
 }
 
 #if !defined(GESTELL_AVX512_KERNELS)
@@ -54,7 +66,7 @@ const SweepKernels &avx512_tile_sweeps()
 {
   return any_processor;
 }
-const BlockAlgebra &avx512_block_algebra()
+const AlgebraKernels &avx512_block_algebra()
 {
   return any_algebra;
 }

@@ -65,8 +65,12 @@ using SweepKernels = std::array<TileSweeps, 4>;
 /// As the processor at hand does them best.
 const SweepKernels &tile_sweeps();
 
-/// For blocks of as many columns as those of tile_sweeps() for many right-hand sides take.
-const BlockAlgebra &block_algebra();
-const TileSweeps   &block_sweeps();
+/// For few and for many columns.
+using AlgebraKernels = std::array<BlockAlgebra, 2>;
+
+/// For blocks of `columns` columns, by as many at once as block_algebra().columns tells.
+const BlockAlgebra &block_algebra(int columns);
+/// Sweeps for the panels of such a block.
+const TileSweeps &block_sweeps(int columns);
 
 } // namespace gestell::coupling

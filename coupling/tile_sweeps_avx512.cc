@@ -9,11 +9,11 @@ namespace gestell::coupling
 namespace
 {
 
-using Wide = Block<Eight, 2, 8>;
+using Narrow = Block<Eight, 1, 8>;
+using Wide   = Block<Eight, 2, 8>;
 
-constexpr SweepKernels kernels = {sweeps_of<Single>, sweeps_of<Block<Eight, 1, 8>>, sweeps_of<Wide>,
-                                  sweeps_of<Block<Eight, 3, 8>>};
-constexpr BlockAlgebra algebra = algebra_of<Wide>;
+constexpr SweepKernels kernels = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>, sweeps_of<Block<Eight, 3, 8>>};
+constexpr AlgebraKernels algebra = {algebra_of<Narrow>, algebra_of<Wide>};
 
 } // namespace
 
@@ -22,7 +22,7 @@ const SweepKernels &avx512_tile_sweeps()
   return kernels;
 }
 
-const BlockAlgebra &avx512_block_algebra()
+const AlgebraKernels &avx512_block_algebra()
 {
   return algebra;
 }

@@ -115,8 +115,8 @@ class BlockLanczos final : public ModeSearch
 public:
   struct Options
   {
-    /// Right-hand sides at once, >= 1.  Twelve take as long as sixteen in all, with a fifth fewer vectors to keep.
-    int    block     = std::min(12, block_algebra().columns);
+    /// Right-hand sides at once, >= 1.  Eight take as long as twelve or sixteen in all, with fewer vectors to keep.
+    int    block     = 8;
     double tolerance = 1e-8; ///< r / theta from which a mode counts as found
     int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
   };

@@ -63,7 +63,8 @@ protected:
 
 TEST_P(TallProducts, AreThoseOfDenseMatrices)
 {
-  const MatrixXd X = irregular(n, columns, 1.), Y = irregular(n, 5, 2.), F = irregular(columns, columns / 2 + 1, 3.);
+  const MatrixXd X = irregular(n, columns, 1.), Y = irregular(n, columns, 2.),
+                 F = irregular(columns, columns / 2 + 1, 3.);
   EXPECT_LT((gram(tall(X), tall(Y)) - X.transpose() * Y).cwiseAbs().maxCoeff(), rounding(n));
   TallMatrix transformed = tall(X);
   transformed.transform(F);
@@ -148,7 +149,7 @@ TEST(ReorderedMatrix, MultipliesRowsOfANodeThatAreAlikeAndOthersBesideThem)
   dense.topRows(12).rightCols(others).setZero(); // the first nodes alone have three rows that are alike
   dense.bottomRows(others) = dense.rightCols(others).transpose();
   dense.bottomRightCorner(others, others).setIdentity();
-  dense(0, 3) = dense(3, 0) = 0.7; // nor do they all
+  dense(0, 3) = dense(3, 0)           = 0.7; // nor do they all
   const Eigen::SparseMatrix<double> A = dense.sparseView();
   std::vector<int>                  as_they_are(n);
   std::iota(as_they_are.begin(), as_they_are.end(), 0);
