@@ -263,7 +263,10 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   {
     const InterfaceReceptance receptance(shapes.basis, shapes.star, statics.response, shapes.refined,
                                          frame.modal_damping_ratio, two_pi * options.frequency);
-    notes.push_back(receptance_statement(receptance, shapes.basis, {m}, options.frequency));
+    notes.push_back(receptance_statement(receptance, shapes.basis, {m}, options.frequency) +
+                    (has_inner_dampers(shapes.basis, frame.B)
+                         ? "; dampers inside the frame are left out of this: leave modes out, and shapes for them join"
+                         : ""));
   }
   if (options.n_modes >= 0)
     warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);

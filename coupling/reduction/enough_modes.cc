@@ -1,5 +1,6 @@
 #include "coupling/reduction/enough_modes.h"
 
+#include "coupling/reduction/damper_shapes.h"
 #include "coupling/reduction/rounded.h"
 
 #include <algorithm>
@@ -100,19 +101,35 @@ Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool mo
 } // namespace
 
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
-                                 const InsideCount &inside, double frequency_hz)
+                                 const InsideCount &inside, double frequency_hz, const DamperShapes *dampers)
 {
   const auto   within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
   const auto   known       = within_rule < basis.m() || basis.m() == 0;
   const bool   with_shapes = inside.shapes > 0;
-  const double error =
-      receptance.error(inside.modes, with_shapes ? Inside::modes_and_shapes : Inside::modes) + receptance.uncertainty();
+  const auto   of_dampers  = dampers ? dampers->W.cols() : 0;
+  const double error       = dampers
+                                 ? dampers->left
+                                 : receptance.error(inside.modes, with_shapes ? Inside::modes_and_shapes : Inside::modes) +
+                                 receptance.uncertainty();
   return "reduction: " + std::to_string(inside.modes) + " fixed-interface modes " +
          (with_shapes ? "and " + std::to_string(inside.shapes) + " static shapes of the inertia " : "") +
+         (of_dampers > 0 ? "and " + std::to_string(of_dampers) + " of dampers inside the frame " : "") +
          "keep the receptance of the interface up to " + rounded(frequency_hz) + " Hz within " + percent(error) +
          " of the full frame's; the rule of " + rounded(rule) + " times the highest frequency would take " +
          (known ? "" : "at least ") + std::to_string(within_rule);
 }
+
+namespace
+{
+
+MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
+{
+  MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
+} // namespace
 
 EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
                          const InteriorResponse &response, const fem::FrameMatrices &frame,
@@ -153,11 +170,22 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
                       percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
     else
     {
-      if (receptance)
-        notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency));
-      basis.truncate(judgement.fewest.modes);
       if (judgement.fewest.shapes > 0)
         found.shapes = inertia_shapes(held, basis);
+      std::optional<DamperShapes> dampers;
+      if (receptance && has_inner_dampers(basis, frame.B))
+      {
+        if (progress)
+          progress("dampers inside the frame", -1.);
+        dampers      = damper_shapes(held, basis, judgement.fewest.modes, found.shapes, frame,
+                                     receptance_frequencies(refined, frame.modal_damping_ratio, within), options.tolerance,
+                                     most_modes);
+        found.shapes = beside(found.shapes, dampers->W);
+      }
+      if (receptance)
+        notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency,
+                                             dampers ? &*dampers : nullptr));
+      basis.truncate(judgement.fewest.modes);
       fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
     }
     fixed.finish();

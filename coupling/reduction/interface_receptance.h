@@ -12,6 +12,20 @@
 namespace gestell::coupling
 {
 
+/// Where receptances are compared.
+struct ReceptanceFrequency
+{
+  double omega, ratio; ///< [rad/s]; damping zeta of the modes there
+};
+
+/**
+ * Frequencies up to `highest` [rad/s] spread over the range, and gathered around its resonances.
+ *
+ * @param zeta of the modes; 0.01 where there is none.
+ */
+std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
+                                                        double highest);
+
 /// What describes the inside of a reduced model.
 enum class Inside
 {
