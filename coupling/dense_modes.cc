@@ -111,7 +111,8 @@ private:
   Eigen::LLT<MatrixXd> L_;
 };
 
-DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted, double cancelled)
+DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted, double cancelled,
+                    std::optional<int> n_rigid)
 {
   MatrixXd       V;
   const VectorXd mu = shifted.solve(M, V);
@@ -126,7 +127,8 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
     v /= std::sqrt(v.dot(M * v));
     const double square   = v.dot(C * v);
     const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
-    modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
+    const bool   moves    = n_rigid ? j >= *n_rigid && square > 0. : square > rounding;
+    modes.omega(j)        = moves ? std::sqrt(square) : 0.;
     if (-square > certain * rounding)
       modes.growth(j) = std::sqrt(-square);
   }
@@ -147,7 +149,7 @@ double alike_beside(double s, const DenseModes &modes)
 
 } // namespace
 
-DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
+DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled, std::optional<int> n_rigid)
 {
   if (C.rows() == 0)
     return {};
@@ -162,13 +164,13 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
   for (int i = 0; i < most_shifts && stiffness == Stiffness::unstable && !shifted.definite(); ++i)
     shifted = Shifted(C, M, s *= 10.);
   shifted.require_motion();
-  DenseModes modes = modes_of(C, M, shifted, cancelled);
+  DenseModes modes = modes_of(C, M, shifted, cancelled, n_rigid);
   for (int i = 0; i < most_shifts && stiffness != Stiffness::unstable && alike_beside(s, modes) > 0.; ++i)
   {
     shifted = Shifted(C, M, s = alike_beside(s, modes));
     if (!shifted.definite())
       break;
-    modes = modes_of(C, M, shifted, cancelled);
+    modes = modes_of(C, M, shifted, cancelled, n_rigid);
   }
   return modes;
 }

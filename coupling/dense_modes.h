@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace gestell::coupling
@@ -29,9 +30,11 @@ struct DenseModes
  *
  * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
  * their signs: what rounding in C leaves.
+ * @param n_rigid    number of rigid motions where it is known: they are the lowest modes, and `cancelled` has no say.
  * @throws std::invalid_argument if a motion has neither stiffness nor mass, naming the coordinate it fails at, and if
  * an entry is not finite.
  */
-DenseModes dense_modes(const Eigen::MatrixXd &C, const Eigen::MatrixXd &M, double cancelled = 1e-12);
+DenseModes dense_modes(const Eigen::MatrixXd &C, const Eigen::MatrixXd &M, double cancelled = 1e-12,
+                       std::optional<int> n_rigid = {});
 
 } // namespace gestell::coupling

@@ -256,7 +256,7 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   tell(progress, "reduced matrices");
   shapes.star = reduced_matrices(shapes.basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response);
+    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response, frame);
   const int m = shapes.basis.m();
   if (options.n_modes >= 0 && options.frequency > 0. && shapes.basis.n1() > 0 && m > 0 &&
       two_pi * options.frequency < shapes.basis.omega0(m - 1))

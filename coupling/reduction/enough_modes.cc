@@ -147,7 +147,7 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
     if (progress)
       progress("error estimate", -1.);
     const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
-    EnoughModes           found{supported_modes(basis, star, response), Eigen::MatrixXd(frame.M.rows(), 0)};
+    EnoughModes           found{supported_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
     const SupportedModes &refined = found.refined;
     const double          within  = highest_of_interest(options, refined);
     const double          highest = m > 0 && m < n2 ? basis.omega0(m - 1) : INFINITY;
