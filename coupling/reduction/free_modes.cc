@@ -75,7 +75,7 @@ void FreeInverse::operator()(Eigen::Ref<MatrixXd> X) const
 
 FreeInterfaceModes::FreeInterfaceModes(HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
                                        const BlockLanczos::Options &options)
-    : CountedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options),
+    : CountedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options, frame.C),
       held_(held), frame_(frame), inverse_(held, basis, frame)
 {
 }

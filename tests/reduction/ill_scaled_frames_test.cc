@@ -77,5 +77,54 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
   }
 }
 
+/// One mode at 100 rad/s that moves a coordinate of 1e20 N/m by 1e-4, the next at 101; a factor of a given growth.
+class OneStiffCoordinate : public coupling::CountedModes
+{
+public:
+  explicit OneStiffCoordinate(double growth) : CountedModes("modes", false, {}, stiffness()), growth_(growth) {}
+
+private:
+  struct Search : coupling::ModeSearch
+  {
+    void                  find(int) override {}
+    coupling::LowestModes modes(int) const override
+    {
+      return {VectorXd::Constant(1, 100.), Eigen::Vector2d(1., 1e-4), VectorXd::Zero(1)};
+    }
+    Gap gap_above(int) const override { return {100., 101., 1}; }
+  };
+  static Eigen::SparseMatrix<double> stiffness()
+  {
+    return MatrixXd(Eigen::Vector2d(1e4, 1e20).asDiagonal()).sparseView();
+  }
+  int                                   n() const override { return 2; }
+  coupling::LowestModes                 all() const override { return {}; }
+  void                                  restore() override {}
+  void                                  release() override {}
+  coupling::Inertia                     below(double) override { return {1, growth_}; }
+  std::unique_ptr<coupling::ModeSearch> search(const coupling::BlockLanczos::Options &,
+                                               const coupling::LowestModes &) const override
+  {
+    return std::make_unique<Search>();
+  }
+  double growth_;
+};
+
+TEST(Completeness, IsNotToldWhereRoundingMayMoveAFrequencyAcrossTheGap)
+{
+  // In the middle of the gap, 100.5^2 - 100^2 = 100.25, rounding moves omega^2 by growth 2.2e-16 (1e12 + 1e4).
+  const double largest = 100.25 / (std::numeric_limits<double>::epsilon() * (1e12 + 1e4));
+  EXPECT_EQ(OneStiffCoordinate(0.99 * largest).find_all(1).omega.size(), 1);
+  try
+  {
+    OneStiffCoordinate(1.01 * largest).find_all(1);
+    FAIL() << "elsewhere in the gap less is allowed";
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("cannot be told"), std::string::npos) << failure.what();
+  }
+}
+
 } // namespace
 } // namespace gestell::test
