@@ -37,8 +37,9 @@ void CountedModes::find(int count)
     if (found_.omega.size() == 0)
       found_ = all();
     if (found_.omega.size() < count)
-      throw ConvergenceFailure(kind_ + ": " + std::to_string(count) + " asked for, but the mass matrix has rank " +
-                               std::to_string(found_.omega.size()) + "; ask for fewer modes");
+      throw ConvergenceFailure(kind_ + ": there are " + std::to_string(found_.omega.size()) +
+                               ", for the mass matrix has no higher rank, but " + std::to_string(count) +
+                               " are looked for; set their number (reduction.modes) to that or less");
   }
   else if (search_)
     search_->find(count);

@@ -74,7 +74,8 @@ public:
 
   struct Answer
   {
-    MatrixXcd c, H;       // F c: unbalanced, the interface moved by E; H of the full frame, scaled, as estimated
+    MatrixXcd c;          // F c is unbalanced, the interface moved by E
+    MatrixXcd H_model, H; // scaled; of the full frame as it is estimated
     double    error = 0.; // |H_model - H| / |H|
   };
 
@@ -100,8 +101,9 @@ public:
     const MatrixXcd model   = D.topRows(n1_) * p;
     const auto      inverse = [&](const MatrixXcd &A)
     { return MatrixXcd((scale_.asDiagonal() * A * scale_.asDiagonal()).partialPivLu().inverse()); };
-    answer.H     = inverse(model - lacking);
-    answer.error = (inverse(model) - answer.H).norm() / answer.H.norm();
+    answer.H       = inverse(model - lacking);
+    answer.H_model = inverse(model);
+    answer.error   = (answer.H_model - answer.H).norm() / answer.H.norm();
     return answer;
   }
 
@@ -213,7 +215,7 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
 
 DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, int m, const MatrixXd &X,
                            const fem::FrameMatrices &frame, const std::vector<ReceptanceFrequency> &frequencies,
-                           double tolerance, int most)
+                           const Groups &groups, double tolerance, int most)
 {
   DampedModel model(held, basis, m, frame);
   if (X.cols() > 0)
@@ -222,9 +224,14 @@ DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, i
   for (;;)
   {
     DampedModel::Answer worst;
+    result.of_groups.clear();
     for (const ReceptanceFrequency &frequency : frequencies)
-      if (auto answer = model.at(frequency); answer.error >= worst.error)
+    {
+      auto answer = model.at(frequency);
+      raise_errors(groups, answer.H_model, answer.H, result.of_groups);
+      if (answer.error >= worst.error)
         worst = std::move(answer);
+    }
     result.left       = worst.error;
     const auto shapes = result.W.cols();
     if (worst.error <= tolerance || shapes >= most)

@@ -16,6 +16,7 @@ struct DamperShapes
 {
   Eigen::MatrixXd W;         ///< [n x k], zero on q1
   double          left = 0.; ///< estimated relative error of the damped receptance with them, modes left out included
+  std::vector<double> of_groups{}; ///< the same of each interface by itself
 };
 
 /// Whether B acts on anything but q1.
@@ -43,10 +44,11 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
  * @param basis        of all modes known; the model has the first m.
  * @param X            other shapes of the model [n x k], zero on q1, or [n x 0].
  * @param frequencies  to look at, as for InterfaceReceptance.
+ * @param groups       of q1, whose own errors are told.
  * Source: docs/theory/reduction.md (16e).
  */
 DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, int m, const Eigen::MatrixXd &X,
                            const fem::FrameMatrices &frame, const std::vector<ReceptanceFrequency> &frequencies,
-                           double tolerance, int most);
+                           const Groups &groups, double tolerance, int most);
 
 } // namespace gestell::coupling

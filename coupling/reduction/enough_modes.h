@@ -16,11 +16,12 @@ namespace gestell::coupling
 /// frame.
 double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
 
-/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", and what
-/// the book's rule, modes up to 3.5 times the highest frequency, would take.
+/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", which
+/// interface is worst by itself, and what the book's rule, modes up to 3.5 times the highest frequency, would take.
 /// @param dampers inside the frame, if there are any and their effect is known.
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
-                                 const InsideCount &inside, double frequency_hz, const DamperShapes *dampers = nullptr);
+                                 const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
+                                 double frequency_hz, const DamperShapes *dampers = nullptr);
 
 /// What enough_modes() found.
 struct EnoughModes

@@ -160,6 +160,25 @@ double InterfaceReceptance::error(int m, Inside inside) const
   return largest;
 }
 
+void raise_errors(const Groups &groups, const MatrixXcd &H_model, const MatrixXcd &H, std::vector<double> &errors)
+{
+  errors.resize(groups.size(), 0.);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    const MatrixXcd block = H(groups[i], groups[i]);
+    errors[i]             = std::max(errors[i], (H_model(groups[i], groups[i]) - block).norm() / block.norm());
+  }
+}
+
+std::vector<double> InterfaceReceptance::errors_of(const Groups &groups, int m, Inside inside) const
+{
+  const Fractions     model = of_model(m, inside);
+  std::vector<double> errors(groups.size(), 0.);
+  for (const Frequency &frequency : frequencies_)
+    raise_errors(groups, receptance(frequency.s, model.at(frequency.s)), frequency.H, errors);
+  return errors;
+}
+
 InsideCount InterfaceReceptance::fewest(double tolerance, Inside inside) const
 {
   std::size_t worst = 0; // where the last number failed the next one will, too

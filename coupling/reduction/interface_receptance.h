@@ -26,6 +26,13 @@ struct ReceptanceFrequency
 std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
                                                         double highest);
 
+/// Coordinates of one interface, counted in q1.
+using Groups = std::vector<std::vector<int>>;
+
+/// |(H_model - H)_gg| / |H_gg| of the coordinates of each group g: raises `errors` to it.
+void raise_errors(const Groups &groups, const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H,
+                  std::vector<double> &errors);
+
 /// What describes the inside of a reduced model.
 enum class Inside
 {
@@ -76,6 +83,9 @@ public:
 
   /// Largest error of the model with the first m modes, m up to those known.
   double error(int m, Inside inside) const;
+
+  /// The same of each interface by itself: of its own block of H, relative to that block.
+  std::vector<double> errors_of(const Groups &groups, int m, Inside inside) const;
 
   /// Fewest modes with an error within the tolerance.
   InsideCount fewest(double tolerance, Inside inside) const;

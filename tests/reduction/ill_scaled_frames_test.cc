@@ -77,6 +77,50 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
   }
 }
 
+TEST(LumpedMasses, HaveAsManyModesAsThereAreAndNoMoreAreLookedFor)
+{
+  auto frame = frame_of(Lattice());
+  for (int i = 0; i < frame.M.rows(); ++i)
+    if (i / 3 % 10 != 4) // nine points keep theirs
+      frame.M.coeffRef(i, i) = 0.;
+  const VectorXd full    = coupling::dense_modes(frame.C, frame.M).omega;
+  const auto     reduced = coupling::craig_bampton(frame, coupling::ReductionOptions());
+  EXPECT_LE(reduced.omega0.size(), 27);
+  for (int j = 0; j < 12; ++j)
+    EXPECT_NEAR(reduced.frequencies_hz[j] * 2. * M_PI, full[j], 0.01 * full[j]) << j;
+
+  coupling::ReductionOptions options;
+  options.n_modes = 40;
+  try
+  {
+    coupling::craig_bampton(frame, options);
+    FAIL() << "40 of 27 modes";
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("mass matrix has no higher rank"), std::string::npos) << failure.what();
+  }
+}
+
+TEST(ModalDamping, OfAFloatingFrameThatIsNotReducedIsRefusedWithTheWayOut)
+{
+  Lattice lattice;
+  lattice.foundation        = 0.;
+  auto frame                = frame_of(lattice);
+  frame.modal_damping_ratio = 0.02;
+  try
+  {
+    coupling::add_modal_damping(frame, 10);
+    FAIL();
+  }
+  catch (const std::invalid_argument &refusal)
+  {
+    for (const char *part : {"modal damping: the frame floats (6 motions are free, one of them translation along x)",
+                             "support it", "craig-bampton", "rayleigh"})
+      EXPECT_NE(std::string(refusal.what()).find(part), std::string::npos) << refusal.what();
+  }
+}
+
 /// One mode at 100 rad/s that moves a coordinate of 1e20 N/m by 1e-4, the next at 101; a factor of a given growth.
 class OneStiffCoordinate : public coupling::CountedModes
 {

@@ -219,8 +219,7 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
   EXPECT_LE(told, tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,
-                         ::testing::Combine(::testing::Values(0.2, 2., 20., 200.),
-                                            ::testing::Values(0.01, 1e-3)));
+                         ::testing::Combine(::testing::Values(0.2, 2., 20., 200.), ::testing::Values(0.01, 1e-3)));
 
 TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
 {
@@ -239,6 +238,21 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
     std::iota(first.begin(), first.end(), 0);
     const double found = error(by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor), exact, scale);
     EXPECT_NEAR(told, found, 0.1 * found) << m; // the grids of frequencies differ
+
+    double worst = 0.; // of the interfaces by themselves, six coordinates each
+    for (const int at : {0, 6})
+    {
+      const std::vector<int> own = {at, at + 1, at + 2, at + 3, at + 4, at + 5};
+      Receptances            H, full;
+      for (const MatrixXcd &of_all : by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor))
+        H.emplace_back(of_all(own, own));
+      for (const MatrixXcd &of_all : exact)
+        full.emplace_back(of_all(own, own));
+      worst = std::max(worst, error(H, full, scale.segment(at, 6)));
+    }
+    const auto by_itself = model.notes[0].find("by itself ");
+    ASSERT_NE(by_itself, std::string::npos) << model.notes[0];
+    EXPECT_NEAR(std::stod(model.notes[0].substr(by_itself + 10)) / 100., worst, 0.15 * worst) << model.notes[0];
   }
 }
 
