@@ -183,6 +183,7 @@ int run_program(int argc, char **argv)
       ->check(CLI::PositiveNumber);
   mesher->add_option("--overlaps", mesh.overlaps, "refused, or once: a common part of solids belongs to the first")
       ->check(CLI::IsMember({"refused", "once"}));
+  mesher->add_option("--density", mesh.density, "what solids are weighed with, such as \"2700 kg/m^3\" (steel)");
   mesher->add_option("--defeature", mesh.defeature, "remove faces and edges smaller than this, such as \"2 mm\"");
   mesher->add_flag("--selectors", mesh.selectors, "write surfaces as entries [frame.surface.NAME] of a scene");
 

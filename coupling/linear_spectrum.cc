@@ -19,7 +19,9 @@ namespace
 std::vector<SpectrumLine> damped_lines(const DenseModes &modes, const Eigen::MatrixXd &B)
 {
   const Eigen::Index p = modes.omega.size();
-  Eigen::MatrixXd    A(2 * p, 2 * p);
+  if (p == 0) // nothing has mass
+    return {};
+  Eigen::MatrixXd A(2 * p, 2 * p);
   A << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd(modes.omega.asDiagonal()),
       Eigen::MatrixXd((-modes.omega).asDiagonal()), -modes.V.transpose() * B * modes.V;
   const Eigen::VectorXcd    s     = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();

@@ -12,7 +12,7 @@ struct ConvergenceOptions
 {
   double tolerance       = 0.01; ///< relative error allowed in every quantity, > 0
   int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
-  bool   compliances     = true; ///< of all interfaces are watched, too
+  bool   compliances     = true; ///< of all interfaces but those at a point are watched, too
   int    max_coordinates = 1000000;
   int    max_meshes      = 6; ///< >= 2
 };
@@ -54,6 +54,7 @@ struct MeshConvergence
   bool                           converged = false; ///< every bound() within the tolerance
   std::string                    stopped;           ///< why not, if it is not
   std::vector<std::string>       left_out;          ///< quantities that not every mesh has
+  std::vector<std::string>       at_points;         ///< interfaces whose compliance has no limit, and is not watched
   ReducedFrame                   frame;             ///< of the last mesh
 };
 

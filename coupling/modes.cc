@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <stdexcept>
 
 namespace gestell::coupling
 {
@@ -18,6 +20,20 @@ namespace
 constexpr double two_pi            = 6.283185307179586;
 constexpr double rounding_of_ratio = 1e-12;
 
+/// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.
+Eigen::EigenSolver<Eigen::MatrixXd> solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
+{
+  if (!state.allFinite()) // the solver would leave its arrays
+  {
+    std::ostringstream message;
+    message << "modes: the highest frequency is " << omega.maxCoeff() / two_pi
+            << " Hz, beyond what can be computed with dampers; a mass is far too small for its spring or damper: "
+               "check its unit, or leave it out";
+    throw std::invalid_argument(message.str());
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(state);
+}
+
 /// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes:
 /// (s^2 E + s V^T B V + diag(omega^2)) y = 0; each undamped mode takes the vibrating solution in which it is largest.
 void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<Mode> &result)
@@ -26,10 +42,10 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   Eigen::MatrixXd state(2 * p, 2 * p);
   state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p),
       Eigen::MatrixXd((-modes.omega.array().square()).matrix().asDiagonal()), -modes.V.transpose() * B * modes.V;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
-  const Eigen::VectorXcd                    s       = solver.eigenvalues();
-  const Eigen::MatrixXcd                    vectors = solver.eigenvectors();
-  std::vector<bool>                         taken(2 * p, false);
+  const auto             solver  = solve_state(state, modes.omega);
+  const Eigen::VectorXcd s       = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  std::vector<bool>      taken(2 * p, false);
   for (std::size_t j = 0; j < result.size(); ++j)
   {
     int    best  = -1;
@@ -79,7 +95,7 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
     for (int d = 0; d < 3; ++d)
       result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
   }
-  if (damped)
+  if (damped && !result.empty())
     add_damping(modes, B, result);
   return result;
 }
@@ -119,6 +135,22 @@ struct Linear
   Eigen::MatrixXd M, B, K, Z;
 };
 
+/// Sums of masses and forces that overflow are no matrices.
+void require_finite(const Machine &machine, const Linear &linear)
+{
+  const auto check = [&](const Eigen::MatrixXd &A, const char *what, const char *reason)
+  {
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+      if (!A.row(i).allFinite())
+        throw std::invalid_argument("modes: the " + std::string(what) + " of coordinate " +
+                                    machine.coordinate_name(int(i)) + " is not finite; " + reason +
+                                    " too large to compute with: check their units");
+  };
+  check(linear.M, "mass", "masses or inertias are");
+  check(linear.B, "damping", "dampers are");
+  check(linear.K, "stiffness", "springs are, or the forces (such as weights) that turn with its motion are,");
+}
+
 Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation)
 {
   if (machine.full_frame())
@@ -141,6 +173,7 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
       local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
     linear.K += geometric_stiffness(machine, local, linearisation.acting);
   }
+  require_finite(machine, linear);
   linear.Z = free_motions(machine, local, linearisation.fixed);
   return linear;
 }
@@ -277,11 +310,13 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   Eigen::MatrixXd       L = Eigen::MatrixXd::Zero(machine.size(), m);
   for (Eigen::Index i = 0; i < m; ++i)
     L(lags[i], i) = 1.;
-  const Eigen::Index                        p = V.cols();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(linear, modes, V, L));
-  const Eigen::VectorXcd                    s       = solver.eigenvalues();
-  const Eigen::MatrixXcd                    vectors = solver.eigenvectors();
-  const double                              largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;
+  const Eigen::Index p = V.cols();
+  if (p + m == 0) // nothing has mass
+    return poles;
+  const auto             solver  = solve_state(state_matrix(linear, modes, V, L), modes.omega);
+  const Eigen::VectorXcd s       = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const double           largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;
   // A motion at rest is a double root; rounding parts it by the root of what it leaves in the matrix.
   const double rest = 10. * std::sqrt(std::numeric_limits<double>::epsilon() * std::max(largest, slowest) * slowest);
   for (Eigen::Index k = 0; k < s.size(); ++k)

@@ -14,8 +14,9 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double gib       = 1024. * 1024. * 1024.;
-constexpr double of_sphere = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
+constexpr double gib         = 1024. * 1024. * 1024.;
+constexpr double of_averaged = 5e4;  // bytes for a node
+constexpr double of_sphere   = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
 
 /// The number in a file of a control group; infinite for "max" and for no file.
 double number_in(const char *path)
@@ -32,10 +33,15 @@ double compactness(double volume, double skin_area)
   return skin_area > 0. ? std::min(2. * std::pow(volume, 2. / 3.) / skin_area, of_sphere) : of_sphere;
 }
 
-double reduction_memory(double n_coordinates, double kappa)
+double reduction_memory(double n_coordinates, double kappa, double n_averaged)
 {
   const double n = n_coordinates / 1e5;
-  return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib;
+  return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib + of_averaged * n_averaged;
+}
+
+double nodes_on(double area, double size)
+{
+  return 2. * area / (std::sqrt(0.1875) * size * size); // of equilateral triangles
 }
 
 double coordinates_of(double n_tetrahedra)
@@ -61,13 +67,11 @@ std::string memory_text(double bytes)
                            : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
 }
 
-void require_memory(double n_tetrahedra, double kappa, double available, const std::string &place,
+void require_memory(const std::string &what, double needed, double available, const std::string &place,
                     const std::string &advice)
 {
-  const double n = coordinates_of(n_tetrahedra), needed = reduction_memory(n, kappa);
   if (needed > available)
-    throw std::invalid_argument(place + ": about " + text(n_tetrahedra) + " tetrahedra with " + text(n) +
-                                " coordinates are to be expected, for which mesh and reduction need about " +
+    throw std::invalid_argument(place + ": " + what + ", for which mesh and reduction need about " +
                                 memory_text(needed) + "; available are " + memory_text(available) + ". " + advice);
 }
 

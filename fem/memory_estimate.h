@@ -12,15 +12,19 @@ double compactness(double volume, double skin_area);
 /**
  * Memory [byte] that mesh, assembly and reduction of a frame of n coordinates take at their peak,
  *
- *     0.22 GiB + 0.37 GiB N + 3.8 GiB kappa N^(4/3),     N = n / 100 000:
+ *     0.22 GiB + 0.37 GiB N + 3.8 GiB kappa N^(4/3) + 50 kB n_a,     N = n / 100 000:
  *
  * the libraries; mesh, matrices and vectors of 40 modes, so many per coordinate; and the factor of C.  In nested
  * dissection of a body its entries grow like n^(4/3) (George, SIAM J. Numer. Anal. 10, 1973, 345-363); of plates the
  * separators are as much smaller as they are thinner, 2 V / A being their thickness.  Fitted to the press frame, 3 to 4
  * % above what was measured (docs/benchmarks.md); 3 % low for the ladder chassis, high by a tenth to a third for cubes
- * and beams.  An averaged interface that is a large part of the skin comes on top.
+ * and beams.  Each of the n_a nodes that an interface averages has three rows with the 192 displacements of its group
+ * in M, in C and in the factor: 48 and 50 kB were measured on plates with a whole face averaged.
  */
-double reduction_memory(double n_coordinates, double kappa);
+double reduction_memory(double n_coordinates, double kappa, double n_averaged = 0.);
+
+/// Nodes on an area [m^2] of quadratic triangles of this size [m]: two to a triangle.
+double nodes_on(double area, double size);
 
 /// Memory [byte] this process may still take: what the system has available, or its container allows; infinite where
 /// neither tells.
@@ -29,9 +33,10 @@ double available_memory();
 /// Coordinates of a quadratic mesh of so many tetrahedra, within 20 %.
 double coordinates_of(double n_tetrahedra);
 
-/// @throws std::invalid_argument if the mesh to be expected needs more memory than there is.
-/// @param advice  what would do, such as "use size = 0.1 m or more"
-void require_memory(double n_tetrahedra, double kappa, double available, const std::string &place,
+/// @param what    needs it, such as "the mesh has 30000 coordinates"
+/// @param advice  what would do, such as "Use size = 0.1 m or more."
+/// @throws std::invalid_argument if more memory is needed than there is.
+void require_memory(const std::string &what, double needed, double available, const std::string &place,
                     const std::string &advice);
 
 /// "1.2 GiB"

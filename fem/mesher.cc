@@ -18,6 +18,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -83,19 +84,78 @@ void generate(const FrameSpecification &specification, const GmshSession &sessio
               head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
+/// Whether a face of gmsh is among those of a surface, if there is such a surface.
+bool is_on(const Selection &selection, const std::string &name, int face)
+{
+  const auto found = selection.find(name);
+  return found != selection.end() && std::binary_search(found->second.begin(), found->second.end(), face);
+}
+
+/// Surfaces that interfaces and attached masses average.
+std::vector<std::string> averaged_surfaces(const FrameSpecification &specification)
+{
+  std::vector<std::string> names;
+  const auto               add = [&](const auto &coupled)
+  {
+    for (const auto &one : coupled)
+      if (one.coupling == InterfaceCoupling::average)
+        names.insert(names.end(), one.surfaces.begin(), one.surfaces.end());
+  };
+  add(specification.interfaces);
+  add(specification.masses);
+  return names;
+}
+
+/// Nodes to be expected on surfaces that are averaged.
+double expected_averaged(const MeshedModel &result, const FrameSpecification &specification,
+                         const std::map<std::string, double> &sizes, double size_elsewhere)
+{
+  double n = 0.;
+  for (const std::string &name : averaged_surfaces(specification))
+    for (const Face &face : result.model.faces)
+    {
+      const auto size = sizes.find(name);
+      if (is_on(result.selection, name, face.tag))
+        n += nodes_on(face.area, size != sizes.end() ? size->second : size_elsewhere);
+    }
+  return n;
+}
+
 /// Refuses a mesh whose frame would not fit into the memory, before it is made.
-void judge_memory(MeshedModel &result, const MeshOptions &options)
+void judge_memory(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
 {
   const auto sizes       = resolve_surface_sizes(options, result.selection);
   result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
   const double available = available_memory();
   const double kappa     = compactness(result.model.volume(), skin_area(result.model.faces));
-  double       fitting   = result.expected_cells;
-  while (fitting > 1000. && reduction_memory(coordinates_of(fitting), kappa) > available)
+  const double averaged  = expected_averaged(result, specification, sizes, options.size);
+  const auto   memory    = [&](double cells) // nodes of a surface grow like cells^(2/3)
+  {
+    return reduction_memory(coordinates_of(cells), kappa, averaged * std::pow(cells / result.expected_cells, 2. / 3.));
+  };
+  double fitting = result.expected_cells;
+  while (fitting > 1000. && memory(fitting) > available)
     fitting *= 0.9;
-  require_memory(result.expected_cells, kappa, available, options.place,
+  require_memory("about " + text(result.expected_cells) + " tetrahedra with " +
+                     text(coordinates_of(result.expected_cells)) + " coordinates are to be expected",
+                 memory(result.expected_cells), available, options.place,
                  "Use size = " + text(size_for_cells(result.model, fitting)) +
                      " m or more, larger sizes on surfaces, or a machine with more memory.");
+}
+
+/// The same of a mesh that is read.
+void judge_memory(const MeshedModel &result, const FrameSpecification &specification)
+{
+  const Mesh  &mesh     = result.extracted.mesh;
+  const double n        = 3. * number_of_nodes(mesh);
+  double       averaged = 0.;
+  for (const std::string &name : averaged_surfaces(specification))
+    for (const int surface : result.extracted.skin_surface)
+      if (is_on(result.selection, name, surface))
+        averaged += 2.; // nodes to a triangle
+  require_memory(specification.cad + " has " + text(n) + " coordinates",
+                 reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
+                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a machine with more memory.");
 }
 
 /// Notes what forces elements far smaller than the size.
@@ -120,7 +180,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   result.size      = options.size;
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
-  judge_memory(result, options);
+  judge_memory(result, specification, options);
   judge_features(result, options);
   if (!refined.empty())
     set_refined_sizes(SizeField(refined, options.size), result.model.unit);
@@ -177,6 +237,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
   const auto divided = divide_skin(result.extracted, result.model.groups);
   result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
   result.selection   = select_all(result.model, specification);
+  judge_memory(result, specification);
 }
 
 void name_surfaces(MeshedModel &result, const FrameSpecification &specification)

@@ -31,6 +31,7 @@ struct MeshCommandOptions
   std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
   double      max_cells = 2e6;
   std::string gap;                   ///< a length: solids at most that far apart are joined
+  std::string density;               ///< solids are weighed with; steel by default
   std::string defeature;             ///< a length: smaller faces and edges are removed
   std::string overlaps  = "refused"; ///< or "once"
   int         bodies    = 1;         ///< expected

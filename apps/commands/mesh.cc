@@ -17,26 +17,42 @@ namespace gestell::apps
 
 namespace
 {
-/// A length given on the command line [m]; 0 if it is not given.
-double length_option(const std::string &option, const std::string &text)
+/// A quantity given on the command line, in SI units; 0 if it is not given.
+double option_of(const std::string &option, const std::string &text, const Kind &kind, const std::string &example)
 {
   if (text.empty())
     return 0.;
   const auto no_parameter = [](const std::string &) { return std::optional<Quantity>(); };
   char      *end          = nullptr;
-  double     length       = std::strtod(text.c_str(), &end); // a plain number is in metres
+  double     value        = std::strtod(text.c_str(), &end); // a plain number is in SI units
   try
   {
     if (*end != '\0')
-      length = value_as(parse_quantity(text, no_parameter), kind::length, text);
-    if (length > 0.)
-      return length;
+      value = value_as(parse_quantity(text, no_parameter), kind, text);
+    if (value > 0.)
+      return value;
   }
   catch (const std::invalid_argument &error)
   {
     throw std::invalid_argument(option + ": " + error.what());
   }
-  throw std::invalid_argument(option + ": needs a length above zero such as \"80 mm\", got " + text);
+  throw std::invalid_argument(option + ": needs a " + kind.name + " above zero such as \"" + example + "\", got " +
+                              text);
+}
+
+double length_option(const std::string &option, const std::string &text)
+{
+  return option_of(option, text, kind::length, "80 mm");
+}
+
+constexpr double steel = 7850.; ///< [kg/m^3]
+
+/// "in steel", or of which density.
+std::string weighed(double density)
+{
+  std::ostringstream text;
+  text << density;
+  return density == steel ? "in steel" : "at " + text.str() + " kg/m^3";
 }
 
 void print_triple(const char *name, const std::array<double, 3> &x)
@@ -66,16 +82,18 @@ fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommand
   frame.mesh.overlaps  = mesh.overlaps == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
   frame.mesh.max_cells = mesh.max_cells;
   frame.mesh.place     = "gestell mesh";
-  frame.material       = {210e9, 0.3, 7850., "steel"};
+  const double density = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
+  frame.material       = {210e9, 0.3, density > 0. ? density : steel, "gestell mesh"};
   frame.place          = "gestell mesh";
   return frame;
 }
 
-void print_solids(const coupling::MeshReport &report)
+void print_solids(const coupling::MeshReport &report, double density)
 {
   for (const coupling::SolidReport &solid : report.solids)
   {
-    std::cout << "  solid \"" << solid.name << "\": " << solid.volume << " m^3, " << solid.mass << " kg in steel";
+    std::cout << "  solid \"" << solid.name << "\": " << solid.volume << " m^3, " << solid.mass << " kg "
+              << weighed(density);
     print_triple(", from", solid.min);
     print_triple(" to", solid.max);
     std::cout << '\n';
@@ -133,8 +151,8 @@ int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
   progress.done();
 
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
-            << report.volume << " m^3, " << report.mass << " kg in steel\n";
-  print_solids(report);
+            << report.volume << " m^3, " << report.mass << " kg " << weighed(frame.material.rho) << '\n';
+  print_solids(report, frame.material.rho);
   for (const std::string &note : report.notes)
     std::cout << "note: " << note << '\n';
   print_mesh(report);

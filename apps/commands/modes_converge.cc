@@ -109,6 +109,10 @@ std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &c
   std::vector<std::string> warnings;
   for (const std::string &name : convergence.left_out)
     warnings.push_back("mesh: " + name + " is left out, as not every mesh has it; keep more modes of the frame");
+  for (const std::string &name : convergence.at_points)
+    warnings.push_back("mesh: the compliance of " + name +
+                       " is not watched: under a force at a point it grows without limit as elements shrink; couple a "
+                       "surface (coupling = \"average\" or \"rigid\") where it matters");
   if (!convergence.converged)
     warnings.push_back("mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " +
                        convergence.stopped);

@@ -96,12 +96,27 @@ std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
   return result;
 }
 
-std::vector<Watched> watch_compliances(const ReducedFrame &frame)
+/// Interfaces at a node of the mesh, or at the triangles that meet in a point: under a force spread over no area of its
+/// own a continuum yields without limit, the more the finer the mesh.
+std::vector<std::string> at_points(const fem::FrameSpecification &specification)
 {
-  const MatrixXd       F = compliance(frame);
+  std::vector<std::string> names;
+  for (const auto &interface : specification.interfaces)
+    if (interface.coupling == fem::InterfaceCoupling::node ||
+        (interface.coupling == fem::InterfaceCoupling::point && interface.radius == 0.))
+      names.push_back(interface.name);
+  return names;
+}
+
+std::vector<Watched> watch_compliances(const ReducedFrame &frame, const fem::FrameSpecification &specification)
+{
+  const auto           points = at_points(specification);
+  const MatrixXd       F      = compliance(frame);
   std::vector<Watched> result;
   for (const auto &interface : frame.interfaces)
   {
+    if (std::find(points.begin(), points.end(), interface.name) != points.end())
+      continue;
     std::vector<int> translations;
     for (int k = 0; k < 3; ++k)
       if (interface.coordinate[k] >= 0)
@@ -141,7 +156,7 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
   result.mesh_error = mesh_error;
   result.watched    = watch_frequencies(result.frame, options.n_frequencies);
   if (options.compliances)
-    for (Watched &compliance : watch_compliances(result.frame))
+    for (Watched &compliance : watch_compliances(result.frame, specification))
       result.watched.push_back(std::move(compliance));
 
   MatrixXd fields(matrices.M.rows(), result.watched.size());
@@ -326,6 +341,8 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
     mesh              = meshes.next(last, !mesh->hexahedra.empty(), fall, phases);
     result.stopped    = meshes.stopped();
   }
+  if (options.compliances)
+    result.at_points = at_points(specification);
   result.frame = std::move(last.frame);
   return result;
 }

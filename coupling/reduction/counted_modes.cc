@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gestell::coupling
@@ -15,7 +16,6 @@ namespace
 
 using Eigen::MatrixXd;
 
-constexpr double most_growth   = 1e9;                       // of rounding in the inertia: beyond it a pivot met zero
 constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
 constexpr int    largest_block = 200;                       // with which missing modes are looked for
 constexpr int    most_rounds   = 4;                         // of finding modes that were missing
@@ -23,8 +23,9 @@ constexpr double two_pi        = 6.283185307179586;
 
 } // namespace
 
-CountedModes::CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options)
-    : kind_(std::move(kind)), options_(options), dense_(dense)
+CountedModes::CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+                           const Eigen::SparseMatrix<double> &C)
+    : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(C.diagonal())
 {
 }
 
@@ -36,8 +37,9 @@ void CountedModes::find(int count)
     if (found_.omega.size() == 0)
       found_ = all();
     if (found_.omega.size() < count)
-      throw ConvergenceFailure(kind_ + ": " + std::to_string(count) + " asked for, but the mass matrix has rank " +
-                               std::to_string(found_.omega.size()) + "; ask for fewer modes");
+      throw ConvergenceFailure(kind_ + ": there are " + std::to_string(found_.omega.size()) +
+                               ", for the mass matrix has no higher rank, but " + std::to_string(count) +
+                               " are looked for; set their number (reduction.modes) to that or less");
   }
   else if (search_)
     search_->find(count);
@@ -106,21 +108,34 @@ void CountedModes::look_for_missing(LowestModes known, int count, double omega)
   }
 }
 
+/// E, of the size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j: past the shift it must not.  The mode above
+/// the gap, which is not known, is taken for like those below it.
+double CountedModes::largest_growth(double shift) const
+{
+  constexpr double      eps      = std::numeric_limits<double>::epsilon();
+  const Eigen::VectorXd moved    = eps * (found_.V.cwiseAbs2().transpose() * stiffness_);
+  const Eigen::VectorXd distance = shift * shift - found_.omega.array().square();
+  const double          above    = gap_.high * gap_.high - shift * shift;
+  return std::min(distance.cwiseQuotient(moved).minCoeff(), above / moved.maxCoeff());
+}
+
 Inertia CountedModes::count_in_gap(double &omega)
 {
   Inertia best{0, INFINITY};
+  double  least = INFINITY; // growth over what is allowed
   for (const double place : places)
   {
     const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);
     const auto   inertia = below(shift);
-    if (inertia.growth < best.growth)
-      best = inertia, omega = shift;
-    if (best.growth < most_growth)
+    const double share   = inertia.growth / largest_growth(shift);
+    if (share < least)
+      best = inertia, omega = shift, least = share;
+    if (least < 1.)
       return best;
   }
   throw ConvergenceFailure(kind_ + ": the number below " + rounded(omega / two_pi) +
-                           " Hz cannot be told, for rounding in the factor grows " + rounded(best.growth) +
-                           "-fold; ask for another number of modes");
+                           " Hz cannot be told, for rounding in the factor grows " + rounded(best.growth) + "-fold, " +
+                           rounded(least) + " times as much as the gap there is wide; ask for another number of modes");
 }
 
 bool CountedModes::confirm()

@@ -59,7 +59,9 @@ public:
 protected:
   /// @param kind   of modes, in messages
   /// @param dense  whether few coordinates are solved at once, by all()
-  CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options);
+  /// @param C      [n x n]
+  CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+               const Eigen::SparseMatrix<double> &C);
 
 private:
   virtual int                         n() const           = 0; ///< rows of the modes
@@ -70,6 +72,7 @@ private:
   virtual std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const = 0;
 
   Inertia count_in_gap(double &omega);
+  double  largest_growth(double shift) const;
   void    look_for(const LowestModes &known, int count, int block);
   void    look_for_missing(LowestModes known, int count, double omega);
 
@@ -77,6 +80,7 @@ private:
   BlockLanczos::Options       options_;
   int                         wanted_ = 0;
   bool                        dense_;
+  Eigen::VectorXd             stiffness_; // diagonal of C
   LowestModes                 found_;
   ModeSearch::Gap             gap_{0., 0., 0};
   std::unique_ptr<ModeSearch> search_;

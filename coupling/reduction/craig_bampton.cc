@@ -256,14 +256,17 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   tell(progress, "reduced matrices");
   shapes.star = reduced_matrices(shapes.basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response);
+    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response, frame);
   const int m = shapes.basis.m();
   if (options.n_modes >= 0 && options.frequency > 0. && shapes.basis.n1() > 0 && m > 0 &&
       two_pi * options.frequency < shapes.basis.omega0(m - 1))
   {
     const InterfaceReceptance receptance(shapes.basis, shapes.star, statics.response, shapes.refined,
                                          frame.modal_damping_ratio, two_pi * options.frequency);
-    notes.push_back(receptance_statement(receptance, shapes.basis, {m}, options.frequency));
+    notes.push_back(receptance_statement(receptance, shapes.basis, frame.interfaces, {m}, options.frequency) +
+                    (has_inner_dampers(shapes.basis, frame.B)
+                         ? "; dampers inside the frame are left out of this: leave modes out, and shapes for them join"
+                         : ""));
   }
   if (options.n_modes >= 0)
     warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
@@ -386,6 +389,12 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   if (n_modes < 0 || n_modes > n)
     throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested of a frame with " +
                                 std::to_string(n) + " coordinates; ask for 0 to " + std::to_string(n));
+  if (const auto motions = fem::free_motions(frame, {}); !motions.empty())
+    throw std::invalid_argument(
+        "modal damping: the frame floats (" + std::to_string(motions.size()) + " motions are free, one of them " +
+        motions[0] +
+        "), and an unreduced frame is damped by the modes of a supported one; support it, reduce it "
+        "(reduction.method = \"craig-bampton\"), or damp it by rayleigh");
   tell(progress, "factorisation");
   HeldFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");

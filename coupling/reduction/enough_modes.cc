@@ -1,5 +1,6 @@
 #include "coupling/reduction/enough_modes.h"
 
+#include "coupling/reduction/damper_shapes.h"
 #include "coupling/reduction/rounded.h"
 
 #include <algorithm>
@@ -99,26 +100,80 @@ Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool mo
 
 } // namespace
 
+namespace
+{
+
+/// Coordinates of each interface in q1.
+Groups groups_of(const std::vector<fem::Interface> &interfaces, const std::vector<int> &q1)
+{
+  Groups groups;
+  for (const fem::Interface &interface : interfaces)
+  {
+    groups.emplace_back();
+    for (const int i : interface.coordinate)
+      if (i >= 0)
+        groups.back().push_back(int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin()));
+  }
+  return groups;
+}
+
+/// " ('table' by itself 1.2 %)", the worst of several.
+std::string worst_interface(const std::vector<fem::Interface> &interfaces, const std::vector<double> &errors,
+                            double uncertainty)
+{
+  if (interfaces.size() < 2)
+    return "";
+  const auto worst = std::max_element(errors.begin(), errors.end()) - errors.begin();
+  return " ('" + interfaces[worst].name + "' by itself " + percent(errors[worst] + uncertainty) + ")";
+}
+
+} // namespace
+
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
-                                 const InsideCount &inside, double frequency_hz)
+                                 const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
+                                 double frequency_hz, const DamperShapes *dampers)
 {
   const auto   within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
   const auto   known       = within_rule < basis.m() || basis.m() == 0;
-  const bool   with_shapes = inside.shapes > 0;
-  const double error =
-      receptance.error(inside.modes, with_shapes ? Inside::modes_and_shapes : Inside::modes) + receptance.uncertainty();
+  const auto   of_dampers  = dampers ? dampers->W.cols() : 0;
+  const Inside which       = inside.shapes > 0 ? Inside::modes_and_shapes : Inside::modes;
+  const double doubt       = dampers ? 0. : receptance.uncertainty();
+  const double error       = dampers ? dampers->left : receptance.error(inside.modes, which) + doubt;
+  const auto   each =
+      dampers ? dampers->of_groups : receptance.errors_of(groups_of(interfaces, basis.q1), inside.modes, which);
   return "reduction: " + std::to_string(inside.modes) + " fixed-interface modes " +
-         (with_shapes ? "and " + std::to_string(inside.shapes) + " static shapes of the inertia " : "") +
+         (inside.shapes > 0 ? "and " + std::to_string(inside.shapes) + " static shapes of the inertia " : "") +
+         (of_dampers > 0 ? "and " + std::to_string(of_dampers) + " of dampers inside the frame " : "") +
          "keep the receptance of the interface up to " + rounded(frequency_hz) + " Hz within " + percent(error) +
-         " of the full frame's; the rule of " + rounded(rule) + " times the highest frequency would take " +
-         (known ? "" : "at least ") + std::to_string(within_rule);
+         " of the full frame's" + worst_interface(interfaces, each, doubt) + "; the rule of " + rounded(rule) +
+         " times the highest frequency would take " + (known ? "" : "at least ") + std::to_string(within_rule);
 }
+
+namespace
+{
+
+/// Number of coordinates inside that have mass, if M is not negative: there are no more modes.
+int with_mass(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  Eigen::VectorXd mass = frame.M.diagonal();
+  mass(q1).setZero();
+  return int((mass.array() > 0.).count());
+}
+
+MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
+{
+  MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
+} // namespace
 
 EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
                          const InteriorResponse &response, const fem::FrameMatrices &frame,
                          const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
 {
-  const int  n2 = int(frame.M.rows()) - basis.n1(), most = std::min(n2, most_modes);
+  const int  n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
   const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
   {
@@ -130,10 +185,10 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
     if (progress)
       progress("error estimate", -1.);
     const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
-    EnoughModes           found{supported_modes(basis, star, response), Eigen::MatrixXd(frame.M.rows(), 0)};
+    EnoughModes           found{supported_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
     const SupportedModes &refined = found.refined;
     const double          within  = highest_of_interest(options, refined);
-    const double          highest = m > 0 && m < n2 ? basis.omega0(m - 1) : INFINITY;
+    const double          highest = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
     const bool            reaches = highest >= reach * within;
 
     std::optional<InterfaceReceptance> receptance;
@@ -153,11 +208,22 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
                       percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
     else
     {
-      if (receptance)
-        notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency));
-      basis.truncate(judgement.fewest.modes);
       if (judgement.fewest.shapes > 0)
         found.shapes = inertia_shapes(held, basis);
+      std::optional<DamperShapes> dampers;
+      if (receptance && has_inner_dampers(basis, frame.B))
+      {
+        if (progress)
+          progress("dampers inside the frame", -1.);
+        dampers      = damper_shapes(held, basis, judgement.fewest.modes, found.shapes, frame,
+                                     receptance_frequencies(refined, frame.modal_damping_ratio, within),
+                                     groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
+        found.shapes = beside(found.shapes, dampers->W);
+      }
+      if (receptance)
+        notes.push_back(receptance_statement(*receptance, basis, frame.interfaces, judgement.fewest, options.frequency,
+                                             dampers ? &*dampers : nullptr));
+      basis.truncate(judgement.fewest.modes);
       fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
     }
     fixed.finish();

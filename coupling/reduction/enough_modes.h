@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/frame_service.h"
+#include "coupling/reduction/damper_shapes.h"
 #include "coupling/reduction/fixed_modes.h"
 #include "coupling/reduction/interface_receptance.h"
 #include "coupling/reduction/supported_modes.h"
@@ -15,16 +16,18 @@ namespace gestell::coupling
 /// frame.
 double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
 
-/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", and what
-/// the book's rule, modes up to 3.5 times the highest frequency, would take.
+/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", which
+/// interface is worst by itself, and what the book's rule, modes up to 3.5 times the highest frequency, would take.
+/// @param dampers inside the frame, if there are any and their effect is known.
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
-                                 const InsideCount &inside, double frequency_hz);
+                                 const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
+                                 double frequency_hz, const DamperShapes *dampers = nullptr);
 
 /// What enough_modes() found.
 struct EnoughModes
 {
   SupportedModes  refined; // the choice rests on them
-  Eigen::MatrixXd shapes;  // [n x n1] to be appended to the modes, or [n x 0]
+  Eigen::MatrixXd shapes;  // [n x k] to be appended to the modes
 };
 
 /**
@@ -32,8 +35,8 @@ struct EnoughModes
  *
  * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
  * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
- * are fewer together.  Without, or without an interface: the twelve lowest elastic frequencies of the supported frame
- * are, by modes.
+ * are fewer together; where dampers act inside the frame their static shapes join them (damper_shapes()).  Without, or
+ * without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
  *
  * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
  * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is

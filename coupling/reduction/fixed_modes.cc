@@ -18,8 +18,8 @@ constexpr int dense_limit = 600; // internal coordinates that are solved densely
 
 FixedModes::FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
                        const BlockLanczos::Options &options)
-    : CountedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options), held_(held),
-      frame_(frame)
+    : CountedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options, frame.C),
+      held_(held), frame_(frame)
 {
   for (int i = 0; i < int(frame.M.rows()); ++i)
     if (!std::binary_search(q1.begin(), q1.end(), i))

@@ -2,10 +2,9 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/integration/second_order_system.h"
-#include "fem/free_motions.h"
+#include "coupling/reduction/interface_flexibility.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -20,36 +19,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double two_pi          = 6.283185307179586;
-constexpr double singular        = 1e-11; // eigenvalue of S scaled to unit diagonal, below which a motion is rigid
 constexpr int    modes_at_once   = 20;
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
 constexpr double reach           = 1.5; // highest mode over the highest frequency of interest
 constexpr int    dense_limit     = 600; // coordinates that are solved densely
 constexpr int    most_rounds     = 4;   // of finding modes that were missing
-
-/// Motions without stiffness [n x k].  A frame that knows its rigid motions is asked for them: the softest eigenvalues
-/// of S may lie no higher than rounding.
-MatrixXd motions_without_stiffness(const MatrixXd &scaled, const VectorXd &d, const ReductionBasis &basis,
-                                   const fem::FrameMatrices &frame)
-{
-  if (frame.rigid_motions.cols() == 6)
-    return fem::free_displacements(frame);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> S(scaled);
-  const auto                                    n_rigid = (S.eigenvalues().array() <= singular).count();
-  return basis.T * (d.asDiagonal() * S.eigenvectors().leftCols(n_rigid));
-}
-
-/// A^+ on the complement of the null vectors Z [n x k]: what rounding leaves of A along them is cut off.
-MatrixXd inverse_beside(const MatrixXd &A, const MatrixXd &Z)
-{
-  MatrixXd Q(A.rows(), Z.cols());
-  if (Z.cols() > 0)
-    Q = Eigen::HouseholderQR<MatrixXd>(Z).householderQ() * MatrixXd::Identity(A.rows(), Z.cols());
-  const MatrixXd                                P = MatrixXd::Identity(A.rows(), A.rows()) - Q * Q.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> beside(P * A * P + Q * Q.transpose());
-  const VectorXd inverse = beside.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
-  return P * beside.eigenvectors() * inverse.asDiagonal() * beside.eigenvectors().transpose() * P;
-}
 
 /// Circular frequency up to which modes are kept, infinite if their number is given or there are too few to tell.
 double highest_kept(const ReductionOptions &options, const VectorXd &omega)
@@ -80,18 +54,12 @@ FreeInverse::FreeInverse(const HeldFrame &held, const ReductionBasis &basis, con
     : held_(held), Psi_(basis.T), S_inverse_(0, 0), R_(basis.T.rows(), 0)
 {
   const MatrixXd S = reduced_matrices(basis, frame.B, frame.C).C;
-  if (S.rows() > 0)
+  R_               = motions_without_stiffness(S, basis, frame);
+  S_inverse_       = inverse_beside(S, R_(basis.q1, Eigen::all));
+  if (R_.cols() > 0)
   {
-    const VectorXd d      = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
-    const MatrixXd scaled = d.asDiagonal() * S * d.asDiagonal();
-    R_                    = motions_without_stiffness(scaled, d, basis, frame);
-    S_inverse_ = d.asDiagonal() * inverse_beside(scaled, d.cwiseInverse().asDiagonal() * R_(basis.q1, Eigen::all)) *
-                 d.asDiagonal();
-    if (R_.cols() > 0)
-    {
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(R_.transpose() * symmetric_product(frame.M, R_));
-      R_ *= mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-    }
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(R_.transpose() * symmetric_product(frame.M, R_));
+    R_ *= mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   }
   MR_ = symmetric_product(frame.M, R_);
 }
@@ -107,8 +75,8 @@ void FreeInverse::operator()(Eigen::Ref<MatrixXd> X) const
 
 FreeInterfaceModes::FreeInterfaceModes(HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
                                        const BlockLanczos::Options &options)
-    : CountedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options), held_(held),
-      frame_(frame), inverse_(held, basis, frame)
+    : CountedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options, frame.C),
+      held_(held), frame_(frame), inverse_(held, basis, frame)
 {
 }
 

@@ -25,31 +25,6 @@ constexpr double rounding     = 1e-12; // of a moment, beside that of all modes
 constexpr int    spread       = 100;   // frequencies all over the range
 constexpr double around[] = {-3., -2., -1.5, -1., -0.7, -0.4, -0.2, 0., 0.2, 0.4, 0.7, 1., 1.5, 2., 3.}; // half widths
 
-/// Frequencies to look at, each with its damping ratio.
-std::vector<std::pair<double, double>> frequencies_of(const SupportedModes &refined, const fem::ModalRatios &zeta,
-                                                      double highest)
-{
-  const auto ratio = [&](int mode, double omega)
-  { return zeta.any() ? std::max(1e-4, zeta.at(mode, omega)) : nominal_zeta; };
-  std::vector<std::pair<double, double>> result;
-  int                                    mode = 0;
-  for (int i = 1; i <= spread; ++i)
-  {
-    const double omega = highest * i / spread;
-    while (mode + 1 < refined.omega.size() && refined.omega(mode + 1) <= omega)
-      ++mode;
-    result.emplace_back(omega, ratio(mode, omega));
-  }
-  for (int j = 0; j < refined.omega.size() && refined.omega(j) <= 1.05 * highest; ++j)
-    for (const double t : around)
-    {
-      const double width = ratio(j, refined.omega(j)), omega = refined.omega(j) * (1. + t * width);
-      if (omega > 0. && omega <= highest)
-        result.emplace_back(omega, width);
-    }
-  return result;
-}
-
 /**
  * Gaussian quadrature with the moments A = sum f f^T and B = sum f f^T nu of a sum whose nu lie in [0, highest]: of
  * s below 1 / highest it is a lower bound.  Directions in which A is negligible are left out.
@@ -66,6 +41,30 @@ Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double neg
 }
 
 } // namespace
+
+std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
+                                                        double highest)
+{
+  const auto ratio = [&](int mode, double omega)
+  { return zeta.any() ? std::max(1e-4, zeta.at(mode, omega)) : nominal_zeta; };
+  std::vector<ReceptanceFrequency> result;
+  int                              mode = 0;
+  for (int i = 1; i <= spread; ++i)
+  {
+    const double omega = highest * i / spread;
+    while (mode + 1 < refined.omega.size() && refined.omega(mode + 1) <= omega)
+      ++mode;
+    result.push_back({omega, ratio(mode, omega)});
+  }
+  for (int j = 0; j < refined.omega.size() && refined.omega(j) <= 1.05 * highest; ++j)
+    for (const double t : around)
+    {
+      const double width = ratio(j, refined.omega(j)), omega = refined.omega(j) * (1. + t * width);
+      if (omega > 0. && omega <= highest)
+        result.push_back({omega, width});
+    }
+  return result;
+}
 
 MatrixXcd Fractions::at(Complex s) const
 {
@@ -93,7 +92,7 @@ InterfaceReceptance::InterfaceReceptance(const ReductionBasis &basis, const Redu
   const MatrixXd  P1 = moment(1, m), P2 = moment(2, m), P3 = moment(3, m);
   const Fractions known = of_modes(m), low = gauss(P2, P3, last, negligible(2)),
                   high = gauss(last * P1 - P2, last * P2 - P3, last, negligible(2));
-  for (const auto &[omega, ratio] : frequencies_of(refined, zeta, highest))
+  for (const auto &[omega, ratio] : receptance_frequencies(refined, zeta, highest))
   {
     const Complex   s     = omega * omega / Complex(1., 2. * ratio);
     const MatrixXcd lower = P1 + s * low.at(s), upper = (P1 - s * high.at(s)) / (1. - s * last);
@@ -159,6 +158,25 @@ double InterfaceReceptance::error(int m, Inside inside) const
   for (const Frequency &frequency : frequencies_)
     largest = std::max(largest, error_at(frequency, model));
   return largest;
+}
+
+void raise_errors(const Groups &groups, const MatrixXcd &H_model, const MatrixXcd &H, std::vector<double> &errors)
+{
+  errors.resize(groups.size(), 0.);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    const MatrixXcd block = H(groups[i], groups[i]);
+    errors[i]             = std::max(errors[i], (H_model(groups[i], groups[i]) - block).norm() / block.norm());
+  }
+}
+
+std::vector<double> InterfaceReceptance::errors_of(const Groups &groups, int m, Inside inside) const
+{
+  const Fractions     model = of_model(m, inside);
+  std::vector<double> errors(groups.size(), 0.);
+  for (const Frequency &frequency : frequencies_)
+    raise_errors(groups, receptance(frequency.s, model.at(frequency.s)), frequency.H, errors);
+  return errors;
 }
 
 InsideCount InterfaceReceptance::fewest(double tolerance, Inside inside) const

@@ -12,6 +12,27 @@
 namespace gestell::coupling
 {
 
+/// Where receptances are compared.
+struct ReceptanceFrequency
+{
+  double omega, ratio; ///< [rad/s]; damping zeta of the modes there
+};
+
+/**
+ * Frequencies up to `highest` [rad/s] spread over the range, and gathered around its resonances.
+ *
+ * @param zeta of the modes; 0.01 where there is none.
+ */
+std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
+                                                        double highest);
+
+/// Coordinates of one interface, counted in q1.
+using Groups = std::vector<std::vector<int>>;
+
+/// |(H_model - H)_gg| / |H_gg| of the coordinates of each group g: raises `errors` to it.
+void raise_errors(const Groups &groups, const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H,
+                  std::vector<double> &errors);
+
 /// What describes the inside of a reduced model.
 enum class Inside
 {
@@ -62,6 +83,9 @@ public:
 
   /// Largest error of the model with the first m modes, m up to those known.
   double error(int m, Inside inside) const;
+
+  /// The same of each interface by itself: of its own block of H, relative to that block.
+  std::vector<double> errors_of(const Groups &groups, int m, Inside inside) const;
 
   /// Fewest modes with an error within the tolerance.
   InsideCount fewest(double tolerance, Inside inside) const;

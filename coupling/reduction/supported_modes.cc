@@ -1,8 +1,10 @@
 #include "coupling/reduction/supported_modes.h"
 
 #include "coupling/dense_modes.h"
+#include "coupling/reduction/interface_flexibility.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -18,33 +20,31 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double cancelled = 1e-10; // as `cancelled` of dense_modes(): C*_11 is the difference of far larger matrices
-constexpr double singular  = 1e-11; // eigenvalue of S scaled to unit diagonal, below which a motion is rigid
 
-/// S^-1, on the complement of the null space if S is singular.
-MatrixXd pseudo_inverse(const MatrixXd &S)
+/// Elastic modes, in the complement of the rigid motions (rigid; 0), rigid [n1 x k].
+DenseModes elastic_modes(const MatrixXd &C, const MatrixXd &M, const MatrixXd &rigid)
 {
-  if (S.rows() == 0)
-    return S;
-  const VectorXd d = S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
-  const VectorXd                                inverse =
-      scaled.eigenvalues().unaryExpr([](double lambda) { return lambda > singular ? 1. / lambda : 0.; });
-  const MatrixXd U = d.asDiagonal() * scaled.eigenvectors();
-  return U * inverse.asDiagonal() * U.transpose();
+  const auto n = C.rows(), k = rigid.cols();
+  if (k == 0)
+    return dense_modes(C, M, cancelled, 0);
+  const MatrixXd inertia = M.leftCols(rigid.rows()) * rigid;
+  const MatrixXd Z = Eigen::HouseholderQR<MatrixXd>(inertia).householderQ() * MatrixXd::Identity(n, n).rightCols(n - k);
+  DenseModes     modes = dense_modes(Z.transpose() * C * Z, Z.transpose() * M * Z, cancelled, 0);
+  modes.V              = Z * modes.V;
+  return modes;
 }
 
 } // namespace
 
 SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
-                               const InteriorResponse &response)
+                               const InteriorResponse &response, const fem::FrameMatrices &frame)
 {
-  const int        n1 = basis.n1(), m = basis.m();
-  const DenseModes ritz = dense_modes(star.C, star.M, cancelled);
-
+  const int      n1 = basis.n1(), m = basis.m();
+  const MatrixXd S = star.C.topLeftCorner(n1, n1);
   SupportedModes modes;
-  modes.n_rigid          = int((ritz.omega.array() == 0.).count());
-  const auto     elastic = ritz.omega.size() - modes.n_rigid;
-  const MatrixXd Phi_r = ritz.V.leftCols(modes.n_rigid), Phi_e = ritz.V.rightCols(elastic);
+  modes.rigid          = motions_without_stiffness(S, basis, frame)(basis.q1, Eigen::all);
+  modes.n_rigid        = int(modes.rigid.cols());
+  const MatrixXd Phi_e = elastic_modes(star.C, star.M, modes.rigid).V;
 
   // [T, X]^T M [T, X]
   MatrixXd gram(n1 + m + n1, n1 + m + n1);
@@ -56,12 +56,15 @@ SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrice
   const auto TM                     = gram.topRows(n1 + m);
 
   // Y = C^-1 M T Phi = [T, X] y
-  MatrixXd y(n1 + m + n1, elastic);
-  y.topRows(n1)       = pseudo_inverse(star.C.topLeftCorner(n1, n1)) * (star.M.topRows(n1) * Phi_e);
+  MatrixXd y(n1 + m + n1, Phi_e.cols());
+  y.topRows(n1)       = inverse_beside(S, modes.rigid) * (star.M.topRows(n1) * Phi_e);
   y.middleRows(n1, m) = basis.omega0.cwiseAbs2().cwiseInverse().asDiagonal() * Phi_e.bottomRows(m);
   y.bottomRows(n1)    = Phi_e.topRows(n1);
   if (modes.n_rigid > 0)
-    y.topRows(n1 + m) -= Phi_r * (Phi_r.transpose() * (TM * y));
+  {
+    const MatrixXd inertia = modes.rigid.transpose() * TM.topRows(n1);
+    y.topRows(n1) -= modes.rigid * (inertia.leftCols(n1) * modes.rigid).ldlt().solve(inertia * y);
+  }
 
   const MatrixXd   P       = TM * y; // T^T M Y
   const MatrixXd   YCY     = P.transpose() * Phi_e;
@@ -75,8 +78,16 @@ SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrice
 FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined)
 {
   const int         n = n1 + m;
+  const MatrixXd    C = star.C.topLeftCorner(n, n), M = star.M.topLeftCorner(n, n);
   FrequencyEstimate estimate;
-  estimate.omega = dense_modes(star.C.topLeftCorner(n, n), star.M.topLeftCorner(n, n), cancelled).omega;
+  if (refined.rigid.cols() == refined.n_rigid)
+  {
+    const VectorXd elastic              = elastic_modes(C, M, refined.rigid).omega;
+    estimate.omega                      = VectorXd::Zero(refined.n_rigid + elastic.size());
+    estimate.omega.tail(elastic.size()) = elastic;
+  }
+  else
+    estimate.omega = dense_modes(C, M, cancelled, refined.n_rigid).omega;
   estimate.error = VectorXd::Constant(estimate.omega.size(), std::numeric_limits<double>::quiet_NaN());
   estimate.error.head(std::min<Eigen::Index>(refined.n_rigid, estimate.error.size())).setZero();
   for (int j = refined.n_rigid; j < estimate.omega.size() && j - refined.n_rigid < refined.omega.size(); ++j)

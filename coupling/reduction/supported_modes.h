@@ -23,17 +23,19 @@ namespace gestell::coupling
  * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of InteriorResponse: all of it takes
  * place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
  *
- * If the frame floats, S has its rigid motions as null space; they are exact in the reduced model and left out here.
+ * If the frame floats, S has its rigid motions as null space (motions_without_stiffness()); they are exact in the
+ * reduced model and left out here.
  */
 struct SupportedModes
 {
   int             n_rigid = 0;
-  Eigen::VectorXd omega; // [p] elastic modes, refined, ascending [rad/s]
-  Eigen::MatrixXd P;     // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
+  Eigen::VectorXd omega;   // [p] elastic modes, refined, ascending [rad/s]
+  Eigen::MatrixXd P;       // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
+  Eigen::MatrixXd rigid{}; // [n1 x n_rigid] the rigid motions on q1; none where they are known by number only
 };
 
 SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
-                               const InteriorResponse &response);
+                               const InteriorResponse &response, const fem::FrameMatrices &frame);
 
 /// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
 struct FrequencyEstimate

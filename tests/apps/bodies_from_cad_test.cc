@@ -182,5 +182,18 @@ at   = [0, 0, 0]
   EXPECT_TRUE(check.says("arm from part.geo: 18.84 kg (7850 kg/m^3), centre of mass [0, 0, -0.4] m")) << check.text;
 }
 
+TEST(MeshCommand, WeighsInTheDensityAskedFor)
+{
+  setenv("GESTELL_PLUGIN_DIR", GESTELL_BINARY_DIR "/bin", 1);
+  const tests::Folder folder("weighs");
+  const std::string   part = folder.file("part.geo", cuboid);
+  const auto steel = tests::gestell("mesh " + part), light = tests::gestell("mesh " + part + " --density '2.7 t/m^3'");
+  EXPECT_TRUE(steel.says("volume 0.0024 m^3, 18.84 kg in steel")) << steel.text;
+  EXPECT_TRUE(light.says("volume 0.0024 m^3, 6.48 kg at 2700 kg/m^3")) << light.text;
+  const auto wrong = tests::gestell("mesh " + part + " --density '3 m'");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(wrong.says("--density: ")) << wrong.text;
+}
+
 } // namespace
 } // namespace gestell::test

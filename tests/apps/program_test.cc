@@ -40,6 +40,33 @@ TEST(Program, ModesAndCheckWorkWithoutARun)
   EXPECT_EQ(check.exit_code, 0) << check.text;
 }
 
+TEST(Program, ModesOfAMassOutOfAllProportionAreThoseOfTheRestOrRefused)
+{
+  const Folder folder("masses");
+  const auto   with = [&](const std::string &mass)
+  {
+    return gestell("modes " + scene("press_minimal.toml") + folder.option() + "--set 'parameters.m3=\"" + mass +
+                   " kg\"'");
+  };
+  for (const std::string mass : {"1e-308", "1e-150", "1e-20", "1e-6"}) // a slide without mass; 0.0074 Hz: on its springs
+  {
+    const Answer without = with(mass);
+    EXPECT_EQ(without.exit_code, 0) << without.text;
+    for (const std::string frequency : {"0.0074176979", "11.654848", "21.486765", "122.98025"})
+      EXPECT_TRUE(without.says(frequency)) << mass << without.text;
+  }
+  for (const std::string mass : {"1e100", "1e250"}) // a slide at rest
+  {
+    const Answer held = with(mass);
+    EXPECT_EQ(held.exit_code, 0) << held.text;
+    for (const std::string frequency : {"0.78549522", "12.376443", "38.752354", "128.63746"})
+      EXPECT_TRUE(held.says(frequency)) << mass << held.text;
+  }
+  const Answer infinite = with("1e308");
+  EXPECT_EQ(infinite.exit_code, 2) << infinite.text;
+  EXPECT_TRUE(infinite.says("mass of coordinate slide is not finite")) << infinite.text;
+}
+
 TEST(Program, ModesAlongACoordinateLeaveTablesAndCharts)
 {
   const Folder folder("along");

@@ -119,11 +119,24 @@ TEST(Memory, IsNotTakenForLessThanWasMeasured)
   }
 }
 
+TEST(Memory, OfAveragedSurfacesComesOnTop)
+{
+  // a plate of 2 x 2 x 0.05 m, free, 40 modes, one large face averaged; and with its edge averaged instead
+  const double kappa = compactness(0.2, 8.4);
+  for (const auto &[n, size, face, edge] :
+       {std::array{72828., 0.05, 978424., 628732.}, {150207., 0.035, 1855840., 1115512.}})
+  {
+    const double more = reduction_memory(n, kappa, nodes_on(4., size)) - reduction_memory(n, kappa);
+    EXPECT_NEAR(more, 1024. * (face - edge), 0.1 * more) << n;
+    EXPECT_NEAR(reduction_memory(n, kappa, nodes_on(4., size)), 1024. * face, 0.2 * 1024. * face) << n;
+  }
+}
+
 TEST(Memory, ThatIsNotThereIsToldBeforeMeshing)
 {
   const double gib = 1024. * 1024. * 1024.;
-  EXPECT_NO_THROW(require_memory(1e5, 0.3, 64. * gib, "place", "advice"));
-  EXPECT_NO_THROW(require_memory(1e9, 0.3, std::numeric_limits<double>::infinity(), "place", "advice"));
+  EXPECT_NO_THROW(require_memory("", reduction_memory(1e5, 0.3), 64. * gib, "place", "advice"));
+  EXPECT_NO_THROW(require_memory("", reduction_memory(1e9, 0.3), INFINITY, "place", "advice"));
   FrameSpecification s = specification(block_with_details(), 2e-5); // some 1e11 cells
   s.mesh.max_cells     = 1e15;
   EXPECT_THAT(refusal(s), AllOf(StartsWith("scene.toml:4: frame.mesh"), HasSubstr("reduction need about"),

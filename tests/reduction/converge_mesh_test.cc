@@ -46,6 +46,23 @@ TEST(ConvergeMesh, FollowsQuantitiesByTheirNames)
   }
 }
 
+TEST(ConvergeMesh, DoesNotWatchTheComplianceOfPointsWhichHasNoLimit)
+{
+  auto frame             = block();
+  frame.surfaces["side"] = fem::test::plane({1., 0., 0.}, {0.2, 0., 0.});
+  frame.interfaces.push_back({"corner", {}, fem::InterfaceCoupling::node, fem::Vector3{0., 0., 0.5}, "scene.toml:15"});
+  frame.interfaces.push_back(
+      {"spot", {"side"}, fem::InterfaceCoupling::point, fem::Vector3{0.2, 0.05, 0.5}, "scene.toml:18"});
+  coupling::ConvergenceOptions options;
+  options.tolerance     = 0.2;
+  options.n_frequencies = 2;
+  const auto result     = coupling::converge_mesh(frame, {}, options);
+  EXPECT_TRUE(result.converged) << result.stopped;
+  EXPECT_EQ(result.at_points, (std::vector<std::string>{"corner", "spot"}));
+  ASSERT_EQ(result.quantities.size(), 3u);
+  EXPECT_EQ(result.quantities[2].name, "compliance of top");
+}
+
 TEST(ConvergeMesh, OfMoreFrequenciesThanTheFirstMeshHasIsRefused)
 {
   coupling::ReductionOptions reduction;

@@ -153,6 +153,74 @@ INSTANTIATE_TEST_SUITE_P(SupportedAndFree, ReceptanceNumber,
                          ::testing::Combine(::testing::Values(3e6, 0.), ::testing::Values(7, 14),
                                             ::testing::Values(0.05, 0.01, 0.003, 0.001, 1e-5)));
 
+/// Of full matrices with dampers and a loss factor, by one complex factor each.
+Receptances direct(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const std::vector<int> &q1,
+                   const std::vector<double> &omegas)
+{
+  Receptances result;
+  for (const double omega : omegas)
+  {
+    const MatrixXcd D =
+        std::complex<double>(1., 2. * zeta) * C - omega * omega * M + std::complex<double>(0., omega) * B;
+    const auto n1   = Eigen::Index(q1.size());
+    MatrixXcd  unit = MatrixXcd::Zero(D.rows(), n1);
+    for (Eigen::Index i = 0; i < n1; ++i)
+      unit(q1[i], i) = 1.;
+    result.push_back(MatrixXcd(D.partialPivLu().solve(unit))(q1, Eigen::all));
+  }
+  return result;
+}
+
+/// omega b / c of the foundation at the highest frequency, and the tolerance.
+class DampersInside : public ::testing::TestWithParam<std::tuple<double, double>>
+{
+};
+
+TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
+{
+  const auto [strength, tolerance] = GetParam();
+  Lattice lattice;
+  lattice.nx = 6, lattice.ny = 3, lattice.nz = 7;
+  const VectorXd undamped = dense_modes(frame_of(lattice).C, frame_of(lattice).M).omega;
+  const double   highest  = 0.5 * (undamped(9) + undamped(10));
+  lattice.damper          = strength * lattice.foundation / highest;
+  auto frame              = frame_of(lattice);
+
+  std::vector<double> omegas;
+  for (int i = 1; i <= 40; ++i)
+    omegas.push_back(highest * i / 40.);
+  for (int j = 0; j <= 9; ++j)
+    omegas.push_back(undamped(j));
+  const auto                 q1    = frame.interface_coordinates();
+  const auto                 exact = direct(frame.M, frame.B, frame.C, q1, omegas);
+  coupling::ReductionOptions options;
+  options.frequency = highest / two_pi;
+  options.tolerance = tolerance;
+  std::vector<int> first(q1.size());
+  std::iota(first.begin(), first.end(), 0);
+  const auto error_of = [&](const MatrixXd &M, const MatrixXd &B, const MatrixXd &C)
+  {
+    const VectorXd scale = M.diagonal().head(first.size()).cwiseSqrt();
+    return error(direct(M, B, C, first, omegas), exact, scale);
+  };
+  const auto   model = craig_bampton(frame, options);
+  const double found = error_of(model.M, model.B, model.C);
+  ASSERT_FALSE(model.notes.empty());
+  const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
+  frame.B.setZero();
+  const auto     without = craig_bampton_with_basis(frame, options);
+  const MatrixXd B       = without.basis.T.transpose() * (frame_of(lattice).B * without.basis.T);
+  if (strength > 1.)
+  {
+    EXPECT_GT(error_of(without.frame.M, B, without.frame.C), 5. * tolerance) << "dampers are not felt";
+  }
+  EXPECT_LE(found, tolerance) << model.notes[0];
+  EXPECT_LE(found, 1.05 * told) << model.notes[0]; // the grids differ, and 9.4e-6 is told as 0.00094 %
+  EXPECT_LE(told, tolerance);
+}
+INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,
+                         ::testing::Combine(::testing::Values(0.2, 2., 20., 200.), ::testing::Values(0.01, 1e-3)));
+
 TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
 {
   const Case c     = make_case(3e6, 10);
@@ -170,6 +238,21 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
     std::iota(first.begin(), first.end(), 0);
     const double found = error(by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor), exact, scale);
     EXPECT_NEAR(told, found, 0.1 * found) << m; // the grids of frequencies differ
+
+    double worst = 0.; // of the interfaces by themselves, six coordinates each
+    for (const int at : {0, 6})
+    {
+      const std::vector<int> own = {at, at + 1, at + 2, at + 3, at + 4, at + 5};
+      Receptances            H, full;
+      for (const MatrixXcd &of_all : by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor))
+        H.emplace_back(of_all(own, own));
+      for (const MatrixXcd &of_all : exact)
+        full.emplace_back(of_all(own, own));
+      worst = std::max(worst, error(H, full, scale.segment(at, 6)));
+    }
+    const auto by_itself = model.notes[0].find("by itself ");
+    ASSERT_NE(by_itself, std::string::npos) << model.notes[0];
+    EXPECT_NEAR(std::stod(model.notes[0].substr(by_itself + 10)) / 100., worst, 0.15 * worst) << model.notes[0];
   }
 }
 
