@@ -14,10 +14,11 @@ namespace
 constexpr double least_order = 0.2, greatest_order = 4.; // k in n^(-k): edges that re-enter, and smooth cubic fields
 constexpr double settled_order = 1.;                     // for values that settle faster: h^2 of walls, h^3 of blocks
 constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
-constexpr double share_of_step = 0.5;  // least uncertainty of three meshes: the order itself changes with the mesh
-constexpr double least_share   = 0.5;  // of the estimate that is true at least, where nothing better is known
-constexpr double distinct      = 1.2;  // times the coordinates: less shows more of how cells happen to lie
-constexpr double rounding      = 1e-9; // relative: values of this difference are equal
+constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
+constexpr double least_share   = 0.5; // of the estimate that is true at least, where nothing better is known
+constexpr std::size_t four     = 4;
+constexpr double      distinct = 1.2;  // times the coordinates: less shows more of how cells happen to lie
+constexpr double      rounding = 1e-9; // relative: values of this difference are equal
 
 /// (v1 - v2) / (v2 - v3) for error = n^(-k); grows with k.
 double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, double k)
@@ -128,11 +129,9 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
     const double disagreement =
         std::isfinite(order_before) ? std::min(other, std::abs(last.value - rest.correction - by_values)) : other;
     rest.doubt = std::max(disagreement, share_of_step * std::abs(rest.correction));
-    if (std::isfinite(order_before))
-      return rest;
   }
-  // fewer than four meshes may lie near each other by chance
-  rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
+  if (meshes.size() < four) // fewer may lie near each other by chance
+    rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
   return rest;
 }
 
