@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -20,6 +21,7 @@ using Eigen::VectorXd;
 constexpr double massless    = 1e-13; // mu relative to the largest, below which a mode has no mass
 constexpr int    most_shifts = 20;    // times ten each
 constexpr double certain     = 1e3;   ///< times what rounding leaves: a rigid motion is not said to grow
+constexpr double at_rest     = 1e-20; // omega^2 beside the lowest quotient C_ii / M_ii: what rounding of v leaves there
 constexpr double rigid = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
@@ -123,7 +125,7 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled)
     auto v = modes.V.col(j);
     v /= std::sqrt(v.dot(M * v));
     const double square   = v.dot(C * v);
-    const double rounding = cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs());
+    const double rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), at_rest * lowest);
     modes.omega(j)        = square > rounding ? std::sqrt(square) : 0.;
     if (-square > certain * rounding)
       modes.growth(j) = std::sqrt(-square);

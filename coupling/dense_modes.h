@@ -26,7 +26,7 @@ struct DenseModes
  * their growth; for them s grows.
  *
  * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
- * their signs: what rounding in C leaves.
+ * their signs: what rounding in C leaves; or if omega^2 is below 1e-20 of the lowest C_ii / M_ii.
  * @throws std::invalid_argument if a motion has neither stiffness nor mass, naming the coordinate it fails at.
  */
 DenseModes dense_modes(const Eigen::MatrixXd &C, const Eigen::MatrixXd &M, double cancelled = 1e-12);

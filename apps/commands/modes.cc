@@ -17,7 +17,7 @@ namespace gestell::apps
 
 namespace
 {
-void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes)
+void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes, const std::string &at_zero)
 {
   if (modes.empty())
     return;
@@ -33,6 +33,8 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
     if (mode.growth > 0.)
       std::cout << "   unstable: grows with " << short_text(mode.growth, 3) << " 1/s, e-fold in "
                 << short_text(1. / mode.growth, 3) << " s";
+    else if (mode.frequency_hz == 0.)
+      std::cout << "   " << at_zero;
     std::cout << '\n';
   }
 }
@@ -96,8 +98,8 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
     write_convergence(folder, *convergence);
     print_convergence(*convergence, modes.converge);
   }
-  print_modes("frame as supported, interface free", result.frame_modes);
-  print_modes("coupled machine", result.coupled_modes);
+  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion");
+  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it");
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);
