@@ -57,6 +57,15 @@ std::string free_line(const ModelFacts &model)
 
 } // namespace
 
+std::string words_above(double limit, double before, double frequency)
+{
+  const double reach = (1. + 1e-6) * limit; // the limit may be the frequency of a mode
+  if (!(before <= reach && frequency > reach))
+    return "";
+  return "above " + short_text(limit, 4) +
+         " Hz the reduced frame is not made to hold: these follow from too few modes (reduction.frequency raises it)";
+}
+
 std::vector<std::string> frame_lines(const ModelFacts &model)
 {
   std::vector<std::string> lines;
@@ -77,6 +86,7 @@ std::vector<std::string> frame_lines(const ModelFacts &model)
     lines.push_back("damping: " + model.damping);
   if (!model.mesh.empty())
     lines.push_back("mesh: " + model.mesh);
+  lines.insert(lines.end(), model.statements.begin(), model.statements.end());
   return lines;
 }
 

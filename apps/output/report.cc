@@ -176,7 +176,9 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   return section("energy", "Energy balance", html);
 }
 
-std::string mode_table(const std::vector<coupling::Mode> &modes)
+/// Says where the frequencies begin that a reduced frame is not made for.
+/// @param limit  [Hz]; nan: none
+std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
   const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
   std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
@@ -187,6 +189,11 @@ std::string mode_table(const std::vector<coupling::Mode> &modes)
   int number = 0;
   for (const coupling::Mode &mode : modes)
   {
+    if (const std::string above =
+            words_above(limit, number > 0 ? modes[number - 1].frequency_hz : 0., mode.frequency_hz);
+        !above.empty())
+      html += "<tr><td class=\"soft\" colspan=\"" + std::string(growing ? "8" : "7") + "\">" + escape_xml(above) +
+              "</td></tr>\n";
     html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6) +
             number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
     if (growing)
@@ -226,12 +233,12 @@ std::string modes_section(const Result &result, Report &report)
   };
   std::string html;
   if (!result.coupled_modes.empty())
-    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes) +
+    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
             pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
-    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes) +
+    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
             pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
   return section("modes", "Natural frequencies and modes", html);
 }

@@ -236,6 +236,7 @@ struct Shapes
   ReducedMatrices star;
   SupportedModes  refined, damped; // for the estimate of the error, and for modal damping
   double          limit;           // [rad/s] highest frequency the model is meant for
+  std::string statement{}; // that the modes do what is asked; empty: nothing is known, or a note tells what they leave
 };
 
 /// Of modes that end below the highest frequency of interest.
@@ -264,8 +265,9 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   MatrixXd more = statics.relief;
   if (options.n_modes < 0)
   {
-    auto enough    = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
-    shapes.refined = std::move(enough.refined);
+    auto enough      = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
+    shapes.refined   = std::move(enough.refined);
+    shapes.statement = std::move(enough.statement);
     more.resize(frame.M.rows(), enough.shapes.cols() + statics.relief.cols());
     more << enough.shapes, statics.relief;
   }
@@ -324,6 +326,8 @@ Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Sta
   ReducedFrame          reduced;
   reduced.notes = frame.notes;
   reduced.notes.insert(reduced.notes.end(), notes.begin(), notes.end());
+  if (!shapes.statement.empty())
+    reduced.statements.push_back(shapes.statement);
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), shapes.refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -377,10 +381,10 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
     tell(progress, "modes with the interface free");
     statics.free = free_modes(basis, held, frame, options);
     tell(progress, "reduced matrices");
-    std::vector<std::string> notes;
+    Reduction reduced = reduce(free_shapes(std::move(basis), statics, frame, options), {}, statics, frame);
     if (!statics.free.statement.empty())
-      notes.push_back(statics.free.statement);
-    return reduce(free_shapes(std::move(basis), statics, frame, options), std::move(notes), statics, frame);
+      reduced.frame.statements.push_back(statics.free.statement);
+    return reduced;
   }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
@@ -395,7 +399,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
       continue;
     }
     if (!fixed.statement().empty())
-      reduced.frame.notes.push_back(fixed.statement());
+      reduced.frame.statements.push_back(fixed.statement());
     return reduced;
   }
   throw ConvergenceFailure(

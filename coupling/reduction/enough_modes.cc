@@ -154,7 +154,7 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
     else
     {
       if (receptance)
-        notes.push_back(receptance_statement(*receptance, basis, judgement.fewest, options.frequency));
+        found.statement = receptance_statement(*receptance, basis, judgement.fewest, options.frequency);
       basis.truncate(judgement.fewest.modes);
       if (judgement.fewest.shapes > 0)
         found.shapes = inertia_shapes(held, basis);

@@ -23,8 +23,9 @@ std::string receptance_statement(const InterfaceReceptance &receptance, const Re
 /// What enough_modes() found.
 struct EnoughModes
 {
-  SupportedModes  refined; // the choice rests on them
-  Eigen::MatrixXd shapes;  // [n x n1] to be appended to the modes, or [n x 0]
+  SupportedModes  refined;     // the choice rests on them
+  Eigen::MatrixXd shapes;      // [n x n1] to be appended to the modes, or [n x 0]
+  std::string     statement{}; // within which error the receptance is, where that is what was asked
 };
 
 /**

@@ -57,7 +57,8 @@ protected:
   Answer ask(const std::string &command, const std::string &scene, const std::string &more = "")
   {
     folder_.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n");
-    return gestell(command + " " + folder_.file("scene.toml", scene) + folder_.option() + more);
+    return gestell(command + " " + folder_.file("scene.toml", scene) + (command == "check" ? "" : folder_.option()) +
+                   more);
   }
 
   Folder folder_{"frame_answers"};
@@ -78,6 +79,48 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
   EXPECT_EQ(count(answer.text, "   free motion: nothing elastic holds it\n"), 6) << answer.text;
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
+}
+
+TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
+{
+  std::string scene = block(support);
+  scene.replace(scene.find("0.1 m"), 5, "0.05 m");
+  const Answer answer = ask("modes", scene + "[reduction]\nmodes = 20\n");
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("frame: modes: the inertia of C - omega^2 M at ")) << answer.text;
+  EXPECT_TRUE(answer.says("frame: mesh: ")) << answer.text;
+  EXPECT_FALSE(answer.says("warning")) << answer.text;
+  EXPECT_EQ(read(folder_.results() / "report.html").find("class=\"warnings\""), std::string::npos);
+}
+
+TEST_F(FrameAnswers, ModesAboveTheRangeOfTheModelStandBelowALineThatSaysSo)
+{
+  const Answer answer = ask("modes", block(support + "[reduction]\nfrequency = \"200 Hz\"\n"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_EQ(count(answer.text, "  above 200 Hz the reduced frame is not made to hold"), 2) << answer.text;
+  EXPECT_EQ(count(read(folder_.results() / "report.html"), "above 200 Hz the reduced frame is not made to hold"), 2);
+  EXPECT_NE(read(folder_.results() / "summary.json").find("\"frequency_limit_hz\": 200"), std::string::npos);
+}
+
+TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
+{
+  const Answer good = ask("check", block(support));
+  EXPECT_EQ(good.exit_code, 0) << good.text;
+  EXPECT_TRUE(good.says("1 solid, 0.02 m^3; surfaces: foot 1 face, top 1 face; not meshed")) << good.text;
+  EXPECT_TRUE(good.says("well formed: 1 body, 1 element, 1 signal\n")) << good.text;
+
+  std::string scene = block(support);
+  scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");
+  const Answer lost = ask("check", scene);
+  EXPECT_EQ(lost.exit_code, 2);
+  EXPECT_TRUE(lost.says("frame.surface.top: no face fits")) << lost.text;
+
+  scene = block(support);
+  scene.replace(scene.find("block.geo"), 9, "block.step");
+  folder_.file("block.step", "ISO-10303-21;\nHEADER;\n");
+  const Answer broken = ask("check", scene);
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(broken.says("block.step")) << broken.text;
 }
 
 TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
