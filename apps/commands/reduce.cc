@@ -78,7 +78,8 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
             << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
             << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
-            << " % (energy; exact at the interface)\n"
+            << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
+               "accelerations; reduction.inertia_relief carries it)\n"
             << "  supported frame, interface free:\n    mode   frequency [Hz]   estimated relative error\n";
   const double limit = frame.frequency_limit_hz > 0. ? frame.frequency_limit_hz : INFINITY;
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)

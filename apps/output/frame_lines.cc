@@ -57,6 +57,14 @@ std::string free_line(const ModelFacts &model)
 
 } // namespace
 
+const char *const static_residual_words =
+    "The static load the modes do not carry is that of weight inside the frame, by the energy of the deflection "
+    "between "
+    "the interfaces. Statics at the interfaces are exact without it, and signals and stresses have it added for "
+    "constant "
+    "weight: it matters where deflections inside follow quick accelerations of the whole frame. More modes or "
+    "reduction.inertia_relief carry it.";
+
 std::string words_above(double limit, double before, double frequency)
 {
   const double reach = (1. + 1e-6) * limit; // the limit may be the frequency of a mode

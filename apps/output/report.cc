@@ -74,8 +74,9 @@ std::string machine_figure(const Result &result, Report &report)
   std::vector<Shape>    shapes, later;
   std::string           caption = "The frame.";
   if (result.run && !result.run->picture_states.empty())
+    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
+  if (!shapes.empty())
   {
-    shapes  = mechanism_shapes(result.scenery, result.run->picture_states.front());
     caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
               short_text(result.run->picture_times.front()) + " s.";
     later = mechanism_shapes(result.scenery, result.run->picture_states.back());
@@ -299,6 +300,8 @@ std::string numerics_section(const Result &result)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (!std::isnan(m.static_residual))
+    html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
   if (const auto lines = frame_lines(m); !lines.empty())
   {
     html += "<h3>The frame</h3><ul>";
