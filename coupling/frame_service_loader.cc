@@ -54,6 +54,11 @@ FrameService &frame_service()
   return *loaded;
 }
 
+bool has_frame_service()
+{
+  return !find_plugin(library).empty();
+}
+
 MeshService &mesh_service()
 {
   static MeshService *const loaded = []

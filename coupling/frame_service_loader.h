@@ -13,6 +13,9 @@ namespace gestell::coupling
  */
 FrameService &frame_service();
 
+/// Whether there is one: builds without the finite element side have none.
+bool has_frame_service();
+
 /// Ranks of mpirun above 0: what rank 0 orders, done by the plugin.
 void obey_in_frame_service(int order);
 

@@ -38,12 +38,13 @@ std::vector<std::string> keep_common(std::vector<MeshLevel> &levels);
 /// A frequency or a compliance, followed over the meshes.
 struct ConvergedQuantity
 {
-  std::string name;             ///< "frequency 1", "compliance of engine"
-  std::string unit;             ///< "Hz", "m/N"
-  double      limit       = 0.; ///< extrapolated to elements of size zero
-  double      uncertainty = 0.; ///< of the limit, relative
-  double      error       = 0.; ///< of the last mesh's value against the limit, relative
-  double      order       = 0.; ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
+  std::string name;               ///< "frequency 1", "compliance of engine"
+  std::string unit;               ///< "Hz", "m/N"
+  double      limit       = 0.;   ///< extrapolated to elements of size zero
+  double      uncertainty = 0.;   ///< of the limit, relative
+  double      error       = 0.;   ///< of the last mesh's value against the limit, relative
+  double      order       = 0.;   ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
+  bool        regular     = true; ///< mesh by mesh nearer to the limit, see Extrapolated
   double      bound() const { return (error < 0. ? -error : error) + uncertainty; }
 };
 

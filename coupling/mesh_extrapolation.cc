@@ -15,6 +15,10 @@ constexpr double least_order = 0.2, greatest_order = 4.; // k in n^(-k): edges t
 constexpr double settled_order = 1.;                     // for values that settle faster: h^2 of walls, h^3 of blocks
 constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
 constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
+constexpr double least_share   = 0.5; // of the estimate that is true at least, where nothing better is known
+constexpr std::size_t four     = 4;
+constexpr double      distinct = 1.2;  // times the coordinates: less shows more of how cells happen to lie
+constexpr double      rounding = 1e-9; // relative: values of this difference are equal
 
 /// (v1 - v2) / (v2 - v3) for error = n^(-k); grows with k.
 double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, double k)
@@ -54,14 +58,92 @@ double correction_of(const std::vector<MeshValue> &meshes, std::size_t last, dou
   return (before.value - meshes[last].value) * r / (1. - r);
 }
 
+/// The meshes that are distinctly finer than the one before, the last one among them.
+std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
+{
+  std::vector<MeshValue> kept = {meshes.back()};
+  for (auto mesh = meshes.rbegin(); mesh != meshes.rend(); ++mesh)
+    if (distinct * mesh->coordinates <= kept.back().coordinates)
+      kept.push_back(*mesh);
+  return {kept.rbegin(), kept.rend()};
+}
+
+/// How far the last two steps at most led away from the side of the limit.
+double largest_step_back(const std::vector<MeshValue> &meshes, double side)
+{
+  double largest = 0.;
+  for (std::size_t i = meshes.size() < 3 ? 1 : meshes.size() - 2; i < meshes.size(); ++i)
+    largest = std::max(largest, side * (meshes[i].value - meshes[i - 1].value));
+  return largest > rounding * std::abs(meshes.back().value) ? largest : 0.;
+}
+
+/// How much nearer to the limit than the last one another mesh came.
+double overtaken(const std::vector<MeshValue> &meshes, double side)
+{
+  double most = 0.;
+  for (const MeshValue &mesh : meshes)
+    most = std::max(most, side * (meshes.back().value - mesh.value));
+  return most;
+}
+
+/// |v_last - v| by the estimate of the last mesh alone.
+double estimated_rest(const MeshValue &last)
+{
+  const double estimate = std::min(last.estimate, 1.); // it may be infinite
+  return estimate / (1. + estimate) * last.value;
+}
+
+struct Rest
+{
+  double correction = 0.; ///< v_last - v
+  double doubt      = 0.;
+  double order      = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of at least two meshes whose values move to one side.
+Rest regular_rest(const std::vector<MeshValue> &meshes)
+{
+  const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];
+  const double     step        = before.value - last.value;
+  const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
+  const double     r           = std::isfinite(fall) ? fall : greatest_fall;
+  const double     by_estimate = step * r / (1. - r);
+
+  const std::size_t end = meshes.size() - 1;
+  Rest              rest;
+  rest.order      = observed_order(meshes, end);
+  rest.correction = by_estimate;
+  rest.doubt      = std::abs(by_estimate);
+  if (std::isinf(rest.order))
+  {
+    rest.correction = correction_of(meshes, end, settled_order);
+    rest.doubt      = std::abs(rest.correction);
+    rest.order      = std::numeric_limits<double>::quiet_NaN();
+  }
+  else if (!std::isnan(rest.order))
+  {
+    rest.correction           = correction_of(meshes, end, rest.order);
+    const double order_before = observed_order(meshes, end - 1);
+    const double by_values = before.value - correction_of(meshes, end - 1, order_before); // limit of the three before
+    const double other     = std::abs(by_estimate - rest.correction);
+    const double disagreement =
+        std::isfinite(order_before) ? std::min(other, std::abs(last.value - rest.correction - by_values)) : other;
+    rest.doubt = std::max(disagreement, share_of_step * std::abs(rest.correction));
+  }
+  if (meshes.size() < four) // fewer may lie near each other by chance
+    rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
+  return rest;
+}
+
 } // namespace
 
-Extrapolated extrapolate(const std::vector<MeshValue> &meshes)
+Extrapolated extrapolate(const std::vector<MeshValue> &all, Approach approach)
 {
-  if (meshes.empty())
+  if (all.empty())
     throw std::invalid_argument("extrapolate: no mesh; at least one is needed.");
-  const MeshValue &last = meshes.back();
-  Extrapolated     result;
+  const std::vector<MeshValue> meshes = distinct_ones(all);
+  const MeshValue             &last   = meshes.back();
+  Extrapolated                 result;
   result.order = std::numeric_limits<double>::quiet_NaN();
   if (meshes.size() == 1)
   {
@@ -69,31 +151,19 @@ Extrapolated extrapolate(const std::vector<MeshValue> &meshes)
     result.uncertainty = last.estimate;
     return result;
   }
-  const MeshValue &before      = meshes[meshes.size() - 2];
-  const double     step        = before.value - last.value;
-  const auto       rest        = [&](double r) { return step * r / (1. - r); };
-  const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
-  const double     by_estimate = rest(std::isfinite(fall) ? fall : greatest_fall);
-
-  const std::size_t end = meshes.size() - 1;
-  result.order          = observed_order(meshes, end);
-  double correction = by_estimate, doubt = std::abs(by_estimate);
-  if (std::isinf(result.order))
+  const double side = approach == Approach::from_above ? 1. : -1.;
+  const double back = largest_step_back(meshes, side), nearer = overtaken(meshes, side);
+  Rest         rest = regular_rest(meshes);
+  result.regular    = back == 0. && side * rest.correction >= nearer - rounding * std::abs(last.value);
+  if (!result.regular)
   {
-    correction   = correction_of(meshes, end, settled_order);
-    doubt        = std::abs(correction);
-    result.order = std::numeric_limits<double>::quiet_NaN();
+    rest.correction = side * std::max(estimated_rest(last), nearer);
+    rest.doubt      = std::max(std::abs(rest.correction), back);
+    rest.order      = std::numeric_limits<double>::quiet_NaN();
   }
-  else if (!std::isnan(result.order))
-  {
-    correction                = correction_of(meshes, end, result.order);
-    const double order_before = observed_order(meshes, end - 1);
-    const double other        = !std::isfinite(order_before) ? last.value - by_estimate
-                                                             : before.value - correction_of(meshes, end - 1, order_before);
-    doubt = std::max(std::abs(last.value - correction - other), share_of_step * std::abs(correction));
-  }
-  result.limit       = last.value - correction;
-  result.uncertainty = std::abs(doubt / result.limit);
+  result.order       = rest.order;
+  result.limit       = last.value - rest.correction;
+  result.uncertainty = std::abs(rest.doubt / result.limit);
   return result;
 }
 

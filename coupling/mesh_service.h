@@ -12,7 +12,15 @@ class MeshService
 public:
   virtual ~MeshService() = default;
 
-  /// Meshes, assembles and reduces; a note of the frame tells the error of its mesh.
+  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); what was found, for people.
+  struct Inspection
+  {
+    std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"
+    std::vector<std::string> notes;
+  };
+  virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
+
+  /// Meshes, assembles and reduces; a statement or a note of the frame tells the error of its mesh.
   virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;
 

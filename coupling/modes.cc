@@ -50,7 +50,7 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   {
     int    best  = -1;
     double share = 0.;
-    for (int k = 0; k < 2 * p; ++k)
+    for (int k = 0; k < 2 * p && result[j].frequency_hz > 0.; ++k)
     {
       if (taken[k] || s[k].imag() <= 1e-9 * std::abs(s[k]))
         continue;
@@ -120,8 +120,8 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
                                      frame->modal ? cancelled_by_reduction : cancelled_elsewhere);
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
   {
-    modes[j].frequency_hz = modes[j].damped_frequency_hz = 0.; // what is left is rounding
-    modes[j].damping_ratio                               = std::numeric_limits<double>::quiet_NaN();
+    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding
+    modes[j].damping_ratio                                                 = std::numeric_limits<double>::quiet_NaN();
   }
   return modes;
 }

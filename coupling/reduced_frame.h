@@ -47,6 +47,7 @@ struct ReducedFrame
   Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
+  std::vector<std::string> statements;           ///< what was checked in the making and is as it should be
 };
 
 } // namespace gestell::coupling

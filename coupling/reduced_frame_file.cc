@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 template <typename T, typename Archive>
 void each(const std::string &at, T &value, Archive &archive);
 
-constexpr const char *title = "Gestell reduced frame 5"; // raise the number with the format
+constexpr const char *title = "Gestell reduced frame 6"; // raise the number with the format
 
 template <typename Matrix, typename Points>
 Matrix columns(const Points &points)
@@ -206,7 +206,7 @@ void each_part(Frame &frame, Archive &&archive)
 {
   auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, total_mass, outputs,
          outputs_under_acceleration, points, triangles, displacement, stress, n_full, n_cells, mass, facts,
-         frequencies_hz, frequency_limit_hz, frequency_error, static_residual, notes] = frame;
+         frequencies_hz, frequency_limit_hz, frequency_error, static_residual, notes, statements] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -229,6 +229,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("frequency_error", frequency_error);
   archive("static_residual", static_residual);
   archive("notes", notes);
+  archive("statements", statements);
 }
 
 /// The parts must fit each other, whatever the file says.

@@ -109,4 +109,39 @@ MatrixXd StaticBalance::with_closed_chains(const VectorXd &q, MatrixXd saddle) c
   return saddle;
 }
 
+namespace
+{
+
+constexpr double takes_part = 0.01; // of the kinetic energy of a motion
+
+/// Share of the kinetic energy that the frame alone has in a motion.
+double share_of_frame(const Machine &machine, const VectorXd &motion)
+{
+  const MatrixXd M     = dense_mass(machine);
+  const int      n     = machine.n_frame();
+  const double   whole = motion.dot(M * motion);
+  return whole > 0. ? motion.head(n).dot(M.topLeftCorner(n, n) * motion.head(n)) / whole : 0.;
+}
+
+} // namespace
+
+std::string told_loose(const Machine &machine, const VectorXd &motion)
+{
+  const ReducedFrame *frame = machine.reduced_frame();
+  if (frame && !frame->facts.free_motions.empty() && share_of_frame(machine, motion) > takes_part)
+  {
+    std::string free;
+    for (const std::string &name : frame->facts.free_motions)
+      free += (free.empty() ? "" : ", ") + name;
+    return "the frame moves as a whole under the loads, for nothing holds it well enough (without elements it is free "
+           "in " +
+           std::to_string(frame->facts.free_motions.size()) + " ways: " + free +
+           "); give it a support ([frame.support.NAME]) or elements to the ground";
+  }
+  Eigen::Index most = 0;
+  motion.cwiseAbs().maxCoeff(&most);
+  return "the motion of " + machine.coordinate_name(int(most)) +
+         " has neither stiffness nor weight that holds it here; hold it";
+}
+
 } // namespace gestell::coupling

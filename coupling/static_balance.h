@@ -2,6 +2,7 @@
 
 #include "coupling/assembly.h"
 
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
@@ -50,5 +51,12 @@ private:
   Eigen::VectorXd    load_, acts_;
   LocalState         local_;
 };
+
+/**
+ * Says of a motion [n] that runs away under the loads which part of the machine does: "the motion of slide has neither
+ * stiffness nor weight that holds it here; hold it", or of a frame that moves as a whole how it is free and what would
+ * hold it.
+ */
+std::string told_loose(const Machine &machine, const Eigen::VectorXd &motion);
 
 } // namespace gestell::coupling

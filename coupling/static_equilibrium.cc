@@ -175,9 +175,9 @@ private:
   {
     std::ostringstream message;
     if (!loose_.empty())
-      message << "there is no static equilibrium: the motion of " << loose_
-              << " has neither stiffness nor weight that holds it here; hold it, start from another position, with "
-                 "inertia_relief = true if it is to accelerate as a whole, or with rule = \"given\"";
+      message << "there is no static equilibrium: " << loose_
+              << ", start from another position, with inertia_relief = true if it is to accelerate as a whole, or with "
+                 "rule = \"given\"";
     else
       message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the position of the start, "
               << (balance_.holds() ? "even with the loads put on in " + std::to_string(most_parts) + " parts"
@@ -252,7 +252,7 @@ private:
       if (lu.isInvertible())
         return scale.asDiagonal() * lu.solve(forces);
     }
-    loose_ = leader(scaled * x - forces); // of the free motions the one along which a force acts
+    loose_ = told_loose(machine_, (scale.asDiagonal() * (scaled * x - forces)).head(n_)); // along which a force acts
     return VectorXd::Constant(saddle.rows(), std::numeric_limits<double>::quiet_NaN());
   }
 
@@ -313,9 +313,9 @@ private:
     double h      = first_step;
     int    pushes = 0;
     loose_.clear();
-    std::string moves;
-    MatrixXd    saddle;
-    VectorXd    residual;
+    VectorXd moves;
+    MatrixXd saddle;
+    VectorXd residual;
     for (int k = 0; k < most_steps && h > shortest_step; ++k)
     {
       const VectorXd before = q_, forces = lambda_;
@@ -332,7 +332,7 @@ private:
         h *= iterations <= most_of_step && part > 1. ? std::max(0.25, 0.8 / std::sqrt(part)) : 0.25;
         continue;
       }
-      moves = leader(way);
+      moves = way;
       if (h >= settled_at && rests)
       {
         if (!finish())
@@ -346,7 +346,7 @@ private:
       h = std::min(longest_step, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
     }
     if (h > shortest_step)
-      loose_ = moves; // still on its way
+      loose_ = told_loose(machine_, moves); // still on its way
     return false;
   }
 
@@ -411,7 +411,7 @@ private:
   VectorXd                 q_, lambda_;
   MatrixXd                 M_;
   MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R
-  std::string              loose_;              ///< coordinate along which an unbalanced force finds no stiffness
+  std::string              loose_; ///< what is said of the motion along which an unbalanced force finds no stiffness
   std::vector<std::string> notes_;
 };
 

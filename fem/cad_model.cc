@@ -223,14 +223,11 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   CadModel model = open_cad(source, session);
   if (model.meshed) // judged by its cells
     return model;
-  if (file == CadFile::geo && (specification.mesh.gap > 0. || specification.mesh.defeature > 0.))
-    throw std::invalid_argument(specification.mesh.place + ": gap and defeature are for STEP and BREP files; " +
-                                source.path +
-                                " is a script that can do both itself: Geometry.ToleranceBoolean = ...; "
-                                "BooleanFragments{ Volume{:}; Delete; }{}, and HealShapes.");
+  if (file == CadFile::geo && specification.mesh.defeature > 0.)
+    throw std::invalid_argument(specification.mesh.place + ": defeature is for STEP and BREP files; " + source.path +
+                                " is a script that can do it itself: HealShapes, or leave the feature out.");
   check_shells(model, source);
-  if (file != CadFile::geo) // a script says itself what it joins, and its groups would not outlive it
-    join_solids(model, specification, session);
+  join_solids(model, specification, session);
   model.faces = outer_faces(model.unit, model.diagonal());
   if (file == CadFile::step && attributes == FaceAttributes::read)
     add_step_attributes(model.faces, source);

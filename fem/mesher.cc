@@ -171,8 +171,8 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
         ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
 }
 
-void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
-                   MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
+/// All that is judged before meshing; @return the options with their size.
+MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &specification, MissingSize missing)
 {
   MeshOptions options = specification.mesh;
   if (options.size == 0. && missing == MissingSize::chosen)
@@ -182,6 +182,13 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   set_mesh_sizes(result.model, options, result.selection);
   judge_memory(result, specification, options);
   judge_features(result, options);
+  return options;
+}
+
+void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
+                   MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
+{
+  const MeshOptions options = prepare_geometry(result, specification, missing);
   if (!refined.empty())
     set_refined_sizes(SizeField(refined, options.size), result.model.unit);
   generate(specification, session, progress);
@@ -287,6 +294,15 @@ FaceAttributes wanted_attributes(const FrameSpecification &specification)
   return FaceAttributes::left;
 }
 
+/// The model, with a note if its size is unlikely.
+CadModel read_model(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+{
+  CadModel model = read_cad(specification, session, attributes);
+  if (const std::string note = suspect_size(model, source_of(specification)); !note.empty())
+    model.notes.push_back(note);
+  return model;
+}
+
 MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
                        const MeshProgress &progress, const std::vector<SizePoint> &refined = {})
 {
@@ -296,9 +312,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     progress("reading CAD", -1.);
   const auto work = [&]
   {
-    result.model = read_cad(specification, session, attributes);
-    if (const std::string note = suspect_size(result.model, source_of(specification)); !note.empty())
-      result.model.notes.push_back(note);
+    result.model = read_model(specification, session, attributes);
     if (result.model.meshed)
       read_mesh(result, specification);
     else
@@ -319,6 +333,32 @@ Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &prog
 {
   return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
       .extracted.mesh;
+}
+
+GeometryReport inspect_geometry(const FrameSpecification &specification)
+{
+  const GmshSession session;
+  MeshedModel       result;
+  const auto        work = [&]
+  {
+    result.model = read_model(specification, session, wanted_attributes(specification));
+    if (result.model.meshed)
+      read_mesh(result, specification);
+    else
+      prepare_geometry(result, specification, MissingSize::refused);
+  };
+  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
+  GeometryReport report;
+  report.solids         = result.model.solids;
+  report.faces          = result.model.faces;
+  report.surfaces       = result.selection;
+  report.min            = result.model.min;
+  report.max            = result.model.max;
+  report.size           = result.size;
+  report.volume         = result.model.volume();
+  report.expected_cells = result.expected_cells;
+  report.notes          = result.model.notes;
+  return report;
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)

@@ -55,4 +55,12 @@ struct GeometryReport
 /// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress = {});
 
+/**
+ * Reads the file and finds the surfaces as for a mesh, and judges sizes and memory, but meshes nothing (a script that
+ * meshes by itself does): counts and qualities of cells stay 0.
+ *
+ * @throws std::invalid_argument as make_mesh() until its mesh.
+ */
+GeometryReport inspect_geometry(const FrameSpecification &specification);
+
 } // namespace gestell::fem

@@ -48,9 +48,10 @@ Eigen::VectorXd sizes_for(double lambda, const Eigen::VectorXd &h, const Eigen::
   return size;
 }
 
-double error_of(const Eigen::VectorXd &size, const Eigen::VectorXd &h, const Eigen::VectorXd &eta2)
+/// Cells that take the place of those of now.
+double cells_for(const Eigen::VectorXd &size, const Eigen::VectorXd &h)
 {
-  return (eta2.array() * (size.array() / h.array()).pow(2. * order)).sum();
+  return (h.array() / size.array()).pow(dimension).sum();
 }
 
 /// Lowers sizes until they grow by no more than size_growth along the edges of the mesh.
@@ -125,12 +126,12 @@ std::vector<SizePoint> refine(const MeshError &error, const Eigen::VectorXd &eta
     shape[i] = std::pow(cell_volume(mesh, mesh.cells[i]) / (std::max(eta2[i], least) * std::pow(h[i], dimension)),
                         1. / (2. * order + dimension));
   }
-  const double wanted = refinement.error * eta2.sum();
+  const double wanted = refinement.growth * static_cast<double>(n);
   double       low = std::log(1e-3 / shape.maxCoeff()), high = std::log(1e3 / shape.minCoeff());
   for (int i = 0; i < 60; ++i)
   {
-    const double middle                                                                          = 0.5 * (low + high);
-    (error_of(sizes_for(std::exp(middle), h, shape, refinement), h, eta2) < wanted ? low : high) = middle;
+    const double middle                                                                     = 0.5 * (low + high);
+    (cells_for(sizes_for(std::exp(middle), h, shape, refinement), h) > wanted ? low : high) = middle;
   }
   const Eigen::VectorXd size = sizes_for(std::exp(low), h, shape, refinement);
 

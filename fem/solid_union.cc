@@ -26,12 +26,65 @@ std::string head_of(const FrameSpecification &specification)
 
 using Parents = std::map<int, std::vector<int>>; // tag of a piece to the solids it lies in, in the order of the file
 
+/// Physical surface of a script, whose faces get other tags where solids are joined.
+struct SurfaceGroup
+{
+  int              tag;
+  std::string      name;
+  std::vector<int> faces;
+};
+
+std::vector<SurfaceGroup> surface_groups()
+{
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  std::vector<SurfaceGroup> result;
+  for (const auto &[dim, tag] : groups)
+  {
+    SurfaceGroup group{tag, "", {}};
+    gmsh::model::getPhysicalName(dim, tag, group.name);
+    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.faces);
+    result.push_back(std::move(group));
+  }
+  return result;
+}
+
+/// Faces of groups, each once.
+std::vector<int> faces_of(const std::vector<SurfaceGroup> &groups)
+{
+  std::set<int> faces;
+  for (const SurfaceGroup &group : groups)
+    faces.insert(group.faces.begin(), group.faces.end());
+  return {faces.begin(), faces.end()};
+}
+
+void restore(const std::vector<SurfaceGroup> &groups, std::map<int, std::vector<int>> &pieces_of_face)
+{
+  gmsh::vectorpair before;
+  for (const SurfaceGroup &group : groups)
+    before.emplace_back(2, group.tag);
+  if (!before.empty()) // an empty list would mean all
+    gmsh::model::removePhysicalGroups(before);
+  for (const SurfaceGroup &group : groups)
+  {
+    std::set<int> faces;
+    for (const int face : group.faces)
+      faces.insert(pieces_of_face[face].begin(), pieces_of_face[face].end());
+    gmsh::model::addPhysicalGroup(2, {faces.begin(), faces.end()}, group.tag);
+    gmsh::model::setPhysicalName(2, group.tag, group.name);
+  }
+}
+
 Parents fragment(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
 {
-  gmsh::vectorpair              first = {{3, model.solids[0].tag}}, rest, pieces;
-  std::vector<gmsh::vectorpair> of_solid;
+  gmsh::vectorpair                first = {{3, model.solids[0].tag}}, rest, pieces;
+  std::vector<gmsh::vectorpair>   of_solid; // and then of every face of a group
+  const std::vector<SurfaceGroup> groups  = surface_groups();
+  const std::vector<int>          grouped = faces_of(groups);
   for (std::size_t i = 1; i < model.solids.size(); ++i)
     rest.emplace_back(3, model.solids[i].tag);
+  for (const int face : grouped)
+    rest.emplace_back(2, face);
   session.run(
       [&]
       {
@@ -53,6 +106,11 @@ Parents fragment(const CadModel &model, const FrameSpecification &specification,
     for (const auto &[dim, tag] : of_solid[i])
       parents[tag].push_back(static_cast<int>(i));
   }
+  std::map<int, std::vector<int>> pieces_of_face;
+  for (std::size_t i = 0; i < grouped.size(); ++i)
+    for (const auto &[dim, tag] : of_solid.at(model.solids.size() + i))
+      pieces_of_face[grouped[i]].push_back(tag);
+  restore(groups, pieces_of_face);
   return parents;
 }
 

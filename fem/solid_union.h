@@ -11,7 +11,7 @@ namespace gestell::fem
  *
  * Faces no further apart than mesh.gap are taken for one.  Solids that overlap are refused by name and volume, or with
  * mesh.overlaps = once their common part belongs to the first of them.  Solids keep their names; a solid that is cut by
- * another one becomes several of its name.
+ * another one becomes several of its name.  So do physical surfaces of a script.
  *
  * @throws std::invalid_argument if solids overlap, one of them is swallowed by the gap, or OpenCASCADE fails.
  */

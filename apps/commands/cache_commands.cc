@@ -12,6 +12,7 @@
 #include <iostream>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -20,6 +21,8 @@ namespace
 {
 
 using coupling::CacheEntry;
+
+constexpr std::size_t most_particulars = 6;
 
 /// "12.4 MB"
 std::string size_text(double bytes)
@@ -100,6 +103,37 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
     std::cout << "    the order of supports, interfaces or cuts\n";
 }
 
+/// In what the recipes of these frames differ, by the names of ingredients in the order of the first.
+std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &entries)
+{
+  std::vector<std::string> names;
+  for (const CacheEntry *entry : entries)
+    for (const auto &difference : coupling::differences(entries.front()->origin.recipe, entry->origin.recipe))
+      if (std::find(names.begin(), names.end(), difference.name) == names.end())
+        names.push_back(difference.name);
+  return names;
+}
+
+/// "mesh.size 0.015, reduction.modes 13": what tells a frame from the others that are made from the same.
+std::string particulars(const CacheEntry &entry, const std::vector<CacheEntry> &entries)
+{
+  std::vector<const CacheEntry *> alike;
+  for (const CacheEntry &other : entries)
+    if (other.defect.empty() && origin_text(other.origin) == origin_text(entry.origin))
+      alike.push_back(&other);
+  std::string       text;
+  const auto       &recipe = entry.origin.recipe;
+  const auto        names  = distinguishing(alike);
+  const std::size_t shown  = std::min(names.size(), most_particulars);
+  for (std::size_t i = 0; i < shown; ++i)
+  {
+    const auto own =
+        std::find_if(recipe.begin(), recipe.end(), [&](const auto &part) { return part.name == names[i]; });
+    text += (i > 0 ? ", " : "") + names[i] + " " + ingredient_text(own == recipe.end() ? "" : own->value);
+  }
+  return text + (shown < names.size() ? ", and " + std::to_string(names.size() - shown) + " more" : "");
+}
+
 coupling::CacheCheck check_of(const ReduceCommandOptions &options)
 {
   return options.check ? coupling::CacheCheck::contents : coupling::CacheCheck::heads;
@@ -126,6 +160,16 @@ void list_cache(const ReduceCommandOptions &options)
     std::printf("  %-12s  %-16s  %9s  %-26s  %s\n", short_key(entry.key).c_str(), date_text(entry.last_used).c_str(),
                 size_text(double(entry.bytes)).c_str(), good ? coordinates.c_str() : "-",
                 good ? origin_text(entry.origin).c_str() : ("unusable: " + entry.defect).c_str());
+    if (const std::string own = good ? particulars(entry, entries) : ""; !own.empty())
+      std::printf("  %-12s  %s\n", "", own.c_str());
+  }
+  if (options.check)
+  {
+    const auto n_bad =
+        std::count_if(entries.begin(), entries.end(), [](const CacheEntry &entry) { return !entry.defect.empty(); });
+    std::printf("checked: %s read whole, against checksum and key; %s\n", count_text(entries.size(), "file").c_str(),
+                n_bad == 0 ? "all can be used"
+                           : (std::to_string(n_bad) + " cannot be used, --prune --check removes such files").c_str());
   }
   std::fflush(stdout);
 }

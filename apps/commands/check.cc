@@ -1,22 +1,53 @@
 #include "apps/commands/commands.h"
 #include "apps/scene/build_machine.h"
+#include "coupling/frame_service_loader.h"
+#include "coupling/mesh_service.h"
 
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace gestell::apps
 {
+
+namespace
+{
+
+std::string count(std::size_t n, const std::string &one, const std::string &many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// Reads the frame's file and finds its surfaces, where this build can.
+void try_geometry(const fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+{
+  if (!coupling::has_frame_service())
+  {
+    std::cout << "frame: " << frame.cad << " is there; this build cannot read it\n";
+    return;
+  }
+  const auto [found, notes] = coupling::mesh_service().inspect(frame);
+  std::cout << "frame: " << frame.cad << ": " << found << "; not meshed\n";
+  warnings.insert(warnings.end(), notes.begin(), notes.end());
+}
+
+} // namespace
 
 int check_command(const CommonOptions &options)
 {
   const Scene scene = read_scene(options.input, options.overrides);
   check_scene(scene);
-  std::cout << scene.file << ": the scene \"" << scene.name << "\" is well formed: " << scene.bodies.size()
-            << " bodies, " << scene.elements.size() + scene.linear.size() << " elements, " << scene.signals.size()
-            << " signals\n";
+  std::cout << scene.file << ": the scene \"" << scene.name
+            << "\" is well formed: " << count(scene.bodies.size(), "body", "bodies") << ", "
+            << count(scene.elements.size() + scene.linear.size(), "element", "elements") << ", "
+            << count(scene.signals.size(), "signal", "signals") << '\n';
+  std::vector<std::string> warnings = scene.warnings;
+  if (scene.frame.source == FrameSource::geometry)
+    try_geometry(scene.frame.geometry, warnings);
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';
-  for (const std::string &warning : scene.warnings)
+  for (const std::string &warning : warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   return exit_done;
 }

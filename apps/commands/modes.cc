@@ -17,7 +17,8 @@ namespace gestell::apps
 
 namespace
 {
-void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes)
+void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes, const std::string &at_zero,
+                 double limit)
 {
   if (modes.empty())
     return;
@@ -25,6 +26,9 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     const coupling::Mode &mode = modes[j];
+    if (const std::string above = words_above(limit, j > 0 ? modes[j - 1].frequency_hz : 0., mode.frequency_hz);
+        !above.empty())
+      std::cout << "  " << above << '\n';
     std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << mode.frequency_hz
               << std::setprecision(4) << std::setw(16)
               << (std::isnan(mode.damping_ratio) ? "-" : short_text(mode.damping_ratio)) << "   ";
@@ -33,6 +37,8 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
     if (mode.growth > 0.)
       std::cout << "   unstable: grows with " << short_text(mode.growth, 3) << " 1/s, e-fold in "
                 << short_text(1. / mode.growth, 3) << " s";
+    else if (mode.frequency_hz == 0.)
+      std::cout << "   " << at_zero;
     std::cout << '\n';
   }
 }
@@ -96,8 +102,9 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
     write_convergence(folder, *convergence);
     print_convergence(*convergence, modes.converge);
   }
-  print_modes("frame as supported, interface free", result.frame_modes);
-  print_modes("coupled machine", result.coupled_modes);
+  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
+  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
+              result.model.frequency_limit);
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);

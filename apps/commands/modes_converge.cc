@@ -98,7 +98,8 @@ void print_convergence(const coupling::MeshConvergence &convergence, double tole
               << std::setw(15) << short_text(quantity.limit, 6) << std::setw(15) << percent(quantity.error)
               << std::setw(15) << percent(quantity.uncertainty) << std::setw(8)
               << (std::isnan(quantity.order) ? "-" : short_text(quantity.order, 2)) << quantity.name << " ["
-              << quantity.unit << "]" << std::right << '\n';
+              << quantity.unit << "]" << (quantity.regular ? "" : ", does not converge regularly") << std::right
+              << '\n';
   }
   std::cout << reached(convergence) << ", uncertainty included: " << (convergence.converged ? "" : "not all ")
             << "within " << percent(tolerance) << (convergence.converged ? "" : "; " + convergence.stopped) << '\n';

@@ -163,6 +163,9 @@ ModelFacts model_facts(const PreparedMachine &prepared)
       facts.frame_mass = frame->mass;
     facts.frame        = frame->facts;
     facts.free_motions = static_cast<int>((frame->frequencies_hz.array() == 0.).count());
+    facts.statements   = frame->statements;
+    if (frame->frequency_limit_hz > 0.)
+      facts.frequency_limit = frame->frequency_limit_hz;
     if (frame->omega0.size() > 0 && !prepared.companion)
     {
       facts.static_residual = frame->static_residual;

@@ -78,10 +78,15 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
             << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
             << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
-            << " % (energy; exact at the interface)\n"
+            << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
+               "accelerations; reduction.inertia_relief carries it)\n"
             << "  supported frame, interface free:\n    mode   frequency [Hz]   estimated relative error\n";
+  const double limit = frame.frequency_limit_hz > 0. ? frame.frequency_limit_hz : INFINITY;
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
   {
+    if (const std::string above = words_above(limit, j > 0 ? frame.frequencies_hz[j - 1] : 0., frame.frequencies_hz[j]);
+        !above.empty())
+      std::cout << "    " << above << '\n';
     std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
     if (j < frame.frequency_error.size() && std::isnan(frame.frequency_error[j]))
       std::cout << std::setw(27) << "unknown";
@@ -95,6 +100,7 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   facts.free_motions = static_cast<int>((frame.frequencies_hz.array() == 0.).count());
   facts.damping      = damping_text(scene.frame);
   facts.mesh         = mesh_text(scene.frame);
+  facts.statements   = frame.statements;
   for (const std::string &line : frame_lines(facts))
     std::cout << "  " << line << '\n';
   for (const std::string &note : frame.notes)

@@ -57,6 +57,23 @@ std::string free_line(const ModelFacts &model)
 
 } // namespace
 
+const char *const static_residual_words =
+    "The static load the modes do not carry is that of weight inside the frame, by the energy of the deflection "
+    "between "
+    "the interfaces. Statics at the interfaces are exact without it, and signals and stresses have it added for "
+    "constant "
+    "weight: it matters where deflections inside follow quick accelerations of the whole frame. More modes or "
+    "reduction.inertia_relief carry it.";
+
+std::string words_above(double limit, double before, double frequency)
+{
+  const double reach = (1. + 1e-6) * limit; // the limit may be the frequency of a mode
+  if (!(before <= reach && frequency > reach))
+    return "";
+  return "above " + short_text(limit, 4) +
+         " Hz the reduced frame is not made to hold: these follow from too few modes (reduction.frequency raises it)";
+}
+
 std::vector<std::string> frame_lines(const ModelFacts &model)
 {
   std::vector<std::string> lines;
@@ -77,6 +94,7 @@ std::vector<std::string> frame_lines(const ModelFacts &model)
     lines.push_back("damping: " + model.damping);
   if (!model.mesh.empty())
     lines.push_back("mesh: " + model.mesh);
+  lines.insert(lines.end(), model.statements.begin(), model.statements.end());
   return lines;
 }
 

@@ -12,4 +12,15 @@ namespace gestell::apps
 /// motions, motions that are free, damping.
 std::vector<std::string> frame_lines(const ModelFacts &model);
 
+/// What the static load that the modes do not carry means, and when it matters.
+extern const char *const static_residual_words;
+
+/**
+ * What is to be told between two successive modes of which the second is the first above the frequency that a reduced
+ * frame is made for; else empty.
+ *
+ * @param limit  [Hz]; nan: none
+ */
+std::string words_above(double limit, double before, double frequency);
+
 } // namespace gestell::apps

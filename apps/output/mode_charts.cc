@@ -50,9 +50,19 @@ bool is_physical(const Result &result, std::size_t i)
   return k < first_mode || k >= result.scenery.n_frame;
 }
 
+/// What angles are multiplied with to stand beside displacements [m]: a crank, or half of the machine.
+double arm(const Scenery &scenery)
+{
+  if (!scenery.rods.empty())
+    return scenery.rods.front().crank_radius;
+  const double half  = 0.5 * scenery.size();
+  const double digit = std::pow(10., std::floor(std::log10(half)));
+  return std::round(half / digit) * digit;
+}
+
 std::string bars_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
 {
-  const double length = result.scenery.rods.empty() ? 1. : result.scenery.rods.front().crank_radius;
+  const double length = arm(result.scenery);
 
   BarChart chart;
   chart.title    = title;

@@ -74,8 +74,9 @@ std::string machine_figure(const Result &result, Report &report)
   std::vector<Shape>    shapes, later;
   std::string           caption = "The frame.";
   if (result.run && !result.run->picture_states.empty())
+    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
+  if (!shapes.empty())
   {
-    shapes  = mechanism_shapes(result.scenery, result.run->picture_states.front());
     caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
               short_text(result.run->picture_times.front()) + " s.";
     later = mechanism_shapes(result.scenery, result.run->picture_states.back());
@@ -176,7 +177,9 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   return section("energy", "Energy balance", html);
 }
 
-std::string mode_table(const std::vector<coupling::Mode> &modes)
+/// Says where the frequencies begin that a reduced frame is not made for.
+/// @param limit  [Hz]; nan: none
+std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
   const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
   std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
@@ -187,6 +190,11 @@ std::string mode_table(const std::vector<coupling::Mode> &modes)
   int number = 0;
   for (const coupling::Mode &mode : modes)
   {
+    if (const std::string above =
+            words_above(limit, number > 0 ? modes[number - 1].frequency_hz : 0., mode.frequency_hz);
+        !above.empty())
+      html += "<tr><td class=\"soft\" colspan=\"" + std::string(growing ? "8" : "7") + "\">" + escape_xml(above) +
+              "</td></tr>\n";
     html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6) +
             number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
     if (growing)
@@ -226,12 +234,12 @@ std::string modes_section(const Result &result, Report &report)
   };
   std::string html;
   if (!result.coupled_modes.empty())
-    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes) +
+    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
             pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
-    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes) +
+    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
             pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
   return section("modes", "Natural frequencies and modes", html);
 }
@@ -292,6 +300,8 @@ std::string numerics_section(const Result &result)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (!std::isnan(m.static_residual))
+    html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
   if (const auto lines = frame_lines(m); !lines.empty())
   {
     html += "<h3>The frame</h3><ul>";

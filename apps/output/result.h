@@ -29,11 +29,15 @@ struct ModelFacts
   double frame_mass      = std::numeric_limits<double>::quiet_NaN(); ///< [kg]
   double frequency_error = std::numeric_limits<double>::quiet_NaN(); ///< largest estimated relative error by reduction
   double static_residual = std::numeric_limits<double>::quiet_NaN(); ///< see coupling::ReducedFrame
+  double frequency_limit =
+      std::numeric_limits<double>::quiet_NaN(); ///< [Hz] up to which a reduced frame is meant to hold
 
   fem::FrameFacts frame;            ///< of a frame made of cells
   int             free_motions = 0; ///< modes of the frame of frequency zero
   std::string     damping;          ///< of the frame, for people
-  std::string     mesh; ///< what nobody knows of the frame's mesh, for people; else a warning tells its error
+  std::string
+      mesh; ///< what nobody knows of the frame's mesh, for people; else its error is told by a statement or a warning
+  std::vector<std::string> statements; ///< what was checked of the frame and is as it should be
 };
 
 /// Modes along a coordinate, and what excites them there.

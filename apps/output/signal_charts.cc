@@ -183,16 +183,21 @@ std::pair<double, double> main_shock(const coupling::RunResult &run)
   if (n < fewest_for_zoom || width < 2)
     return {0., 0.};
 
-  std::size_t chosen = 1;
-  double      span   = -1.;
+  double widest = 0.;
   for (std::size_t j = 1; j < width; ++j)
-    if (run.units[j] == "N" && range_of(run, j).span() > span)
-    {
-      chosen = j;
-      span   = range_of(run, j).span();
-    }
+    if (run.units[j] == "N")
+      widest = std::max(widest, range_of(run, j).span());
+  double at      = hardest_change(run, 1).first,
+         hardest = 0.; // share of its range by which a force of some size changes: rings follow
+  for (std::size_t j = 1; j < width; ++j)
+    if (const double span = range_of(run, j).span(); run.units[j] == "N" && span > 0. && span >= widest / 3.)
+      if (const auto [t, change] = hardest_change(run, j); change / span > hardest)
+      {
+        hardest = change / span;
+        at      = t;
+      }
   const double first = run.rows.front(), last = run.rows[(n - 1) * width], zoom = (last - first) / 8.;
-  const double begin = std::clamp(hardest_change(run, chosen).first - 0.25 * zoom, first, last - zoom);
+  const double begin = std::clamp(at - 0.25 * zoom, first, last - zoom);
   return {begin, begin + zoom};
 }
 

@@ -35,8 +35,9 @@ struct SignalGroup
 /// can be read; at most seven.  Within a unit the widest come first.
 std::vector<SignalGroup> group_signals(const coupling::RunResult &run);
 
-/// The stretch around the hardest shock: where a force (or else the first signal) changes most within a two hundredth
-/// of the run; an eighth of the run wide, a quarter of it before the shock.  Empty (begin = end) for short histories.
+/// The stretch around the hardest shock: where a force with at least a third of the widest range (or else the first
+/// signal) changes by the largest share of its own range within a two hundredth of the run; an eighth of the run wide,
+/// a quarter of it before the shock.  Empty (begin = end) for short histories.
 std::pair<double, double> main_shock(const coupling::RunResult &run);
 
 /// One chart over the whole run for every group, for forces that the main shock shakes a second one around it.  Names:

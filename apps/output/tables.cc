@@ -62,6 +62,10 @@ void write_frame(JsonWriter &json, const ModelFacts &model)
   json.text("damping", model.damping);
   if (!model.mesh.empty())
     json.text("mesh", model.mesh);
+  json.begin_array("statements");
+  for (const std::string &statement : model.statements)
+    json.text("", statement);
+  json.end_array();
 }
 
 void write_model(JsonWriter &json, const ModelFacts &model)
@@ -81,6 +85,8 @@ void write_model(JsonWriter &json, const ModelFacts &model)
   json.number("frame_mass", model.frame_mass);
   json.number("frequency_error", model.frequency_error);
   json.number("static_residual", model.static_residual);
+  if (!std::isnan(model.frequency_limit))
+    json.number("frequency_limit_hz", model.frequency_limit);
   write_frame(json, model);
   json.end_object();
 }

@@ -1,5 +1,8 @@
 #include "apps/scene/read_frame.h"
 
+#include <string>
+#include <utility>
+
 namespace gestell::apps
 {
 
@@ -15,9 +18,17 @@ FrameRequest read_frame(const SceneTable &scene)
              matrices = (frame->has("mass") && !frame->is_table("mass")) || frame->has("stiffness"),
              reduced  = frame->has("reduced");
   if (cad + matrices + reduced != 1)
+  {
+    std::string given;
+    for (const auto &[is_given, key] :
+         {std::pair(cad, "'cad'"), std::pair(matrices, "'mass' or 'stiffness'"), std::pair(reduced, "'reduced'")})
+      if (is_given)
+        given += (given.empty() ? " and has " : " and ") + std::string(key);
     throw frame->error(
         "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices) and 'reduced' "
-        "(a reduced frame); leave [frame] out for a machine without one");
+        "(a reduced frame)" +
+        (given.empty() ? "; leave [frame] out for a machine without one" : given + "; keep one of them"));
+  }
   if (cad)
   {
     request.source   = FrameSource::geometry;

@@ -12,4 +12,10 @@ namespace gestell::apps
  */
 void make_way(SceneNode &older, const SceneNode &newer);
 
+/**
+ * The same of [frame] in a whole scene: a reduced frame takes the place of all that the older layer says of its frame
+ * and of [reduction], for both lie in its file; another frame takes the place of a reduced one.
+ */
+void make_way_for_frame(SceneNode &older_scene, const SceneNode &newer_frame);
+
 } // namespace gestell::apps

@@ -98,6 +98,12 @@ void apply_override(SceneNode &root, const std::string &text)
     newer.entries.emplace_back(path.back(), value);
     make_way(*run, newer);
   }
+  if (path.size() == 2 && path.front() == "frame")
+  {
+    SceneNode newer;
+    newer.entries.emplace_back(path.back(), value);
+    make_way_for_frame(root, newer);
+  }
 
   SceneNode *node = &root;
   for (std::size_t i = 0; i < path.size(); ++i)

@@ -27,14 +27,17 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi     = 6.283185307179586;
-constexpr double cancelled  = 1e-10;                     // as in supported_modes()
-constexpr double singular   = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
-constexpr double aim        = 0.6;                       // of the tolerance: what a mesh is made for
-constexpr double least_fall = 0.2, greatest_fall = 0.45; // of the error from mesh to mesh
-constexpr double finest      = 1e-3;                     // smallest element over the size of the first mesh
-constexpr double filled      = 0.9;                      // of the coordinates allowed, where a mesh is cut down to them
-constexpr double growth      = 1.2; // of coordinates, at least: less shows no difference between meshes
+constexpr double two_pi       = 6.283185307179586;
+constexpr double cancelled    = 1e-10;                     // as in supported_modes()
+constexpr double singular     = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
+constexpr double aim          = 0.6;                       // of the tolerance: what a mesh is made for
+constexpr double least_growth = 2.2, greatest_growth = 5.; // of the cells from mesh to mesh
+constexpr double greatest_graded = 3.;                     // of those that are graded: rough estimates grade badly
+constexpr double finest          = 1e-3;                   // smallest element over the size of the first mesh
+constexpr double filled          = 0.9; // of the coordinates allowed, where a mesh is cut down to them
+constexpr double cut_down        = 1.2; // times the coordinates of the last mesh, at least, where a mesh is cut down
+constexpr double distinct        = 1.5; // times, at least, elsewhere: less shows no difference between meshes
+constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // of error ~ n^-k, to tell how many would do
 constexpr int    most_trials = 4;
 
 void require(bool holds, const std::string &message)
@@ -191,19 +194,32 @@ std::vector<ConvergedQuantity> extrapolate_all(const std::vector<MeshLevel> &lev
     std::vector<MeshValue> meshes;
     for (const MeshLevel &level : levels)
       meshes.push_back({double(level.n_coordinates), level.values[j], level.estimates[j]});
-    const Extrapolated limit = extrapolate(meshes);
-    result.push_back(
-        {name, of->unit, limit.limit, limit.uncertainty, meshes.back().value / limit.limit - 1., limit.order});
+    const Extrapolated limit = extrapolate(meshes, of->is_frequency ? Approach::from_above : Approach::from_below);
+    result.push_back({name, of->unit, limit.limit, limit.uncertainty, meshes.back().value / limit.limit - 1.,
+                      limit.order, limit.regular});
   }
   return result;
 }
 
-double largest_bound(const std::vector<ConvergedQuantity> &quantities)
+const ConvergedQuantity &worst(const std::vector<ConvergedQuantity> &quantities)
 {
-  double largest = 0.;
-  for (const auto &quantity : quantities)
-    largest = std::max(largest, quantity.bound());
-  return largest;
+  return *std::max_element(quantities.begin(), quantities.end(),
+                           [](const ConvergedQuantity &a, const ConvergedQuantity &b)
+                           { return a.bound() < b.bound(); });
+}
+
+/// "; frequency 1 would need about 60000 coordinates if ...", rounded up to two digits; "" where the error is unknown.
+std::string enough(const ConvergedQuantity &worst, int n_coordinates, double tolerance)
+{
+  const double k = std::isnan(worst.order) ? usual_k : std::clamp(worst.order, least_k, greatest_k);
+  const double n = n_coordinates * std::pow(worst.bound() / tolerance, 1. / k);
+  if (!(n < 1e12))
+    return "";
+  const double digits = std::pow(10., std::floor(std::log10(n)) - 1.);
+  std::string  order  = std::to_string(k);
+  order.erase(order.find('.') + 2);
+  return "; " + worst.name + " would need about " + std::to_string(std::llround(std::ceil(n / digits) * digits)) +
+         " coordinates if its error falls with their number to the power -" + order;
 }
 
 void check(const fem::FrameSpecification &specification, const ConvergenceOptions &options)
@@ -248,45 +264,52 @@ public:
   fem::Mesh first(const Progress &progress) const { return fem::make_mesh(specification_, progress, {}); }
 
   /**
-   * A mesh with `fall` of the error of the last one, or as much as the coordinates allowed have room for; none where
-   * that is no more than the last one had, and stopped() says so.
+   * A mesh with `growth` times the coordinates of the last one, or as many as are allowed; none where those are hardly
+   * more than the last one had, or gmsh makes no finer mesh, and stopped() says so.
    */
-  std::optional<fem::Mesh> next(const Computed &last, bool hexahedra, double fall, const Progress &progress)
+  std::optional<fem::Mesh> next(const Computed &last, bool hexahedra, double growth, const Progress &progress)
   {
     const double last_size = specification_.mesh.size;
+    const double n0        = last.level.n_coordinates;
+    const double room      = filled * options_.max_coordinates;
+    double       wanted    = (hexahedra ? growth : std::min(growth, greatest_graded)) * n0;
+    double       ratio     = wanted / n0;
     for (int trial = 1;; ++trial)
     {
-      fem::Mesh    mesh = hexahedra ? finer_everywhere(last_size, fall, progress) : finer(last, fall, progress);
+      fem::Mesh    mesh = hexahedra ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
       const double n    = 3. * fem::number_of_nodes(mesh);
-      if (n <= options_.max_coordinates)
+      const bool   fits = n <= options_.max_coordinates;
+      if (fits && (n >= distinct * n0 || (trial > 1 && n >= std::min(cut_down * n0, room))))
         return mesh;
-      const double least = growth * last.level.n_coordinates, wanted = filled * options_.max_coordinates;
-      if (trial == most_trials || wanted < least)
+      if (trial == most_trials || (!fits && room < cut_down * n0))
       {
-        stopped_ = "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
-                   std::to_string(options_.max_coordinates) + " allowed";
+        stopped_ =
+            fits ? "gmsh makes no mesh with distinctly more than " + std::to_string(std::lround(n0)) + " coordinates"
+                 : "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
+                       std::to_string(options_.max_coordinates) + " allowed";
         return {};
       }
-      // error ~ n^-k
-      const double k = std::log(fall) / std::log(last.level.n_coordinates / n);
-      fall           = std::pow(last.level.n_coordinates / wanted, k);
+      // n = n0 ratio^a
+      wanted         = std::min(wanted, room);
+      const double a = std::log(n / n0) / std::log(ratio);
+      ratio          = a > 0.2 ? std::pow(wanted / n0, 1. / a) : 2. * ratio;
     }
   }
 
 private:
-  fem::Mesh finer(const Computed &last, double fall, const Progress &progress) const
+  fem::Mesh finer(const Computed &last, double growth, const Progress &progress) const
   {
     fem::Refinement refinement;
-    refinement.error    = fall;
+    refinement.growth   = growth;
     refinement.largest  = first_size_;
     refinement.smallest = finest * first_size_;
     return fem::make_mesh(specification_, progress, fem::refine(*last.mesh_error, last.eta2, refinement));
   }
 
   /// Of a script that meshes by itself.
-  fem::Mesh finer_everywhere(double size, double fall, const Progress &progress)
+  fem::Mesh finer_everywhere(double size, double growth, const Progress &progress)
   {
-    specification_.mesh.size = size * std::pow(fall, 1. / (2. * fem::order_of_refinement));
+    specification_.mesh.size = size * std::pow(growth, -1. / 3.);
     return fem::make_mesh(specification_, progress, {});
   }
 
@@ -327,7 +350,7 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
       if (std::find(result.left_out.begin(), result.left_out.end(), name) == result.left_out.end())
         result.left_out.push_back(name);
     result.quantities  = extrapolate_all(result.levels, last.watched);
-    const double bound = largest_bound(result.quantities);
+    const double bound = worst(result.quantities).bound();
     result.converged   = number > 1 && bound <= options.tolerance;
     if (result.converged)
       break;
@@ -336,13 +359,15 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
       result.stopped = std::to_string(options.max_meshes) + " meshes were allowed";
       break;
     }
-    begin             = cpu_seconds();
-    const double fall = std::clamp(aim * options.tolerance / bound, least_fall, greatest_fall);
-    mesh              = meshes.next(last, !mesh->hexahedra.empty(), fall, phases);
-    result.stopped    = meshes.stopped();
+    begin               = cpu_seconds();
+    const double growth = std::clamp(bound / (aim * options.tolerance), least_growth, greatest_growth);
+    mesh                = meshes.next(last, !mesh->hexahedra.empty(), growth, phases);
+    result.stopped      = meshes.stopped();
   }
   if (options.compliances)
     result.at_points = at_points(specification);
+  if (!result.converged)
+    result.stopped += enough(worst(result.quantities), result.levels.back().n_coordinates, options.tolerance);
   result.frame = std::move(last.frame);
   return result;
 }

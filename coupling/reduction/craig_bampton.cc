@@ -7,7 +7,10 @@
 #include "coupling/reduction/inner_shapes.h"
 #include "coupling/reduction/interior_response.h"
 #include "coupling/reduction/rounded.h"
+#include "fem/free_motions.h"
 #include "fem/rigid_motions.h"
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -140,13 +143,33 @@ void add_modal_damping(MatrixXd &B, const SupportedModes &refined, const fem::Mo
   B += P * zeta.modal_dampers(refined.omega.head(p)).asDiagonal() * P.transpose();
 }
 
+/// Takes out of C* what rounding left along the rigid motions [R_1; 0] of the frame: C* <- (E - Q Q^T) C* (E - Q Q^T).
+/// Without it a machine that floats would swing or drift on it.
+void free_rigid_motions(MatrixXd &C, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  const MatrixXd R1 = fem::free_displacements(frame)(q1, Eigen::all);
+  const auto     n1 = R1.rows(), k = R1.cols();
+  if (k == 0 || k > n1)
+    return;
+  MatrixXd Q    = MatrixXd::Zero(C.rows(), k);
+  Q.topRows(n1) = Eigen::HouseholderQR<MatrixXd>(R1).householderQ() * MatrixXd::Identity(n1, k);
+  C             = (C - Q * (Q.transpose() * C)).eval();
+  C             = (C - (C * Q) * Q.transpose()).eval();
+  C             = (0.5 * (C + C.transpose())).eval();
+  if (k < n1)
+    return;
+  C.topRows(n1).setZero(); // every motion of the interface is rigid
+  C.leftCols(n1).setZero();
+}
+
 /// The full frame knows how many motions are free: where one interface alone would hold it, all of C*_11 is rounding.
-void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame)
+void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   VectorXd &frequencies = reduced.frequencies_hz;
   if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
     return;
   reduced.facts.free_motions = fem::free_motions(frame, {});
+  free_rigid_motions(reduced.C, frame, q1);
   frequencies.head(std::min(frequencies.size(), Eigen::Index(reduced.facts.free_motions.size()))).setZero();
 }
 
@@ -167,7 +190,7 @@ void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Redu
   if (frame.picture.displacement.rows() > 0)
     reduced.displacement = (frame.picture.displacement * basis.T).cast<float>();
   reduced.facts = frame.facts;
-  name_free_motions(reduced, frame);
+  name_free_motions(reduced, frame, basis.q1);
   reduced.n_full  = int(frame.M.rows());
   reduced.n_cells = frame.n_cells;
   reduced.mass    = frame.mass;
@@ -213,6 +236,7 @@ struct Shapes
   ReducedMatrices star;
   SupportedModes  refined, damped; // for the estimate of the error, and for modal damping
   double          limit;           // [rad/s] highest frequency the model is meant for
+  std::string statement{}; // that the modes do what is asked; empty: nothing is known, or a note tells what they leave
 };
 
 /// Of modes that end below the highest frequency of interest.
@@ -241,8 +265,9 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   MatrixXd more = statics.relief;
   if (options.n_modes < 0)
   {
-    auto enough    = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
-    shapes.refined = std::move(enough.refined);
+    auto enough      = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
+    shapes.refined   = std::move(enough.refined);
+    shapes.statement = std::move(enough.statement);
     more.resize(frame.M.rows(), enough.shapes.cols() + statics.relief.cols());
     more << enough.shapes, statics.relief;
   }
@@ -304,6 +329,8 @@ Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Sta
   ReducedFrame          reduced;
   reduced.notes = frame.notes;
   reduced.notes.insert(reduced.notes.end(), notes.begin(), notes.end());
+  if (!shapes.statement.empty())
+    reduced.statements.push_back(shapes.statement);
   const auto estimate        = frequency_estimate(star, basis.n1(), basis.m(), shapes.refined);
   reduced.frequencies_hz     = estimate.omega / two_pi;
   reduced.frequency_error    = estimate.error;
@@ -357,10 +384,10 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
     tell(progress, "modes with the interface free");
     statics.free = free_modes(basis, held, frame, options);
     tell(progress, "reduced matrices");
-    std::vector<std::string> notes;
+    Reduction reduced = reduce(free_shapes(std::move(basis), statics, frame, options), {}, statics, frame);
     if (!statics.free.statement.empty())
-      notes.push_back(statics.free.statement);
-    return reduce(free_shapes(std::move(basis), statics, frame, options), std::move(notes), statics, frame);
+      reduced.frame.statements.push_back(statics.free.statement);
+    return reduced;
   }
   FixedModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
@@ -375,7 +402,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
       continue;
     }
     if (!fixed.statement().empty())
-      reduced.frame.notes.push_back(fixed.statement());
+      reduced.frame.statements.push_back(fixed.statement());
     return reduced;
   }
   throw ConvergenceFailure(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -221,8 +222,11 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
         found.shapes = beside(found.shapes, dampers->W);
       }
       if (receptance)
-        notes.push_back(receptance_statement(*receptance, basis, frame.interfaces, judgement.fewest, options.frequency,
-                                             dampers ? &*dampers : nullptr));
+        found.statement = receptance_statement(*receptance, basis, frame.interfaces, judgement.fewest,
+                                               options.frequency, dampers ? &*dampers : nullptr);
+      if (dampers && dampers->left > options.tolerance)
+        notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
+                        percent(options.tolerance) + ", for the dampers inside the frame are strong");
       basis.truncate(judgement.fewest.modes);
       fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
     }

@@ -26,8 +26,9 @@ std::string receptance_statement(const InterfaceReceptance &receptance, const Re
 /// What enough_modes() found.
 struct EnoughModes
 {
-  SupportedModes  refined; // the choice rests on them
-  Eigen::MatrixXd shapes;  // [n x k] to be appended to the modes
+  SupportedModes  refined;     // the choice rests on them
+  Eigen::MatrixXd shapes;      // [n x k] to be appended to the modes
+  std::string     statement{}; // within which error the receptance is, where that is what was asked
 };
 
 /**

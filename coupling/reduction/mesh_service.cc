@@ -4,6 +4,7 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/mesh_statement.h"
 #include "coupling/reduction/openblas.h"
+#include "coupling/reduction/rounded.h"
 #include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
@@ -14,9 +15,28 @@ namespace gestell::coupling
 namespace
 {
 
+std::string counted(std::size_t n, const std::string &thing)
+{
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
 class Service final : public MeshService
 {
 public:
+  Inspection inspect(const fem::FrameSpecification &frame) override
+  {
+    const fem::GeometryReport geometry = fem::inspect_geometry(frame);
+    Inspection  result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
+                      geometry.notes};
+    std::string between = "; surfaces: ";
+    for (const auto &[name, faces] : geometry.surfaces)
+    {
+      result.found += between + name + " " + counted(faces.size(), "face");
+      between = ", ";
+    }
+    return result;
+  }
+
   ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                       const Progress &progress) override
   {
@@ -35,7 +55,8 @@ public:
         craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
-    reduced.frame.notes.push_back(mesh_statement(reduced, *discretisation.mesh_error, mesh));
+    auto [text, warns] = mesh_statement(reduced, *discretisation.mesh_error, mesh);
+    (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
     return {std::move(discretisation.matrices), std::move(reduced.frame)};
   }
 

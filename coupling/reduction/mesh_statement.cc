@@ -17,7 +17,7 @@ namespace
 constexpr int    most_modes = 6;     // whose stresses are looked at: each costs as much as a static solution
 constexpr double cancelled  = 1e-10; // as in supported_modes()
 constexpr double two_pi     = 6.283185307179586;
-constexpr double coarse     = 0.02; // error from which a way out is told
+constexpr double coarse     = 0.02; // error from which it is a warning, with a way out
 
 } // namespace
 
@@ -35,9 +35,10 @@ Eigen::VectorXd modal_mesh_error(const Reduction &reduced, const fem::MeshError 
   return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
 }
 
-std::string mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_error, const fem::Mesh &mesh)
+MeshStatement mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_error, const fem::Mesh &mesh)
 {
   const Eigen::VectorXd error = modal_mesh_error(reduced, mesh_error);
+  bool                  warns = false;
   std::string           text  = "mesh: " + std::to_string(reduced.frame.n_full) + " coordinates";
   if (error.size() > 0)
   {
@@ -52,11 +53,12 @@ std::string mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_
       text += "; " + percent(walls.thin_share, 2) + " of the surface belongs to walls thinner than the elements, " +
               rounded(walls.median_ratio, 3) + " times on the average (thinnest wall " +
               rounded(1000. * walls.thinnest, 3) + " mm)";
-    if (!(high < coarse))
+    warns = !(high < coarse);
+    if (warns)
       text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls need "
               "far fewer coordinates";
   }
-  return text;
+  return {std::move(text), warns};
 }
 
 } // namespace gestell::coupling

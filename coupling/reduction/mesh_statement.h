@@ -13,10 +13,17 @@ namespace gestell::coupling
 /// first to the last within its frequency limit; docs/theory/mesh_error.md (3).
 Eigen::VectorXd modal_mesh_error(const Reduction &reduced, const fem::MeshError &mesh_error);
 
+struct MeshStatement
+{
+  std::string text;
+  bool        warns = false;
+};
+
 /**
- * What a user should know about the mesh, as a note: "mesh: 21 000 coordinates; by the stresses of the modes the
+ * What a user should know about the mesh: "mesh: 21 000 coordinates; by the stresses of the modes the
  * frequencies up to 80 Hz are 1 % to 12 % too high ...", and where walls are thinner than the elements, how thin.
+ * Errors below 2 % are no reason to warn.
  */
-std::string mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_error, const fem::Mesh &mesh);
+MeshStatement mesh_statement(const Reduction &reduced, const fem::MeshError &mesh_error, const fem::Mesh &mesh);
 
 } // namespace gestell::coupling

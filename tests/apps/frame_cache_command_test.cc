@@ -103,8 +103,20 @@ TEST_F(FrameCacheCommand, ListsAndPrunesWhatIsAskedForOnly)
   EXPECT_TRUE(shell(called + "reduce --list").says("0 files"));
 }
 
+TEST_F(FrameCacheCommand, TellsFramesOfOneSceneApart)
+{
+  EXPECT_FALSE(shell(called + "reduce --list").says("reduction.modes"));
+  const auto origin = apps::frame_origin(apps::read_scene((folder / "chain.toml").string(), {"reduction.modes=1"}));
+  ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
+  const Answer list = shell(called + "reduce --list");
+  EXPECT_TRUE(list.says("reduction.modes 2\n")) << list.text;
+  EXPECT_TRUE(list.says("reduction.modes 1\n")) << list.text;
+}
+
 TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
 {
+  EXPECT_TRUE(
+      shell(called + "reduce --list --check").says("checked: 1 file read whole, against checksum and key; all"));
   {
     std::fstream change(kept(), std::ios::in | std::ios::out | std::ios::binary);
     change.seekg(-8, std::ios::end);
@@ -113,7 +125,7 @@ TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
     change.put(char(last + 1));
   }
   EXPECT_TRUE(shell(called + "reduce --prune").says("removed 0 files"));
-  EXPECT_TRUE(shell(called + "reduce --list --check").says("checksum"));
+  EXPECT_TRUE(shell(called + "reduce --list --check").says("; 1 cannot be used"));
   EXPECT_TRUE(shell(called + "reduce --explain " + scene).says("would be made anew"));
   EXPECT_TRUE(shell(called + "reduce --prune --check").says("removed 1 file,"));
 }

@@ -142,6 +142,24 @@ TEST(SignalCharts, ShowTheMainShockEnlarged)
   EXPECT_EQ(names, (std::vector<std::string>{"forces", "forces-shock", "displacements", "displacements-2", "energy"}));
 }
 
+/// A tool force breaks down at 0.2 s; the column it leaves ringing has the larger range and its fastest change at 0.6
+/// s.
+TEST(SignalCharts, ShowTheShockAndNotTheRingingItLeaves)
+{
+  coupling::RunResult run;
+  run.columns = {"t", "tool", "column"};
+  run.units   = {"s", "N", "N"};
+  for (int i = 0; i <= 1000; ++i)
+  {
+    const double t = 1e-3 * i;
+    run.rows.insert(run.rows.end(), {t, t < 0.2 ? 800. : 0.,
+                                     500. * std::sin(40. * M_PI * t) * std::exp(-std::pow((t - 0.6) / 0.1, 2))});
+  }
+  const auto [begin, end] = main_shock(run);
+  EXPECT_LT(begin, 0.2);
+  EXPECT_GT(end, 0.2);
+}
+
 TEST(SignalCharts, LeaveAHistoryOfOneRowAlone)
 {
   auto run = *example_result(300).run;

@@ -113,6 +113,28 @@ TEST(SceneInheritance, PathsStayRelativeToTheFileTheyStandIn)
   EXPECT_TRUE(std::filesystem::equivalent(scene.frame.geometry.cad, folder.path("base/frame.step")));
 }
 
+TEST(SceneInheritance, AReducedFrameTakesThePlaceOfAllThatWasSaidOfTheFrame)
+{
+  const SceneFolder folder;
+  folder.write("frame.step", "ISO-10303-21;");
+  folder.write("reduced.h5", "");
+  const auto base    = folder.write("base.toml", "[frame]\ncad = \"frame.step\"\nmesh = { size = \"60 mm\" }\n"
+                                                    "[frame.surface.feet]\ngroup = \"feet\"\n"
+                                                    "[frame.interface.crown]\nsurfaces = [\"feet\"]\n"
+                                                    "[reduction]\nmodes = 5\n");
+  const auto reduced = folder.write("reduced.toml", "extends = \"base.toml\"\n[frame]\nreduced = \"reduced.h5\"\n");
+  EXPECT_EQ(apps::read_scene(reduced).frame.source, apps::FrameSource::reduced_file);
+  const std::string by_hand = "frame.reduced=\"" + folder.path("reduced.h5") + "\"";
+  EXPECT_EQ(apps::read_scene(base, {by_hand}).frame.source, apps::FrameSource::reduced_file);
+
+  const std::string surface =
+      "[frame.surface.feet]\ngroup = \"feet\"\n[frame.interface.crown]\nsurfaces = [\"feet\"]\n";
+  const auto back = folder.write("back.toml", "extends = \"reduced.toml\"\n[frame]\ncad = \"frame.step\"\n"
+                                              "mesh = { size = \"60 mm\" }\n" +
+                                                  surface);
+  EXPECT_EQ(apps::read_scene(back).frame.source, apps::FrameSource::geometry);
+}
+
 TEST(SceneInheritance, MistakesAreReportedInTheFileTheyStandIn)
 {
   const SceneFolder folder;

@@ -115,6 +115,8 @@ void solve(const fem::Mesh &mesh, const fem::FrameSpecification &frame, int n_mo
             << "\ncpu without mesh [s] " << cpu_seconds() - start << '\n';
   for (const std::string &note : reduced.notes)
     std::cout << "note " << note << '\n';
+  for (const std::string &statement : reduced.statements)
+    std::cout << statement << '\n';
   std::cout.precision(12);
   for (Eigen::Index j = 0; j < reduced.omega0.size(); ++j)
     std::cout << "frequency " << j + 1 << " [Hz] " << reduced.omega0(j) / 6.283185307179586 << '\n';

@@ -45,6 +45,7 @@ inline coupling::ReducedFrame some_frame()
   frame.facts.whole.centre         = {0.1, 0.2, 1. / 3.};
   frame.facts.free_motions         = {"translation along x"};
   frame.notes                      = {"a note", ""};
+  frame.statements                 = {"a fact"};
   frame.stress.point               = {0, 1, 2, 1};
   frame.stress.triangles           = {{0, 1, 2}, {0, 3, 2}};
   frame.stress.rigid               = {"support feet", "interface crown"};

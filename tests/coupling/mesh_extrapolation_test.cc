@@ -12,8 +12,14 @@ namespace gestell::test
 namespace
 {
 
-using coupling::extrapolate;
+using coupling::Approach;
+using coupling::Extrapolated;
 using coupling::MeshValue;
+
+Extrapolated extrapolate(const std::vector<MeshValue> &meshes)
+{
+  return coupling::extrapolate(meshes, Approach::from_above);
+}
 
 /// v = 10 + c n^-k with an estimate that is wrong by a factor.
 MeshValue mesh(double n, double k, double c = 1000., double factor = 0.7)
@@ -35,13 +41,20 @@ TEST(Extrapolation, OfThreeMeshesFindsOrderAndLimitOfAPowerWhateverTheirSizes)
 
 TEST(Extrapolation, OfTwoMeshesNeedsOnlyTheFallOfTheEstimate)
 {
-  for (const double factor : {0.1, 1., 5.})
+  for (const double factor : {0.1, 1., 4.})
   {
     const auto result = extrapolate({mesh(1e3, 1., 1000., factor), mesh(4e3, 1., 1000., factor)});
     EXPECT_NEAR(result.limit, 10., 1e-9);
     EXPECT_TRUE(std::isnan(result.order));
     EXPECT_NEAR(result.uncertainty, 0.25 / 10., 1e-9) << "the whole step";
   }
+}
+
+TEST(Extrapolation, OfTwoMeshesThatAreNearByChanceIsAsUncertainAsHalfTheEstimateSays)
+{
+  const auto result = extrapolate({{1e3, 10.01, 0.09}, {2e3, 10., 0.06}});
+  EXPECT_LT(result.limit, 10.);
+  EXPECT_GT(10. - result.limit + result.uncertainty * result.limit, 0.5 * 10. * 0.06 / 1.06 - 1e-9);
 }
 
 TEST(Extrapolation, CoversTheLimitWhereTwoPowersAreMixed)
@@ -68,17 +81,59 @@ TEST(Extrapolation, OfFourMeshesTrustsTheirValuesMoreThanAnEstimateThatFallsTooS
 
 TEST(Extrapolation, OfValuesThatSettleFasterThanAnyOrderDoubtsAsMuchAsTheyStillMove)
 {
-  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 10.01, 0.15}, {4e3, 10., 0.1}});
+  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 10.01, 0.002}, {4e3, 10., 0.001}});
   EXPECT_TRUE(std::isnan(result.order));
   EXPECT_NEAR(result.limit, 9.99, 1e-9) << "k = 1: what is left is the last step";
   EXPECT_NEAR(result.uncertainty, 0.01 / 9.99, 1e-9);
 }
 
-TEST(Extrapolation, OfValuesThatShowNoOrderFallsBackOnTheEstimate)
+/// The third frequency of the chassis in hexahedra, 52.890 Hz: one layer of cells has an estimate three times too
+/// large.
+TEST(Extrapolation, OfFourMeshesThatSettleDoubtsNoMoreThanTheRest)
 {
-  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 11., 0.1}, {4e3, 11.5, 0.05}});
+  const auto result = extrapolate(
+      {{54855., 55.9588, 0.12}, {91359., 54.3173, 0.08}, {141633., 53.3236, 0.055}, {275319., 53.1758, 0.036}});
+  const double bound = 53.1758 / result.limit - 1. + result.uncertainty;
+  EXPECT_LT(53.1758 / 52.890 - 1., bound);
+  EXPECT_LT(bound, 0.01);
+}
+
+TEST(Extrapolation, OfValuesThatLeaveTheirLimitIsNotRegularAndStaysBelowAllOfThem)
+{
+  const auto result = extrapolate({{1e3, 12., 0.2}, {2e3, 11., 0.1}, {4e3, 11.5, 0.01}});
+  EXPECT_FALSE(result.regular);
   EXPECT_TRUE(std::isnan(result.order));
-  EXPECT_GT(result.uncertainty, 0.);
+  EXPECT_NEAR(result.limit, 11., 1e-12) << "the lowest of what comes from above";
+  EXPECT_NEAR(result.uncertainty, 0.5 / 11., 1e-12) << "the step back, which is the correction, too";
+
+  const auto estimated = extrapolate({{1e3, 12., 0.2}, {2e3, 11., 0.2}, {4e3, 11.5, 0.15}});
+  EXPECT_NEAR(estimated.limit, 11.5 / 1.15, 1e-12) << "which lies below all";
+}
+
+TEST(Extrapolation, OfCompliancesThatRiseEndsAboveAllOfThem)
+{
+  const auto rising = [](double n) { return MeshValue{n, 20. - mesh(n, 1.).value, mesh(n, 1.).estimate}; };
+  const auto result = coupling::extrapolate({rising(1e3), rising(2e3), rising(4e3)}, Approach::from_below);
+  EXPECT_TRUE(result.regular);
+  EXPECT_NEAR(result.limit, 10., 1e-9);
+  const auto falling = coupling::extrapolate({mesh(1e3, 1.), mesh(2e3, 1.)}, Approach::from_below);
+  EXPECT_FALSE(falling.regular);
+  EXPECT_GE(falling.limit, mesh(1e3, 1.).value - 1e-12);
+}
+
+TEST(Extrapolation, LeavesMeshesOutThatAreHardlyFiner)
+{
+  const auto result = extrapolate({mesh(1e3, 1.), {1.9e3, 10.4, 0.1}, mesh(2e3, 1.), mesh(4e3, 1.)}); // 10.53 would fit
+  EXPECT_NEAR(result.limit, 10., 1e-9);
+  EXPECT_NEAR(result.order, 1., 1e-9);
+}
+
+/// What a bracket gave on six meshes of nearly one size: 506 Hz is its frequency.
+TEST(Extrapolation, OfMeshesOfNearlyOneSizeIsThatOfOne)
+{
+  const auto result = extrapolate({{18297., 508.49, 0.018}, {18450., 508.389, 0.0178}});
+  EXPECT_EQ(result.limit, 508.389);
+  EXPECT_EQ(result.uncertainty, 0.0178);
 }
 
 TEST(Extrapolation, OfOneMeshIsAsUncertainAsItsEstimate)

@@ -64,6 +64,7 @@ TEST_F(ReducedFrameFile, ComesBackBitByBit)
   EXPECT_EQ(back.frequency_error, frame.frequency_error);
   EXPECT_EQ(back.static_residual, frame.static_residual);
   EXPECT_EQ(back.notes, frame.notes);
+  EXPECT_EQ(back.statements, frame.statements);
 }
 
 TEST_F(ReducedFrameFile, IsTheSameFileWhenWrittenAgain)
@@ -95,9 +96,9 @@ TEST_F(ReducedFrameFile, EveryChangedByteIsNoticed)
 TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
 {
   coupling::write_reduced_frame(file, some_frame());
-  std::string other = bytes(file);
+  std::string other           = bytes(file);
   other[other.find('\n') - 1] = '0'; // the number of the format ends the first line
-  const auto says = [&](const std::string &content, const std::string &words)
+  const auto says             = [&](const std::string &content, const std::string &words)
   {
     std::ofstream(file, std::ios::binary) << content;
     try

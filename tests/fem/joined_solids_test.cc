@@ -66,6 +66,54 @@ TEST(SolidsThatOverlap, AreRefusedWithTheVolumeThatWouldCountTwice)
   EXPECT_NEAR(volume_of_cells(make_mesh(s)), 1.5e-3, 1e-12);
 }
 
+/// As two_cubes(), drawn by a script that joins nothing and names the face it stands on and one that is shared.
+std::string two_cubes_of_a_script(double x, double y)
+{
+  return write_text("two.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 100, 100, 100};\nBox(2) = {" +
+                                   std::to_string(x) + ", " + std::to_string(y) +
+                                   ", 0, 100, 100, 100};\n"
+                                   "Physical Volume(\"left\") = {1};\nPhysical Volume(\"right\") = {2};\n"
+                                   "Physical Surface(\"feet\") = {5, 11};\nPhysical Surface(\"side\") = {2};\n");
+}
+
+FrameSpecification in_millimetres(const std::string &cad)
+{
+  FrameSpecification s = specification(cad, 0.05);
+  s.unit               = 1e-3;
+  return s;
+}
+
+TEST(SolidsOfAScript, ThatTouchAreJoinedAndKeepTheirGroups)
+{
+  FrameSpecification s = in_millimetres(two_cubes_of_a_script(100., 20.));
+  s.surfaces           = {{"feet", group("feet", 2)}, {"side", group("side", 1)}};
+  const Mesh mesh      = make_mesh(s);
+  EXPECT_EQ(mesh.solids, (std::vector<std::string>{"left", "right"}));
+  EXPECT_NEAR(volume_of_cells(mesh), 2e-3, 1e-12);
+  EXPECT_NEAR(norm(area_vector(mesh, "feet") - Vector3{0., 0., -0.02}), 0., 1e-12);
+  EXPECT_NEAR(norm(area_vector(mesh, "side") - Vector3{0.1 * 0.02, 0., 0.}), 0., 1e-12); // what is left of it outside
+}
+
+TEST(SolidsOfAScript, ThatOverlapAreJudgedLikeThoseOfAStepFile)
+{
+  FrameSpecification s = in_millimetres(two_cubes_of_a_script(50., 0.));
+  EXPECT_THAT(refusal(s),
+              AllOf(HasSubstr("\"left\" and \"right\" share 0.0005 m^3"), HasSubstr("overlaps = \"once\"")));
+  s.mesh.bodies = 2;
+  EXPECT_THAT(refusal(s), HasSubstr("share 0.0005 m^3"));
+  s.mesh.bodies   = 1;
+  s.mesh.overlaps = Overlaps::once;
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 1.5e-3, 1e-12);
+}
+
+TEST(SolidsOfAScript, WithAGapAreJoinedWhereItIsAllowed)
+{
+  FrameSpecification s = in_millimetres(two_cubes_of_a_script(100.05, 0.));
+  EXPECT_THAT(refusal(s), HasSubstr("mesh.gap = \"0.0505 mm\""));
+  s.mesh.gap = 0.1e-3;
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 2e-3, 2e-6); // 0.05 mm of 200 mm
+}
+
 TEST(SolidsWithAGap, AreRefusedWithItsWidthItsPlaceAndItsFaces)
 {
   EXPECT_THAT(refusal(specification(two_cubes(100.05), 0.05)),

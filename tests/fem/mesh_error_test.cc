@@ -96,7 +96,7 @@ TEST(Refinement, MakesCellsSmallWhereTheErrorIsAndGrowsGently)
   for (int i = 0; i < eta2.size(); ++i)
     eta2[i] = error.mesh().points[error.mesh().nodes(i)[0]][0] < 2. ? 1. : 1e-4;
   fem::Refinement refinement;
-  refinement.error    = 0.25;
+  refinement.growth   = 2.;
   refinement.largest  = 2.;
   refinement.smallest = 1e-3;
   const auto points   = fem::refine(error, eta2, refinement);

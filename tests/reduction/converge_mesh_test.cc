@@ -63,6 +63,25 @@ TEST(ConvergeMesh, DoesNotWatchTheComplianceOfPointsWhichHasNoLimit)
   EXPECT_EQ(result.quantities[2].name, "compliance of top");
 }
 
+TEST(ConvergeMesh, RefinesDistinctlyAndStatesLimitsOnTheirSide)
+{
+  coupling::ConvergenceOptions options;
+  options.tolerance  = 1e-4; // not to be met
+  options.max_meshes = 4;
+  const auto result  = coupling::converge_mesh(block(), {}, options);
+  ASSERT_EQ(result.levels.size(), 4u);
+  for (std::size_t i = 1; i < result.levels.size(); ++i)
+    EXPECT_GE(result.levels[i].n_coordinates, 1.5 * result.levels[i - 1].n_coordinates);
+  for (std::size_t j = 0; j < result.quantities.size(); ++j)
+    for (const coupling::MeshLevel &level : result.levels)
+      if (result.quantities[j].unit == "Hz")
+        EXPECT_LE(result.quantities[j].limit, level.values[j] * (1. + 1e-9)) << result.quantities[j].name;
+      else
+        EXPECT_GE(result.quantities[j].limit, level.values[j] * (1. - 1e-9)) << result.quantities[j].name;
+  EXPECT_FALSE(result.converged);
+  EXPECT_THAT(result.stopped, AllOf(HasSubstr("4 meshes were allowed; "), HasSubstr(" would need about ")));
+}
+
 TEST(ConvergeMesh, OfMoreFrequenciesThanTheFirstMeshHasIsRefused)
 {
   coupling::ReductionOptions reduction;

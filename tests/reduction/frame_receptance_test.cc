@@ -143,8 +143,8 @@ TEST_F(FrameFromCad, HasTheReceptanceOfItsFullMatricesWithinTheToleranceByHardly
   {
     const auto model = with(-1, tolerance);
     const int  m = int(model.omega0.size()), few = (2 * m - 1) / 3; // 1.5 times as many are less than m
-    ASSERT_FALSE(model.notes.empty());
-    std::cout << "tolerance " << tolerance << ", error " << error(model) << "; " << model.notes[0] << "\n";
+    ASSERT_FALSE(model.statements.empty());
+    std::cout << "tolerance " << tolerance << ", error " << error(model) << "; " << model.statements[0] << "\n";
     EXPECT_LE(error(model), tolerance);
     EXPECT_GT(error(with(few)), tolerance) << few << " modes do where " << m << " are taken";
   }

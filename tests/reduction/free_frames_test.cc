@@ -73,6 +73,28 @@ TEST(FreeFrame, HasSixNamedZeroModesAndTheFrequenciesOfAFreeBeam)
   EXPECT_LT((reduced.frequencies_hz.array() / lengthwise - 1.).abs().minCoeff(), 5e-3);
 }
 
+/// What the difference of large matrices leaves in C*_11 would let a machine on it swing with 1 mHz, or drift away.
+TEST(FreeFrame, CostsNothingAtAllToMoveRigidly)
+{
+  const auto mesh          = box_mesh({{6, 1, 1}}, {{1., 0.1, 0.1}});
+  auto       specification = free_steel();
+  specification.interfaces = {test::interface("end", {"x1"}, fem::InterfaceCoupling::rigid)};
+  const auto one           = coupling::craig_bampton(fem::discretise(mesh, specification), with_modes(4));
+  EXPECT_TRUE(one.C.topRows(6).isZero(0.)) << "one interface alone moves rigidly only";
+
+  specification.interfaces.push_back(test::interface("begin", {"x0"}, fem::InterfaceCoupling::rigid));
+  const auto      two  = coupling::craig_bampton(fem::discretise(mesh, specification), with_modes(4));
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(two.M.rows()); // about z
+  for (const auto &interface : two.interfaces)
+  {
+    turn[interface.coordinate[0]] = -interface.position[1];
+    turn[interface.coordinate[1]] = interface.position[0];
+    turn[interface.coordinate[5]] = 1.;
+  }
+  const double terms = turn.cwiseAbs().dot(two.C.cwiseAbs() * turn.cwiseAbs());
+  EXPECT_LT(std::abs(turn.dot(two.C * turn)), 1e-14 * terms);
+}
+
 TEST(FreeFrame, OfTwoPartsNamesTwelveMotionsPartByPart)
 {
   // Each part has an interface that holds it, as q1 must.

@@ -54,11 +54,11 @@ double largest_frequency_error(const fem::FrameMatrices &frame, const coupling::
   return error;
 }
 
-std::string notes_of(const coupling::ReducedFrame &reduced)
+std::string statements_of(const coupling::ReducedFrame &reduced)
 {
   std::string all;
-  for (const std::string &note : reduced.notes)
-    all += note + '\n';
+  for (const std::string &statement : reduced.statements)
+    all += statement + '\n';
   return all;
 }
 
@@ -116,9 +116,9 @@ TEST(FreeInterfaceModes, AreCountedByInertiaBesideRigidMotions)
   for (const auto &frame : {floating(7, 4, 9), frame_of(Lattice{7, 4, 9})})
   {
     const auto reduced = coupling::craig_bampton(frame, inside(InnerModes::interface_free, 10));
-    EXPECT_NE(notes_of(reduced).find("elastic modes with the interface free below it, and as many are found"),
+    EXPECT_NE(statements_of(reduced).find("elastic modes with the interface free below it, and as many are found"),
               std::string::npos)
-        << notes_of(reduced);
+        << statements_of(reduced);
   }
 }
 

@@ -142,12 +142,13 @@ TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanT
   for (int few = (2 * m - 1) / 3; few > 0 && few < m - 1; few = few * 2 / 3) // 1.5 times as many are less than m
     EXPECT_GT(error_of(craig_bampton(c.frame, with_modes(few))), tolerance) << few << " do where " << m << " are taken";
 
-  ASSERT_FALSE(model.notes.empty());
-  EXPECT_NE(model.notes[0].find("keep the receptance of the interface up to"), std::string::npos) << model.notes[0];
-  const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
-  EXPECT_LE(found, 1.01 * told) << model.notes[0];
+  ASSERT_FALSE(model.statements.empty());
+  EXPECT_NE(model.statements[0].find("keep the receptance of the interface up to"), std::string::npos)
+      << model.statements[0];
+  const double told = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
+  EXPECT_LE(found, 1.01 * told) << model.statements[0];
   EXPECT_LE(told, 1.01 * found + 0.2 * tolerance); // twice the doubt of the full frame's receptance that is allowed
-  EXPECT_NE(model.notes[0].find("the rule of 3.5 times the highest frequency would take"), std::string::npos);
+  EXPECT_NE(model.statements[0].find("the rule of 3.5 times the highest frequency would take"), std::string::npos);
 }
 INSTANTIATE_TEST_SUITE_P(SupportedAndFree, ReceptanceNumber,
                          ::testing::Combine(::testing::Values(3e6, 0.), ::testing::Values(7, 14),

@@ -1,0 +1,148 @@
+// What the program says of frames: free ones, the range of the model, what is fact and what is a warning.
+
+#include "tests/apps/program.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace gestell::tests
+{
+namespace
+{
+
+/// A block of 0.2 x 0.1 x 1 m with a mass of 8 kg on a spring above.
+std::string block(const std::string &more)
+{
+  return R"(name = "block"
+gravity = [0, 0, "-9.81 m/s^2"]
+[frame]
+cad      = "block.geo"
+unit     = "1 m"
+mesh     = { size = "0.1 m" }
+material = "steel"
+damping  = { ratio = 0.02 }
+[frame.surface.foot]
+plane = { normal = [0, 0, -1], through = [0, 0, 0] }
+[frame.surface.top]
+plane = { normal = [0, 0, 1], through = [0, 0, 1] }
+[frame.interface.top]
+surface  = "top"
+coupling = "rigid"
+[body.load]
+type  = "slider"
+axis  = [0, 0, 1]
+mass  = "8 kg"
+guide = "frame.top"
+[element.spring]
+type      = "spring-damper"
+from      = "load"
+to        = "frame.top"
+stiffness = "500 N/mm"
+damping   = "50 N s/m"
+[run]
+step = "0.5 ms"
+end  = "5 ms"
+[output.signals]
+z = "load.displacement"
+)" + more;
+}
+
+const std::string support = "[frame.support.foot]\nsurface = \"foot\"\nclamped = true\n";
+const std::string rest    = "[start]\nrule = \"static\"\n";
+
+class FrameAnswers : public ::testing::Test
+{
+protected:
+  Answer ask(const std::string &command, const std::string &scene, const std::string &more = "")
+  {
+    folder_.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n");
+    return gestell(command + " " + folder_.file("scene.toml", scene) + (command == "check" ? "" : folder_.option()) +
+                   more);
+  }
+
+  Folder folder_{"frame_answers"};
+};
+
+int count(const std::string &text, const std::string &part)
+{
+  int n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++n;
+  return n;
+}
+
+TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
+{
+  const Answer answer = ask("modes", block(""));
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
+  EXPECT_EQ(count(answer.text, "   free motion: nothing elastic holds it\n"), 6) << answer.text;
+  EXPECT_FALSE(answer.says("unstable")) << answer.text;
+}
+
+TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
+{
+  std::string scene = block(support);
+  scene.replace(scene.find("0.1 m"), 5, "0.05 m");
+  const Answer answer = ask("modes", scene + "[reduction]\nmodes = 20\n");
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("frame: modes: the inertia of C - omega^2 M at ")) << answer.text;
+  EXPECT_TRUE(answer.says("frame: mesh: ")) << answer.text;
+  EXPECT_FALSE(answer.says("warning")) << answer.text;
+  EXPECT_EQ(read(folder_.results() / "report.html").find("class=\"warnings\""), std::string::npos);
+}
+
+TEST_F(FrameAnswers, ModesAboveTheRangeOfTheModelStandBelowALineThatSaysSo)
+{
+  const Answer answer = ask("modes", block(support + "[reduction]\nfrequency = \"200 Hz\"\n"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_EQ(count(answer.text, "  above 200 Hz the reduced frame is not made to hold"), 2) << answer.text;
+  EXPECT_EQ(count(read(folder_.results() / "report.html"), "above 200 Hz the reduced frame is not made to hold"), 2);
+  EXPECT_NE(read(folder_.results() / "summary.json").find("\"frequency_limit_hz\": 200"), std::string::npos);
+}
+
+TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
+{
+  const Answer good = ask("check", block(support));
+  EXPECT_EQ(good.exit_code, 0) << good.text;
+  EXPECT_TRUE(good.says("1 solid, 0.02 m^3; surfaces: foot 1 face, top 1 face; not meshed")) << good.text;
+  EXPECT_TRUE(good.says("well formed: 1 body, 1 element, 1 signal\n")) << good.text;
+
+  std::string scene = block(support);
+  scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");
+  const Answer lost = ask("check", scene);
+  EXPECT_EQ(lost.exit_code, 2);
+  EXPECT_TRUE(lost.says("frame.surface.top: no face fits")) << lost.text;
+
+  scene = block(support);
+  scene.replace(scene.find("block.geo"), 9, "block.step");
+  folder_.file("block.step", "ISO-10303-21;\nHEADER;\n");
+  const Answer broken = ask("check", scene);
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(broken.says("block.step")) << broken.text;
+}
+
+TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
+{
+  const Answer answer = ask("run", block(rest));
+  EXPECT_EQ(answer.exit_code, 2);
+  for (const char *part :
+       {"the frame moves as a whole", "translation along x, translation along y, translation along z",
+        "rotation about z", "[frame.support.NAME]", "inertia_relief = true"})
+    EXPECT_TRUE(answer.says(part)) << part << "\n" << answer.text;
+  const Answer floats = ask("run", block(rest + "inertia_relief = true\n"));
+  EXPECT_EQ(floats.exit_code, 0) << floats.text;
+}
+
+TEST_F(FrameAnswers, AStaticStartOfABodyThatFallsNamesTheBody)
+{
+  std::string scene = block(support + rest);
+  scene.replace(scene.find("500 N/mm"), 8, "0 N/mm");
+  const Answer answer = ask("run", scene);
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.says("the motion of load has neither stiffness nor weight")) << answer.text;
+}
+
+} // namespace
+} // namespace gestell::tests
