@@ -18,17 +18,14 @@ std::string count(std::size_t n, const std::string &one, const std::string &many
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// Reads the frame's file and finds its surfaces, where this build can.
-void try_geometry(const fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+/// Reads the frame's file and finds its surfaces, where this build can.  @return what was found
+std::string try_geometry(const fem::FrameSpecification &frame, std::vector<std::string> &warnings)
 {
   if (!coupling::has_frame_service())
-  {
-    std::cout << "frame: " << frame.cad << " is there; this build cannot read it\n";
-    return;
-  }
+    return frame.cad + " is there; this build cannot read it";
   const auto [found, notes] = coupling::mesh_service().inspect(frame);
-  std::cout << "frame: " << frame.cad << ": " << found << "; not meshed\n";
   warnings.insert(warnings.end(), notes.begin(), notes.end());
+  return frame.cad + ": " + found + "; not meshed";
 }
 
 } // namespace
@@ -37,13 +34,16 @@ int check_command(const CommonOptions &options)
 {
   const Scene scene = read_scene(options.input, options.overrides);
   check_scene(scene);
+  std::vector<std::string> warnings = scene.warnings;
+  std::string              geometry;
+  if (scene.frame.source == FrameSource::geometry)
+    geometry = try_geometry(scene.frame.geometry, warnings);
   std::cout << scene.file << ": the scene \"" << scene.name
             << "\" is well formed: " << count(scene.bodies.size(), "body", "bodies") << ", "
             << count(scene.elements.size() + scene.linear.size(), "element", "elements") << ", "
             << count(scene.signals.size(), "signal", "signals") << '\n';
-  std::vector<std::string> warnings = scene.warnings;
-  if (scene.frame.source == FrameSource::geometry)
-    try_geometry(scene.frame.geometry, warnings);
+  if (!geometry.empty())
+    std::cout << "frame: " << geometry << '\n';
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';
