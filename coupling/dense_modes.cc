@@ -22,7 +22,7 @@ constexpr double massless    = 1e-13; // mu relative to the largest, below which
 constexpr int    most_shifts = 20;    // times ten each
 constexpr double near        = 1e-8;  // omega^2 over s, below which s is too large to tell modes apart
 constexpr double certain     = 1e3;   ///< times what rounding leaves: a rigid motion is not said to grow
-constexpr double at_rest     = 1e-20; // omega^2 beside the lowest quotient C_ii / M_ii: what rounding of v leaves there
+constexpr double at_rest     = 1e-28; // of the greatest C_ii |v|^2: what v, rounded to 1e-14, leaves of v^T C v
 constexpr double rigid = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
 
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
@@ -112,8 +112,7 @@ private:
   Eigen::LLT<MatrixXd> L_;
 };
 
-/// @param still  omega^2 that is taken for rest.
-DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted, double cancelled, double still,
+DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted, double cancelled,
                     std::optional<int> n_rigid)
 {
   MatrixXd       V;
@@ -128,7 +127,8 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
     auto v = modes.V.col(j);
     v /= std::sqrt(v.dot(M * v));
     const double square   = v.dot(C * v);
-    const double rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), still);
+    const double rest     = at_rest * C.diagonal().maxCoeff() * v.cwiseAbs2().maxCoeff();
+    const double rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
     const bool   moves    = n_rigid ? j >= *n_rigid && square > 0. : square > rounding;
     modes.omega(j)        = moves ? std::sqrt(square) : 0.;
     if (-square > certain * rounding)
@@ -166,13 +166,13 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled, s
   for (int i = 0; i < most_shifts && stiffness == Stiffness::unstable && !shifted.definite(); ++i)
     shifted = Shifted(C, M, s *= 10.);
   shifted.require_motion();
-  DenseModes modes = modes_of(C, M, shifted, cancelled, at_rest * lowest, n_rigid);
+  DenseModes modes = modes_of(C, M, shifted, cancelled, n_rigid);
   for (int i = 0; i < most_shifts && stiffness != Stiffness::unstable && alike_beside(s, modes) > 0.; ++i)
   {
     shifted = Shifted(C, M, s = alike_beside(s, modes));
     if (!shifted.definite())
       break;
-    modes = modes_of(C, M, shifted, cancelled, at_rest * lowest, n_rigid);
+    modes = modes_of(C, M, shifted, cancelled, n_rigid);
   }
   return modes;
 }

@@ -29,7 +29,7 @@ struct DenseModes
  * sqrt(-omega^2) as their growth; for them s grows.
  *
  * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
- * their signs: what rounding in C leaves; or if omega^2 is below 1e-20 of the lowest C_ii / M_ii.
+ * their signs: what rounding in C leaves; or no more than rounding in v leaves.
  * @param n_rigid    number of rigid motions where it is known: they are the lowest modes, and `cancelled` has no say.
  * @throws std::invalid_argument if a motion has neither stiffness nor mass, naming the coordinate it fails at, and if
  * an entry is not finite.

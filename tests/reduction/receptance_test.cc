@@ -206,8 +206,8 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
   };
   const auto   model = craig_bampton(frame, options);
   const double found = error_of(model.M, model.B, model.C);
-  ASSERT_FALSE(model.notes.empty());
-  const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
+  ASSERT_FALSE(model.statements.empty());
+  const double told = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
   frame.B.setZero();
   const auto     without = craig_bampton_with_basis(frame, options);
   const MatrixXd B       = without.basis.T.transpose() * (frame_of(lattice).B * without.basis.T);
@@ -215,8 +215,8 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
   {
     EXPECT_GT(error_of(without.frame.M, B, without.frame.C), 5. * tolerance) << "dampers are not felt";
   }
-  EXPECT_LE(found, tolerance) << model.notes[0];
-  EXPECT_LE(found, 1.05 * told) << model.notes[0]; // the grids differ, and 9.4e-6 is told as 0.00094 %
+  EXPECT_LE(found, tolerance) << model.statements[0];
+  EXPECT_LE(found, 1.05 * told) << model.statements[0]; // the grids differ, and 9.4e-6 is told as 0.00094 %
   EXPECT_LE(told, tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,

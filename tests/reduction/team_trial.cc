@@ -77,7 +77,7 @@ void exhaust_modes()
       gestell::coupling::ReductionOptions options;
       options.n_modes    = count;
       const auto reduced = gestell::coupling::craig_bampton(frame, options);
-      std::cout << count << " of 21 modes found: " << reduced.omega0.size() << ", " << reduced.notes.front()
+      std::cout << count << " of 21 modes found: " << reduced.omega0.size() << ", " << reduced.statements.front()
                 << std::endl;
     }
     catch (const gestell::coupling::ConvergenceFailure &failure)
