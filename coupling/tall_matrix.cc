@@ -153,6 +153,8 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
           entries.push_back({place[a.row()], a.value()});
     return entries;
   };
+  column_.reserve(A.nonZeros()); // most of it is never touched
+  value_.reserve(A.nonZeros());
   std::vector<Entry> x = row(0), y = row(1), z = row(2);
   for (int k = 0; k < n_;)
   {
@@ -170,8 +172,6 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
     z = row(k + 2);
   }
   first_.push_back(n_);
-  column_.shrink_to_fit();
-  value_.shrink_to_fit();
 }
 
 void ReorderedMatrix::multiply(const TallMatrix &X, TallMatrix &Y) const

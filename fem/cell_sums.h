@@ -20,7 +20,7 @@ public:
 /// What the cells of a frame add up to.
 struct CellSums
 {
-  Eigen::SparseMatrix<double>        C, M;              ///< [n x n] in the coordinates of the frame
+  SparseMatrix                       C, M;              ///< [n x n] in the coordinates of the frame
   double                             rigid_energy = 0.; ///< FrameFacts::rigid_energy
   Eigen::VectorXd                    nodal_mass;        ///< [n_nodes] kg
   MassProperties                     whole;
