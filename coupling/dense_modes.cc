@@ -142,11 +142,13 @@ double alike_beside(double s, const DenseModes &modes)
 {
   const auto slow = [&](double omega) { return omega > 0. && omega * omega < near * s; };
   const auto n    = std::count_if(modes.omega.begin(), modes.omega.end(), slow);
-  double     most = 0.;
+  if (n < 2)
+    return 0.;
+  double highest = 0.;
   for (const double omega : modes.omega)
-    if (n > 1 && slow(omega))
-      most = std::max(most, omega * omega);
-  return most;
+    if (slow(omega))
+      highest = std::max(highest, omega);
+  return highest * highest;
 }
 
 } // namespace
@@ -167,9 +169,12 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled, s
     shifted = Shifted(C, M, s *= 10.);
   shifted.require_motion();
   DenseModes modes = modes_of(C, M, shifted, cancelled, n_rigid);
-  for (int i = 0; i < most_shifts && stiffness != Stiffness::unstable && alike_beside(s, modes) > 0.; ++i)
+  for (int i = 0; i < most_shifts && stiffness != Stiffness::unstable; ++i)
   {
-    shifted = Shifted(C, M, s = alike_beside(s, modes));
+    s = alike_beside(s, modes);
+    if (s == 0.)
+      break;
+    shifted = Shifted(C, M, s);
     if (!shifted.definite())
       break;
     modes = modes_of(C, M, shifted, cancelled, n_rigid);

@@ -24,9 +24,8 @@ struct DenseModes
  * their own: p = rank M) and C may be singular (rigid motions).  s lies below the lowest quotient C_ii / M_ii and is
  * zero if C is regular, which keeps the low frequencies accurate; Rayleigh quotients mend the high ones.  Where they
  * show several modes so far below s that it cannot tell them apart (a coordinate has hardly any mass), s falls to
- * them, and the modes are taken again.  Motions
- * that C drives away (v^T C v < 0: the geometric stiffness of a linkage about to fall) have omega = 0 and
- * sqrt(-omega^2) as their growth; for them s grows.
+ * them, and the modes are taken again.  Motions that C drives away (v^T C v < 0: the geometric stiffness of a linkage
+ * about to fall) have omega = 0 and sqrt(-omega^2) as their growth; for them s grows.
  *
  * @param cancelled  a mode is a rigid motion if v^T C v is no more than this share of |v|^T |C| |v|, its terms without
  * their signs: what rounding in C leaves; or no more than rounding in v leaves.

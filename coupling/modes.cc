@@ -3,6 +3,7 @@
 #include "coupling/dense_matrices.h"
 #include "coupling/dense_modes.h"
 #include "coupling/integration/consistent_start.h"
+#include "fem/two_pi.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -17,7 +18,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double two_pi            = 6.283185307179586;
 constexpr double rounding_of_ratio = 1e-12;
 
 /// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.

@@ -265,9 +265,10 @@ private:
   {
     const int h = height(s), w = width(s), r = below(s);
     if (r > 0)
+    {
       divide_(panel, h, w, r, panel + w);
-    if (r > 0)
       dsyrk_("L", "N", &r, &w, &minus_one, panel + w, &h, &zero, contribution_, &r);
+    }
     pass_on(s);
   }
 

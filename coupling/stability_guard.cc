@@ -1,6 +1,7 @@
 #include "coupling/stability_guard.h"
 
 #include "coupling/integration/stability.h"
+#include "fem/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,7 @@ namespace
 {
 
 constexpr double harmless = 1e-10; // growth per step that 1e9 steps may have
-constexpr double two_pi   = 6.283185307179586;
-
-TestOscillator oscillator(const ModeAccuracy &mode, double omega_h, const MethodOptions &options)
+TestOscillator   oscillator(const ModeAccuracy &mode, double omega_h, const MethodOptions &options)
 {
   const bool contact = options.method == Method::exact && mode.origin == ModeOrigin::closed;
   return {std::max(0., mode.mode.zeta), omega_h, contact ? Spring::contact : Spring::base};

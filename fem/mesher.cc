@@ -326,6 +326,20 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
   return result;
 }
 
+/// What is known before the mesh.
+GeometryReport report_of(const MeshedModel &meshed)
+{
+  GeometryReport report;
+  report.solids         = meshed.model.solids;
+  report.faces          = meshed.model.faces;
+  report.surfaces       = meshed.selection;
+  report.min            = meshed.model.min;
+  report.max            = meshed.model.max;
+  report.size           = meshed.size;
+  report.expected_cells = meshed.expected_cells;
+  return report;
+}
+
 } // namespace
 
 Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
@@ -348,15 +362,8 @@ GeometryReport inspect_geometry(const FrameSpecification &specification)
       prepare_geometry(result, specification, MissingSize::refused);
   };
   session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
-  GeometryReport report;
-  report.solids         = result.model.solids;
-  report.faces          = result.model.faces;
-  report.surfaces       = result.selection;
-  report.min            = result.model.min;
-  report.max            = result.model.max;
-  report.size           = result.size;
+  GeometryReport report = report_of(result);
   report.volume         = result.model.volume();
-  report.expected_cells = result.expected_cells;
   report.notes          = result.model.notes;
   return report;
 }
@@ -365,16 +372,8 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
 {
   MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;
-  GeometryReport report;
-  report.solids   = meshed.model.solids;
-  report.faces    = meshed.model.faces;
-  report.surfaces = meshed.selection;
-  report.min      = meshed.model.min;
-  report.max      = meshed.model.max;
-  report.size     = meshed.size;
-  report.notes    = mesh.notes;
-
-  report.expected_cells = meshed.expected_cells;
+  GeometryReport report = report_of(meshed);
+  report.notes          = mesh.notes;
   report.smallest       = meshed.smallest;
   report.walls          = wall_thickness(mesh);
   report.hexahedra      = !mesh.hexahedra.empty();

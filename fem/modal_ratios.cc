@@ -1,5 +1,7 @@
 #include "fem/modal_ratios.h"
 
+#include "fem/two_pi.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -9,7 +11,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double      two_pi  = 6.283185307179586;
 constexpr std::size_t n_shown = 6; // numbers of a list or table
 
 template <typename Values, typename Write>

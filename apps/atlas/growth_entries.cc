@@ -4,6 +4,7 @@
 #include "apps/atlas/trials.h"
 #include "apps/output/log_chart.h"
 #include "apps/output/number_text.h"
+#include "fem/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +119,7 @@ AtlasEntry growth_entry(AtlasEntry entry, const std::vector<Trial> &trials, doub
 
 AtlasEntry bdf3_on_a_frame()
 {
-  constexpr double          two_pi = 6.283185307179586, zeta = 0.01;
+  constexpr double          zeta  = 0.01;
   const std::vector<double> hertz = {20., 60., 150., 400.};
   std::vector<TrialMass>    masses;
   for (const double f : hertz)

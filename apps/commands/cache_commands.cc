@@ -1,6 +1,7 @@
 #include "apps/commands/cache_commands.h"
 
 #include "apps/commands/prepared_machine.h"
+#include "apps/output/number_text.h"
 #include "coupling/frame_cache.h"
 
 #include <algorithm>
@@ -46,11 +47,6 @@ std::string date_text(std::time_t time)
 std::string short_key(const std::string &key)
 {
   return key.substr(0, 12);
-}
-
-std::string count_text(std::size_t n, const std::string &thing)
-{
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
 /// A number with one of these units: "30 d" is 30 * 86400.

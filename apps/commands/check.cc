@@ -1,4 +1,5 @@
 #include "apps/commands/commands.h"
+#include "apps/output/number_text.h"
 #include "apps/scene/build_machine.h"
 #include "coupling/frame_service_loader.h"
 #include "coupling/mesh_service.h"
@@ -12,11 +13,6 @@ namespace gestell::apps
 
 namespace
 {
-
-std::string count(std::size_t n, const std::string &one, const std::string &many)
-{
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 /// Reads the frame's file and finds its surfaces, where this build can.  @return what was found
 std::string try_geometry(const fem::FrameSpecification &frame, std::vector<std::string> &warnings)
@@ -39,9 +35,9 @@ int check_command(const CommonOptions &options)
   if (scene.frame.source == FrameSource::geometry)
     geometry = try_geometry(scene.frame.geometry, warnings);
   std::cout << scene.file << ": the scene \"" << scene.name
-            << "\" is well formed: " << count(scene.bodies.size(), "body", "bodies") << ", "
-            << count(scene.elements.size() + scene.linear.size(), "element", "elements") << ", "
-            << count(scene.signals.size(), "signal", "signals") << '\n';
+            << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
+            << count_text(scene.elements.size() + scene.linear.size(), "element") << ", "
+            << count_text(scene.signals.size(), "signal") << '\n';
   if (!geometry.empty())
     std::cout << "frame: " << geometry << '\n';
   for (const BodyRequest &body : scene.bodies)

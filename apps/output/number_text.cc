@@ -46,6 +46,11 @@ std::string short_text(double x, int digits)
   return text == "-0" ? "0" : text;
 }
 
+std::string count_text(std::size_t n, const std::string &one, const std::string &many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many.empty() ? one + "s" : many);
+}
+
 DisplayUnit display_unit(const std::string &si_unit, double magnitude)
 {
   static const std::array<const char *, 9> takes_prefix = {"N", "N m", "m", "m/s", "J", "W", "Pa", "N/m", "N s/m"};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace gestell::apps
@@ -13,6 +14,9 @@ std::string exact_text(double x);
 
 /// x with few significant digits for a reader, without an exponent between 1e-3 and 1e6; "-0" is written "0".
 std::string short_text(double x, int digits = 4);
+
+/// "1 file", "2 files"; or "2 bodies" where the plural is no mere s.
+std::string count_text(std::size_t n, const std::string &one, const std::string &many = "");
 
 /// A unit as shown: value in SI times `factor` is the number in `unit`.
 struct DisplayUnit

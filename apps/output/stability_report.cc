@@ -3,6 +3,7 @@
 #include "apps/output/number_text.h"
 #include "apps/output/report_style.h"
 #include "apps/output/svg.h"
+#include "fem/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-constexpr double two_pi = 6.283185307179586;
 
 std::string cell(const std::string &text, const char *kind = "n")
 {

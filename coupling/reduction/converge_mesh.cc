@@ -9,6 +9,7 @@
 #include "fem/mesh_error.h"
 #include "fem/mesher.h"
 #include "fem/size_field.h"
+#include "fem/two_pi.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -27,7 +28,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi       = 6.283185307179586;
 constexpr double cancelled    = 1e-10;                     // as in supported_modes()
 constexpr double singular     = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
 constexpr double aim          = 0.6;                       // of the tolerance: what a mesh is made for

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/rounded.h"
+#include "fem/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,6 @@ using Eigen::MatrixXd;
 constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
 constexpr int    largest_block = 200;                       // with which missing modes are looked for
 constexpr int    most_rounds   = 4;                         // of finding modes that were missing
-constexpr double two_pi        = 6.283185307179586;
-
 } // namespace
 
 CountedModes::CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,

@@ -9,6 +9,7 @@
 #include "coupling/reduction/rounded.h"
 #include "fem/free_motions.h"
 #include "fem/rigid_motions.h"
+#include "fem/two_pi.h"
 
 #include <Eigen/QR>
 
@@ -25,7 +26,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi           = 6.283185307179586;
 constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
 constexpr int    most_rounds      = 4;    // of finding modes that were missing
 

@@ -2,6 +2,7 @@
 
 #include "coupling/reduction/damper_shapes.h"
 #include "coupling/reduction/rounded.h"
+#include "fem/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi          = 6.283185307179586;
 constexpr int    first_modes     = 30;
 constexpr int    most_modes      = 200;
 constexpr double growth          = 1.5;

@@ -3,6 +3,7 @@
 #include "coupling/dense_modes.h"
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/interface_flexibility.h"
+#include "fem/two_pi.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -18,7 +19,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi          = 6.283185307179586;
 constexpr int    modes_at_once   = 20;
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
 constexpr double reach           = 1.5; // highest mode over the highest frequency of interest

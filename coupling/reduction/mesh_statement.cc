@@ -2,6 +2,7 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/reduction/rounded.h"
+#include "fem/two_pi.h"
 #include "fem/wall_thickness.h"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ namespace
 
 constexpr int    most_modes = 6;     // whose stresses are looked at: each costs as much as a static solution
 constexpr double cancelled  = 1e-10; // as in supported_modes()
-constexpr double two_pi     = 6.283185307179586;
-constexpr double coarse     = 0.02; // error from which it is a warning, with a way out
+constexpr double coarse     = 0.02;  // error from which it is a warning, with a way out
 
 } // namespace
 

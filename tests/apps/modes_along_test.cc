@@ -2,6 +2,7 @@
 
 #include "apps/commands/modes_along.h"
 #include "coupling/closed_chains.h"
+#include "fem/two_pi.h"
 #include "tests/apps/scene_text.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,6 @@ namespace
 
 using apps::AlongResult;
 using apps::ModesCommandOptions;
-
-constexpr double two_pi = 2. * M_PI;
 
 AlongResult along(const apps::Scene &scene, const ModesCommandOptions &options)
 {

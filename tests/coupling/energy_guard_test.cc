@@ -2,6 +2,7 @@
 
 #include "coupling/energy_guard.h"
 #include "coupling/simulation.h"
+#include "fem/two_pi.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,6 @@ namespace
 
 using namespace coupling;
 using Verdict = EnergyGuard::Verdict;
-
-constexpr double two_pi = 6.283185307179586;
 
 /// A slider of 1 kg and 1 Hz, that starts with 1 m/s: 0.5 J.
 RunResult oscillation(double step, double end)

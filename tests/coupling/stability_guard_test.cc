@@ -2,6 +2,7 @@
 
 #include "coupling/integration/stability.h"
 #include "coupling/stability_guard.h"
+#include "fem/two_pi.h"
 #include "mechanism/elements/clearance.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@ namespace
 {
 
 using namespace coupling;
-
-constexpr double two_pi = 6.283185307179586;
 
 struct Slider
 {

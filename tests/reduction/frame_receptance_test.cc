@@ -3,6 +3,7 @@
 #include "coupling/reduction/craig_bampton.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
+#include "fem/two_pi.h"
 #include "tests/fem/cad_samples.h"
 
 #include <Eigen/LU>
@@ -24,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 
-constexpr double zeta = 0.01, two_pi = 6.283185307179586; // zeta: what the estimate takes where the frame has none
+constexpr double zeta = 0.01; // zeta: what the estimate takes where the frame has none
 
 /// The press of meshes/ on its foundation, of coarse tetrahedra: 19000 coordinates.
 fem::FrameMatrices press()

@@ -1,5 +1,6 @@
 #include "coupling/dense_modes.h"
 #include "coupling/reduction/craig_bampton.h"
+#include "fem/two_pi.h"
 #include "lattice.h"
 
 #include <Eigen/LU>
@@ -21,7 +22,7 @@ using Eigen::VectorXd;
 using test::frame_of;
 using test::Lattice;
 
-constexpr double zeta = 0.01, two_pi = 6.283185307179586;
+constexpr double zeta = 0.01;
 
 /// Receptance of the interface at some frequencies [rad/s], by modes.
 using Receptances = std::vector<MatrixXcd>;
