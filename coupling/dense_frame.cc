@@ -85,13 +85,13 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.mass        = frame.mass;
   dense.interfaces  = renumbered(frame.interfaces, order);
   for (const auto &output : frame.outputs)
-    dense.outputs.push_back({output.name, output.unit, output.on_q(order), output.on_v(order)});
+    dense.outputs.push_back(
+        {output.name, output.unit, output.on_q(order), output.on_v(order), output.under_acceleration});
   dense.points    = frame.picture.points;
   dense.triangles = frame.picture.triangles;
   if (!dense.points.empty())
     dense.displacement = MatrixXd(frame.picture.displacement)(Eigen::all, order).cast<float>();
   dense.translations_load = (M * frame.translations)(order, Eigen::all);
-  dense.total_mass        = frame.translations.transpose() * M * frame.translations;
 
   if (dense.modal)
   {

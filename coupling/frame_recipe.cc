@@ -213,11 +213,12 @@ public:
   }
   void add(const std::string &name, const fem::FrameOutput &value)
   {
-    const auto &[own, unit, on_q, on_v] = value;
+    const auto &[own, unit, on_q, on_v, under_acceleration] = value;
     add(name, own);
     add(name + ".unit", unit);
     add(name + ".on_q", on_q);
     add(name + ".on_v", on_v);
+    add(name + ".under_acceleration", under_acceleration);
   }
   void add(const std::string &name, const fem::Picture &value)
   {
@@ -257,10 +258,8 @@ public:
     if (n_modes >= 0)
       add("reduction.modes", n_modes);
     else
-    {
       add("reduction.tolerance", tolerance);
-      add("reduction.frequency", frequency);
-    }
+    add("reduction.frequency", frequency); // of what the frame says of its limits, too
     add("reduction.inside", inner);
     add("reduction.inertia relief", inertia_relief);
   }

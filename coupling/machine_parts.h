@@ -186,7 +186,6 @@ struct Machine::Parts
   void          throw_switch(int index, const LocalState &state);
   void          give_orders(int index, const LocalState &state);
   std::string   coordinate_name(int i) const;
-  double        output_offset(std::size_t i) const;
   std::map<std::string, Signal> signals() const; ///< all there are, by path
   Signal                        signal(const std::string &path) const;
 

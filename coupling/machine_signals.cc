@@ -36,15 +36,6 @@ double Machine::Parts::Load::at(double t) const
   return f;
 }
 
-// What gravity adds to an output of a reduced frame beyond its rows.
-double Machine::Parts::output_offset(std::size_t i) const
-{
-  if (!reduced || reduced->outputs_under_acceleration.rows() == 0)
-    return 0.;
-  return reduced->outputs_under_acceleration.row(static_cast<Eigen::Index>(i))
-      .dot(Eigen::Map<const Eigen::RowVector3d>(gravity.data()));
-}
-
 std::map<std::string, Signal> Machine::Parts::signals() const
 {
   std::map<std::string, Signal> signals;
@@ -104,12 +95,12 @@ std::map<std::string, Signal> Machine::Parts::signals() const
 
   if (reduced || full)
   {
-    const auto &outputs = reduced ? reduced->outputs : full->outputs;
-    for (std::size_t i = 0; i < outputs.size(); ++i)
+    const Eigen::Map<const Eigen::Vector3d> g(gravity.data());
+    for (const fem::FrameOutput &output : reduced ? reduced->outputs : full->outputs)
     {
-      const std::string path = "frame." + outputs[i].name;
-      signals[path] = {path, outputs[i].unit, measure_of_row(outputs[i].on_q), measure_of_row(outputs[i].on_v), -1, -1,
-                       1.,   output_offset(i)};
+      const std::string path = "frame." + output.name;
+      signals[path]          = {path, output.unit, measure_of_row(output.on_q),     measure_of_row(output.on_v), -1,
+                                -1,   1.,          output.under_acceleration.dot(g)};
     }
   }
 

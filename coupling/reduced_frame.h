@@ -24,12 +24,7 @@ struct ReducedFrame
   Eigen::VectorXd               omega0;             // [m] fixed-interface frequencies [rad/s]; empty if not modal
   std::vector<fem::Interface>   interfaces;
   Eigen::MatrixXd               translations_load; // [(n1+m) x 3]  T^T M R: load of a unit acceleration in x, y, z
-  Eigen::Matrix3d               total_mass = Eigen::Matrix3d::Zero(); // R^T M R [kg]
-  std::vector<fem::FrameOutput> outputs;                              // rows on p
-
-  /// [outputs x 3] what the outputs read of a unit acceleration field (gravity) beyond the rows on p: the static
-  /// deflection of the inside that the kept modes do not carry; restored by adding it, times g.
-  Eigen::MatrixXd outputs_under_acceleration;
+  std::vector<fem::FrameOutput> outputs;           // rows on p
 
   // pictures
   std::vector<std::array<double, 3>> points;
@@ -48,6 +43,9 @@ struct ReducedFrame
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
   std::vector<std::string> statements;           ///< what was checked in the making and is as it should be
+
+  /// Rigid motions, as the full frame counts them.
+  int n_rigid() const { return int((frequencies_hz.array() == 0.).count()); }
 };
 
 } // namespace gestell::coupling

@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 template <typename T, typename Archive>
 void each(const std::string &at, T &value, Archive &archive);
 
-constexpr const char *title = "Gestell reduced frame 6"; // raise the number with the format
+constexpr const char *title = "Gestell reduced frame 7"; // raise the number with the format
 
 template <typename Matrix, typename Points>
 Matrix columns(const Points &points)
@@ -158,11 +158,12 @@ void each_interface(const std::string &at, Interface &interface, Archive &archiv
 template <typename Archive, typename Output>
 void each_output(const std::string &at, Output &output, Archive &archive)
 {
-  auto &[name, unit, on_q, on_v] = output;
+  auto &[name, unit, on_q, on_v, under_acceleration] = output;
   archive(at + "/name", name);
   archive(at + "/unit", unit);
   archive(at + "/on_q", on_q);
   archive(at + "/on_v", on_v);
+  archive(at + "/under_acceleration", under_acceleration);
 }
 
 template <typename Archive, typename Part>
@@ -204,9 +205,9 @@ void each(const std::string &at, T &value, Archive &archive)
 template <typename Archive, typename Frame>
 void each_part(Frame &frame, Archive &&archive)
 {
-  auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, total_mass, outputs,
-         outputs_under_acceleration, points, triangles, displacement, stress, n_full, n_cells, mass, facts,
-         frequencies_hz, frequency_limit_hz, frequency_error, static_residual, notes, statements] = frame;
+  auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, outputs, points, triangles, displacement,
+         stress, n_full, n_cells, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error, static_residual,
+         notes, statements] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -214,9 +215,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("omega0", omega0);
   archive("interfaces", interfaces);
   archive("translations_load", translations_load);
-  archive("total_mass", total_mass);
   archive("outputs", outputs);
-  archive("outputs_under_acceleration", outputs_under_acceleration);
   archive("points", points);
   archive("triangles", triangles);
   archive("displacement", displacement);

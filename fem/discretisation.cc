@@ -16,6 +16,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace gestell::fem
 {
@@ -112,9 +114,11 @@ BlockMatrix stiffness_at_supports(const Ingredients &of)
   return assemble_stiffness(near, materials);
 }
 
-void add_support_forces(const Ingredients &of, const BlockMatrix &C, FrameMatrices &frame)
+void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen::VectorXd &nodal_mass,
+                        FrameMatrices &frame)
 {
-  for (FrameOutput &output : support_forces(of.supports, C, of.kinematics, of.specification.rayleigh_stiffness))
+  for (FrameOutput &output :
+       support_forces(of.supports, C, of.kinematics, nodal_mass, of.specification.rayleigh_stiffness))
     frame.outputs.push_back(std::move(output));
 }
 
@@ -132,7 +136,7 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
-  add_support_forces(of, stiffness_at_supports(of), frame);
+  add_support_forces(of, stiffness_at_supports(of), sums.nodal_mass, frame);
   weigh(of, sums.whole, sums.nodal_mass, frame);
   frame.B = foundations(&Support::damping);
   if (specification.rayleigh_stiffness > 0.)
@@ -150,6 +154,19 @@ Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatc
   hold(supports, constraints);
   tie_interfaces(coupled, mesh, constraints);
   return constraints;
+}
+
+/// What alpha M does to the motions of the whole frame, where nothing holds these; none if it does nothing.
+std::vector<std::string> rayleigh_at_large(const FrameSpecification &specification)
+{
+  if (!(specification.rayleigh_mass > 0.) || !specification.supports.empty())
+    return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "damping: alpha M of Rayleigh's damping brakes motions of the whole frame, too, which no support holds: "
+          "their speed falls by half in "
+       << std::log(2.) / specification.rayleigh_mass << " s; damping = { ratio = ... } leaves them alone";
+  return {text.str()};
 }
 
 /// Surfaces that cannot deform, and points that take forces.
@@ -193,6 +210,8 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
   for (std::string &note : positions_far_off(coupled, diagonal(mesh)))
+    frame.notes.push_back(std::move(note));
+  for (std::string &note : rayleigh_at_large(specification))
     frame.notes.push_back(std::move(note));
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));

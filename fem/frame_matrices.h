@@ -36,13 +36,16 @@ struct Interface
   std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
 };
 
-/// A force read off the frame:  on_q . q + on_v . q'.
+/// A force read off the frame:  on_q . q + on_v . q' + under_acceleration . g.
 struct FrameOutput
 {
   std::string     name; ///< "cut.columns", "support.feet"
   std::string     unit; ///< "N"
   Eigen::VectorXd on_q; // [n]
   Eigen::VectorXd on_v; // [n]
+  /// [kg] what a uniform field of acceleration g, such as gravity, adds by itself: weight that a support takes without
+  /// any motion of q, and the static deflection that a reduced frame has no coordinates for.
+  Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
 };
 
 /// Skin of the frame for pictures: displacement of point i, direction d is row 3 i + d of `displacement` times q.
@@ -85,11 +88,11 @@ struct FrameFacts
  */
 struct FrameMatrices
 {
-  SparseMatrix                M, B, C;             // [n x n] kg, N s/m, N/m
-  ModalRatios                 modal_damping_ratio; ///< zeta of the modes of the supported frame
-  ModalDamping                modal_damping;       ///< empty until computed
-  std::vector<Interface>      interfaces;
-  Eigen::MatrixXd             translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
+  SparseMatrix           M, B, C;             // [n x n] kg, N s/m, N/m
+  ModalRatios            modal_damping_ratio; ///< zeta of the modes of the supported frame
+  ModalDamping           modal_damping;       ///< empty until computed
+  std::vector<Interface> interfaces;
+  Eigen::MatrixXd        translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
   /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
   /// Empty in frames given by matrices: then M * translations.
   Eigen::MatrixXd acceleration_load;

@@ -1,7 +1,6 @@
 #include "fem/sparse_sum.h"
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
 
 namespace gestell::fem
@@ -9,7 +8,11 @@ namespace gestell::fem
 
 void add(SparseMatrix &A, const Eigen::SparseMatrix<double> &S)
 {
-  assert(A.isCompressed() && S.isCompressed() && A.rows() == S.rows() && A.cols() == S.cols());
+  if (!A.isCompressed() || !S.isCompressed())
+  {
+    A = SparseMatrix::Base(A + S);
+    return;
+  }
   std::vector<int> place; // in A of every entry of S
   place.reserve(S.nonZeros());
   const int *rows = A.innerIndexPtr();

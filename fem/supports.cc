@@ -154,7 +154,8 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
 }
 
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics, double rayleigh_stiffness)
+                                        const Kinematics &kinematics, const Eigen::VectorXd &nodal_mass,
+                                        double rayleigh_stiffness)
 {
   const int                n = kinematics.n_displacements();
   std::vector<char>        counted_before(n, 0);
@@ -163,7 +164,7 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
     for (int d = 0; d < 3; ++d)
     {
       const auto &[support, patch] = supported;
-      FrameOutput output{"support." + support.name + "." + "xyz"[d], "N", {}, {}};
+      FrameOutput output{"support." + support.name + "." + "xyz"[d], "N", {}, {}, Eigen::Vector3d::Zero()};
       if (support.kind == SupportKind::foundation)
       {
         output.on_q = kinematics.gather(foundation_row(supported, d, &Support::stiffness, n));
@@ -174,7 +175,10 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
         std::vector<char> counted(n, 0);
         for (const int node : patch.nodes)
           if (support.held[d] && !counted_before[3 * node + d])
+          {
             counted[3 * node + d] = counted_before[3 * node + d] = 1;
+            output.under_acceleration[d] -= nodal_mass[node];
+          }
         output.on_q = kinematics.gather(clamped_row(counted, C));
         output.on_v = rayleigh_stiffness * output.on_q;
       }

@@ -44,14 +44,16 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
  *
  * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
  * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh;
- *               loads and inertia of the held nodes themselves are not contained, nor alpha M u', which acts like
- *               inertia.  Damping by modal ratios has no force on a support.  A node of several supports counts for
- *               the first.
+ *               less their weight, so that at rest the supports carry all of the frame.  Their inertia M u'', which
+ *               moves only with the elements at the clamp, is not contained, nor alpha M u'.  Damping by modal ratios
+ *               has no force on a support.  A node of several supports counts for the first.
  *
  * @param C                   of the free frame, without foundations.
+ * @param nodal_mass          [nodes] sums of the rows of M [kg].
  * @param rayleigh_stiffness  beta [s] of all cells.
  */
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics, double rayleigh_stiffness);
+                                        const Kinematics &kinematics, const Eigen::VectorXd &nodal_mass,
+                                        double rayleigh_stiffness);
 
 } // namespace gestell::fem

@@ -4,6 +4,7 @@
 #include "coupling/petsc_binary.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <cstdio>
 #include <filesystem>
@@ -131,6 +132,15 @@ Eigen::MatrixXd node_displacements(const coupling::ReducedFrame &frame)
   return A;
 }
 
+/// R with M R = load; M may be singular.
+Eigen::MatrixXd translations(const coupling::ReducedFrame &frame)
+{
+  const Eigen::LLT<Eigen::MatrixXd> factor(frame.M);
+  if (factor.info() == Eigen::Success)
+    return factor.solve(frame.translations_load);
+  return frame.M.completeOrthogonalDecomposition().solve(frame.translations_load);
+}
+
 std::string row_text(const Eigen::VectorXd &row)
 {
   std::string text = "[";
@@ -142,7 +152,8 @@ std::string row_text(const Eigen::VectorXd &row)
 std::string output_table(const fem::FrameOutput &output)
 {
   return "\n[frame." + output.name + "]\nstiffness_row = " + row_text(output.on_q) +
-         "\ndamping_row   = " + row_text(output.on_v) + "\n";
+         "\ndamping_row = " + row_text(output.on_v) + "\nacceleration_row = " + row_text(output.under_acceleration) +
+         "\n";
 }
 
 } // namespace
@@ -166,7 +177,9 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   add("mass", frame.M, true);
   add("damping", frame.B, true);
   add("stiffness", frame.C, true);
-  add("translations", frame.M.ldlt().solve(frame.translations_load));
+  add("translations", translations(frame));
+  if (frame.mass > 0.)
+    scene += "total_mass = " + digits(frame.mass) + '\n';
   files.text("nodes.csv", node_table(frame));
   scene += "nodes = \"nodes.csv\"\n";
   if (!frame.points.empty())

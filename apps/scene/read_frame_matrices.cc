@@ -244,23 +244,26 @@ std::vector<std::string> directions_of(const SceneTable &support)
   return directions;
 }
 
-/// A force read off the frame: stiffness_row . q + damping_row . q'.
+/// A force read off the frame: stiffness_row . q + damping_row . q' + acceleration_row . g.
 fem::FrameOutput read_output(const SceneTable &table, const std::string &before, Eigen::Index n)
 {
   check_thing_name(table);
-  const auto row = [&](const std::string &key, const Kind &kind)
+  const auto row = [&](const std::string &key, const Kind &kind, Eigen::Index size, const std::string &needed)
   {
     const auto values = table.numbers(key, kind);
-    if (static_cast<Eigen::Index>(values.size()) != n)
-      throw table.error(key, "has " + std::to_string(values.size()) + " entries, but the frame has " +
-                                 std::to_string(n) + " coordinates");
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), n));
+    if (static_cast<Eigen::Index>(values.size()) != size)
+      throw table.error(key, "has " + std::to_string(values.size()) + " entries, but " + needed);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), size));
   };
-  fem::FrameOutput output;
+  const std::string coordinates = "the frame has " + std::to_string(n) + " coordinates";
+  fem::FrameOutput  output;
   output.name = before + table.name();
   output.unit = "N";
-  output.on_q = row("stiffness_row", kind::stiffness_entry);
-  output.on_v = table.has("damping_row") ? row("damping_row", kind::damping_entry) : Eigen::VectorXd::Zero(n);
+  output.on_q = row("stiffness_row", kind::stiffness_entry, n, coordinates);
+  output.on_v =
+      table.has("damping_row") ? row("damping_row", kind::damping_entry, n, coordinates) : Eigen::VectorXd::Zero(n);
+  if (table.has("acceleration_row"))
+    output.under_acceleration = row("acceleration_row", kind::mass_entry, 3, "x, y, z take three");
   return output;
 }
 
@@ -341,7 +344,7 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
 
   matrices.translations      = read_translations(frame, matrices, nodes, has_translations);
   const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
-  matrices.mass              = mass.diagonal().maxCoeff();
+  matrices.mass              = frame.positive("total_mass", kind::mass, mass.diagonal().maxCoeff());
   for (const std::string &suspicion : suspect_units(matrices, has_translations))
     frame.warn("mass", suspicion);
   return matrices;

@@ -173,7 +173,9 @@ void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, c
   frequencies.head(std::min(frequencies.size(), Eigen::Index(reduced.facts.free_motions.size()))).setZero();
 }
 
-void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionBasis &basis)
+/// @param static_beyond_modes  [n x 3] deflection per unit acceleration that the basis lacks, or empty.
+void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionBasis &basis,
+              const MatrixXd &static_beyond_modes)
 {
   reduced.interfaces  = renumbered(frame.interfaces, basis.q1);
   reduced.n_interface = basis.n1();
@@ -183,6 +185,8 @@ void describe(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Redu
     auto row = output;
     row.on_q = basis.T.transpose() * output.on_q;
     row.on_v = basis.T.transpose() * output.on_v;
+    if (static_beyond_modes.cols() > 0)
+      row.under_acceleration += static_beyond_modes.transpose() * output.on_q;
     reduced.outputs.push_back(row);
   }
   reduced.points    = frame.picture.points;
@@ -300,7 +304,7 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   if (append_shapes(shapes.basis, frame, std::move(more)) > 0)
   {
     shapes.star   = reduced_matrices(shapes.basis, frame.B, frame.C);
-    shapes.damped = ritz_modes(shapes.star);
+    shapes.damped = ritz_modes(shapes.star, shapes.refined.n_rigid);
   }
   return shapes;
 }
@@ -313,7 +317,7 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   W << statics.free.W, statics.relief;
   append_shapes(shapes.basis, frame, std::move(W));
   shapes.star          = reduced_matrices(shapes.basis, frame.B, frame.C);
-  shapes.damped        = ritz_modes(shapes.star);
+  shapes.damped        = ritz_modes(shapes.star, statics.free.n_rigid);
   const auto   kept    = std::min(statics.free.omega.size(), shapes.damped.omega.size());
   const double highest = kept > 0 ? statics.free.omega[kept - 1] : 0.;
   shapes.limit         = std::min(highest, highest_of_interest(options, shapes.damped));
@@ -345,18 +349,13 @@ Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Sta
   if (statics.load.cols() > 0)
   {
     reduced.translations_load = basis.T.transpose() * statics.load;
-    reduced.total_mass        = frame.translations.transpose() * statics.load;
     const auto remainder      = static_remainder(statics.response.loads, basis, statics.load);
     reduced.static_residual   = remainder.relative;
-    reduced.outputs_under_acceleration.resize(Eigen::Index(frame.outputs.size()), statics.load.cols());
-    for (std::size_t i = 0; i < frame.outputs.size(); ++i)
-      reduced.outputs_under_acceleration.row(Eigen::Index(i)) =
-          frame.outputs[i].on_q.transpose() * remainder.deflection;
-    static_beyond_modes = remainder.deflection;
+    static_beyond_modes       = remainder.deflection;
   }
   else
     reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
-  describe(reduced, frame, basis);
+  describe(reduced, frame, basis, static_beyond_modes);
   add_stress(reduced.stress, frame.stress, basis.T, static_beyond_modes);
   return {std::move(reduced), std::move(shapes.basis)};
 }

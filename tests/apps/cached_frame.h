@@ -60,7 +60,6 @@ inline coupling::ReducedFrame chain_frame()
   frame.interfaces               = {top};
   frame.translations_load        = Eigen::MatrixXd::Zero(3, 3);
   frame.translations_load.col(2) = m * T.transpose() * Eigen::Vector3d::Ones();
-  frame.total_mass(2, 2)         = 3. * m;
   frame.outputs                  = {{"support.foot", "N", k * T.row(0).transpose(), Eigen::Vector3d::Zero()}};
   frame.n_full                   = 3;
   frame.mass                     = 3. * m;

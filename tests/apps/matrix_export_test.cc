@@ -61,10 +61,11 @@ TEST_P(MatrixExport, ComesBackAsTheSameFrame)
   ASSERT_EQ(back.outputs.size(), 1u);
   EXPECT_EQ(back.outputs[0].name, "support.foot.z");
   EXPECT_TRUE(same(back.outputs[0].on_q, frame.outputs[0].on_q));
+  EXPECT_TRUE(same(back.outputs[0].under_acceleration, frame.outputs[0].under_acceleration));
   // M M^-1 f with M of condition 1e2
   EXPECT_LT((back.translations_load - frame.translations_load).norm(), 1e-13 * frame.translations_load.norm());
-  EXPECT_NEAR(back.total_mass(2, 2), 300., 1e-10); // all modes: the projection is exact
-  ASSERT_EQ(back.points.size(), 4u);               // the interface comes first
+  EXPECT_EQ(back.mass, frame.mass) << "clamped parts included, which M does not show";
+  ASSERT_EQ(back.points.size(), 4u); // the interface comes first
   EXPECT_EQ(back.points[3], frame.points[2]);
   EXPECT_EQ(back.triangles[0], (std::array<int, 3>{1, 2, 3}));
   EXPECT_EQ(back.displacement.bottomRows(9), frame.displacement);

@@ -121,6 +121,12 @@ TEST_F(ContentKey, ChangesWithEveryValue)
       });
   with([](Frame &f, Options &) { f.masses.push_back({"motor", 100.}); });
   with([](Frame &, Options &o) { o.n_modes = 12; });
+  with(
+      [](Frame &, Options &o)
+      {
+        o.n_modes   = 12;
+        o.frequency = 100.; // what the frame says of its limits
+      });
   with([](Frame &, Options &o) { o.tolerance = 0.02; });
   with([](Frame &, Options &o) { o.frequency = 100.; });
   std::ofstream(frame.cad, std::ios::app) << " ";

@@ -110,6 +110,13 @@ TEST(Extrapolation, OfValuesThatLeaveTheirLimitIsNotRegularAndStaysBelowAllOfThe
   EXPECT_NEAR(estimated.limit, 11.5 / 1.15, 1e-12) << "which lies below all";
 }
 
+TEST(Extrapolation, HasNoLimitBelowZero)
+{
+  const auto result = extrapolate({{1e3, 1.5, 0.5}, {2e3, 1., 0.48}}); // the step over 1 - 0.9: ten times as much
+  EXPECT_FALSE(result.regular);
+  EXPECT_NEAR(result.limit, 1. / 1.48, 1e-12) << "by the estimate of the last mesh";
+}
+
 TEST(Extrapolation, OfCompliancesThatRiseEndsAboveAllOfThem)
 {
   const auto rising = [](double n) { return MeshValue{n, 20. - mesh(n, 1.).value, mesh(n, 1.).estimate}; };

@@ -53,6 +53,30 @@ TEST(Foundation, SinksByTheLoadOverItsTotalStiffness)
   EXPECT_NEAR(statics(block, Eigen::VectorXd::Unit(block.C.rows(), top))[top] * 4e8, 1., 1e-5);
 }
 
+TEST(Clamp, CarriesTheWeightOfTheNodesItHoldsToo)
+{
+  // Forces and moments of a free body are in balance: no row of C carries anything for a translation.
+  auto specification           = bar_on_springs();
+  specification.supports       = {clamped("feet", {"z0"}), clamped("left", {"x0"})};
+  specification.interfaces     = {};
+  const auto            frame  = discretise(bar_mesh(), specification);
+  const Eigen::Vector3d g      = {1., -2., -9.81};
+  const Eigen::VectorXd q      = statics(frame, frame.acceleration_load * g);
+  const auto            weight = frame.mass * g;
+  for (int d = 0; d < 3; ++d)
+  {
+    double force = 0., held = 0.;
+    for (const std::string support : {"feet", "left"})
+    {
+      const auto &one = output(frame, "support." + support + "." + "xyz"[d]);
+      force += one.on_q.dot(q) + one.under_acceleration.dot(g);
+      held += one.under_acceleration.dot(g);
+    }
+    EXPECT_NEAR(force, -weight[d], 1e-9 * frame.mass * 9.81);
+    EXPECT_GT(held / -weight[d], 0.02) << "or the test shows nothing";
+  }
+}
+
 TEST(Rayleigh, DampsInProportionToMassAndStiffnessOfTheMaterial)
 {
   auto damped                = bar_on_springs();
@@ -200,6 +224,35 @@ TEST(CutForce, IsTheTensionOfABarThroughEveryPlane)
   EXPECT_NEAR(output(frame, "cut.high").on_q.dot(q), 1e5, 1e-4);
   EXPECT_NEAR(output(frame, "cut.oblique").on_q.dot(q), 1e5 / std::sqrt(1.13), 1e-4) << "component along the normal";
   EXPECT_EQ(output(frame, "cut.low").on_v.norm(), 0.);
+}
+
+/// Volume of the bar, 0.4 x 0.3 x 1.5 m, above planes at any height in its cells; an oblique plane parts it at its
+/// mean height over the section.
+TEST(CutForce, CarriesTheWeightOfWhatIsAboveThePlane)
+{
+  auto specification = bar_on_springs();
+  for (int i = 0; i < 7; ++i)
+    specification.cuts.push_back(cut("at" + std::to_string(i), {{0., 0., 0.3 + 0.071 * i}}, {{0., 0., 1.}}));
+  specification.cuts.push_back(cut("turned", {{0., 0., 0.6}}, {{0., 0., -1.}}));
+  for (const bool is_clamped : {false, true})
+  {
+    if (is_clamped)
+      specification.supports = {clamped("feet", {"z0"})};
+    const auto            frame = discretise(bar_mesh(), specification);
+    const Eigen::Vector3d g     = {0., 0., -9.81};
+    const Eigen::VectorXd q     = statics(frame, frame.acceleration_load * g);
+    const auto            force = [&](const std::string &name)
+    {
+      const auto &row = output(frame, "cut." + name);
+      return row.on_q.dot(q) + row.under_acceleration.dot(g);
+    };
+    const double line = -9.81 * frame.mass / 1.5; // N/m
+    for (int i = 0; i < 7; ++i)
+      EXPECT_NEAR(force("at" + std::to_string(i)), line * (1.2 - 0.071 * i), 1e-6) << i;
+    EXPECT_NEAR(force("turned"), line * 0.9, 1e-6) << "compression";
+    const double middle = 0.71; // of the centre line, where 0.3 (0.2 - 0.2) - 0.2 (0.15 - 0.1) + (z - 0.7) = 0
+    EXPECT_NEAR(force("oblique"), line * (1.5 - middle) / std::sqrt(1.13), 1e-6);
+  }
 }
 
 TEST(CutForce, TakesTheShareOfAnObliqueLoadAlongItsNormal)
