@@ -8,6 +8,9 @@
 namespace gestell::coupling
 {
 
+/// `cancelled` of dense_modes() for the matrices of a reduction, whose C*_11 is the difference of far larger ones.
+constexpr double cancelled_by_reduction = 1e-10;
+
 /// Undamped modes (C - omega^2 M) v = 0, omega ascending, V^T M V = E.
 struct DenseModes
 {

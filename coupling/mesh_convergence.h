@@ -45,6 +45,7 @@ struct ConvergedQuantity
   double      error       = 0.;   ///< of the last mesh's value against the limit, relative
   double      order       = 0.;   ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
   bool        regular     = true; ///< mesh by mesh nearer to the limit, see Extrapolated
+  int         n_meshes    = 0;    ///< that the limit rests on: one alone proves nothing
   double      bound() const { return (error < 0. ? -error : error) + uncertainty; }
 };
 

@@ -17,7 +17,6 @@ constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from
 constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
 constexpr double least_share   = 0.5; // of the estimate that is true at least, where nothing better is known
 constexpr std::size_t four     = 4;
-constexpr double      distinct = 1.2;  // times the coordinates: less shows more of how cells happen to lie
 constexpr double      rounding = 1e-9; // relative: values of this difference are equal
 
 /// (v1 - v2) / (v2 - v3) for error = n^(-k); grows with k.
@@ -63,7 +62,7 @@ std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
 {
   std::vector<MeshValue> kept = {meshes.back()};
   for (auto mesh = meshes.rbegin(); mesh != meshes.rend(); ++mesh)
-    if (distinct * mesh->coordinates <= kept.back().coordinates)
+    if (distinctly_finer * mesh->coordinates <= kept.back().coordinates)
       kept.push_back(*mesh);
   return {kept.rbegin(), kept.rend()};
 }
@@ -144,7 +143,8 @@ Extrapolated extrapolate(const std::vector<MeshValue> &all, Approach approach)
   const std::vector<MeshValue> meshes = distinct_ones(all);
   const MeshValue             &last   = meshes.back();
   Extrapolated                 result;
-  result.order = std::numeric_limits<double>::quiet_NaN();
+  result.n_meshes = int(meshes.size());
+  result.order    = std::numeric_limits<double>::quiet_NaN();
   if (meshes.size() == 1)
   {
     result.limit       = last.value;
@@ -154,7 +154,8 @@ Extrapolated extrapolate(const std::vector<MeshValue> &all, Approach approach)
   const double side = approach == Approach::from_above ? 1. : -1.;
   const double back = largest_step_back(meshes, side), nearer = overtaken(meshes, side);
   Rest         rest = regular_rest(meshes);
-  result.regular    = back == 0. && side * rest.correction >= nearer - rounding * std::abs(last.value);
+  result.regular    = back == 0. && side * rest.correction >= nearer - rounding * std::abs(last.value) &&
+                   rest.correction < last.value; // no limit at zero or below
   if (!result.regular)
   {
     rest.correction = side * std::max(estimated_rest(last), nearer);

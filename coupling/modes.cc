@@ -72,19 +72,15 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   }
 }
 
-// C*_11 of a reduction is the difference of far larger matrices: the rounding it leaves in rigid motions.
-constexpr double cancelled_by_reduction = 1e-10;
-constexpr double cancelled_elsewhere    = 1e-12;
-
 /// @param loads     M R [n x 3], the load of a unit acceleration; the effective mass of a mode v is (v . load)^2.
-/// @param cancelled see dense_modes()
+/// @param n_rigid   see dense_modes()
 std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
                            const Eigen::MatrixXd &loads, int n_modes, bool damped = true,
-                           double cancelled = cancelled_elsewhere)
+                           std::optional<int> n_rigid = {})
 {
   if (M.rows() == 0) // everything is held
     return {};
-  const DenseModes  modes = dense_modes(C, M, cancelled);
+  const DenseModes  modes = n_rigid ? dense_modes(C, M, cancelled_by_reduction, n_rigid) : dense_modes(C, M);
   std::vector<Mode> result(std::min<Eigen::Index>(n_modes, modes.omega.size()));
   for (std::size_t j = 0; j < result.size(); ++j)
   {
@@ -116,8 +112,8 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
   const ReducedFrame *frame = machine.reduced_frame();
   if (!frame)
     return {};
-  std::vector<Mode> modes = modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true,
-                                     frame->modal ? cancelled_by_reduction : cancelled_elsewhere);
+  std::vector<Mode> modes =
+      modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true, frame->n_rigid());
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
   {
     modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding

@@ -26,6 +26,8 @@ struct Mesh
   /// Of tetrahedra: middles of edges that are curved, by the points at their ends, the smaller first.
   std::map<std::array<int, 2>, Point3> middles;
 
+  bool made_by_script = false; ///< which takes one size for all: no field of sizes refines it
+
   std::vector<std::string> notes; ///< what a user should know of the geometry and the mesh
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.

@@ -233,6 +233,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
     throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
                                 specification.cad + " is a mesh already; remove the size, or give the geometry.");
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
+  result.extracted.mesh.made_by_script = true;
   require_straight(result.extracted, specification);
   const Mesh &mesh = result.extracted.mesh;
   if (mesh.n_cells() > options.max_cells)

@@ -28,15 +28,13 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double cancelled    = 1e-10;                     // as in supported_modes()
 constexpr double singular     = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
 constexpr double aim          = 0.6;                       // of the tolerance: what a mesh is made for
 constexpr double least_growth = 2.2, greatest_growth = 5.; // of the cells from mesh to mesh
 constexpr double greatest_graded = 3.;                     // of those that are graded: rough estimates grade badly
 constexpr double finest          = 1e-3;                   // smallest element over the size of the first mesh
 constexpr double filled          = 0.9; // of the coordinates allowed, where a mesh is cut down to them
-constexpr double cut_down        = 1.2; // times the coordinates of the last mesh, at least, where a mesh is cut down
-constexpr double distinct        = 1.5; // times, at least, elsewhere: less shows no difference between meshes
+constexpr double clearly_finer   = 1.5; // times the coordinates, at least, of a mesh that is not cut down
 constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // of error ~ n^-k, to tell how many would do
 constexpr int    most_trials = 4;
 
@@ -87,8 +85,8 @@ MatrixXd compliance(const ReducedFrame &frame)
 
 std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
 {
-  const DenseModes     modes   = dense_modes(frame.C, frame.M, cancelled);
-  const auto           n_rigid = (frame.frequencies_hz.array() == 0.).count(); // as the full frame counts them
+  const int            n_rigid = frame.n_rigid();
+  const DenseModes     modes   = dense_modes(frame.C, frame.M, cancelled_by_reduction, n_rigid);
   std::vector<Watched> result;
   const auto           known = [&](Eigen::Index j)
   { return j < modes.omega.size() && j < frame.frequency_error.size() && !std::isnan(frame.frequency_error[j]); };
@@ -196,9 +194,16 @@ std::vector<ConvergedQuantity> extrapolate_all(const std::vector<MeshLevel> &lev
       meshes.push_back({double(level.n_coordinates), level.values[j], level.estimates[j]});
     const Extrapolated limit = extrapolate(meshes, of->is_frequency ? Approach::from_above : Approach::from_below);
     result.push_back({name, of->unit, limit.limit, limit.uncertainty, meshes.back().value / limit.limit - 1.,
-                      limit.order, limit.regular});
+                      limit.order, limit.regular, limit.n_meshes});
   }
   return result;
+}
+
+bool converged(const std::vector<ConvergedQuantity> &quantities, double tolerance)
+{
+  return std::all_of(quantities.begin(), quantities.end(),
+                     [tolerance](const ConvergedQuantity &quantity)
+                     { return quantity.n_meshes > 1 && quantity.bound() <= tolerance; });
 }
 
 const ConvergedQuantity &worst(const std::vector<ConvergedQuantity> &quantities)
@@ -211,6 +216,8 @@ const ConvergedQuantity &worst(const std::vector<ConvergedQuantity> &quantities)
 /// "; frequency 1 would need about 60000 coordinates if ...", rounded up to two digits; "" where the error is unknown.
 std::string enough(const ConvergedQuantity &worst, int n_coordinates, double tolerance)
 {
+  if (worst.bound() <= tolerance)
+    return ""; // but no other mesh to compare with
   const double k = std::isnan(worst.order) ? usual_k : std::clamp(worst.order, least_k, greatest_k);
   const double n = n_coordinates * std::pow(worst.bound() / tolerance, 1. / k);
   if (!(n < 1e12))
@@ -261,27 +268,38 @@ public:
   const fem::FrameSpecification &specification() const { return specification_; }
   const std::string             &stopped() const { return stopped_; }
 
-  fem::Mesh first(const Progress &progress) const { return fem::make_mesh(specification_, progress, {}); }
+  fem::Mesh first(const Progress &progress)
+  {
+    fem::Mesh mesh = fem::make_mesh(specification_, progress, {});
+    n_nodes_       = fem::number_of_nodes(mesh);
+    return mesh;
+  }
 
   /**
    * A mesh with `growth` times the coordinates of the last one, or as many as are allowed; none where those are hardly
    * more than the last one had, or gmsh makes no finer mesh, and stopped() says so.
+   *
+   * @param by_itself  a script made the mesh, which knows one size alone.
    */
-  std::optional<fem::Mesh> next(const Computed &last, bool hexahedra, double growth, const Progress &progress)
+  std::optional<fem::Mesh> next(const Computed &last, bool by_itself, double growth, const Progress &progress)
   {
     const double last_size = specification_.mesh.size;
     const double n0        = last.level.n_coordinates;
     const double room      = filled * options_.max_coordinates;
-    double       wanted    = (hexahedra ? growth : std::min(growth, greatest_graded)) * n0;
+    double       wanted    = (by_itself ? growth : std::min(growth, greatest_graded)) * n0;
     double       ratio     = wanted / n0;
     for (int trial = 1;; ++trial)
     {
-      fem::Mesh    mesh = hexahedra ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
-      const double n    = 3. * fem::number_of_nodes(mesh);
-      const bool   fits = n <= options_.max_coordinates;
-      if (fits && (n >= distinct * n0 || (trial > 1 && n >= std::min(cut_down * n0, room))))
+      fem::Mesh    mesh  = by_itself ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
+      const double nodes = fem::number_of_nodes(mesh);
+      const double n     = n0 * nodes / n_nodes_; // some nodes are held, and have no coordinates
+      const bool   fits  = n <= options_.max_coordinates;
+      if (fits && n >= (trial > 1 ? distinctly_finer : clearly_finer) * n0)
+      {
+        n_nodes_ = nodes;
         return mesh;
-      if (trial == most_trials || (!fits && room < cut_down * n0))
+      }
+      if (trial == most_trials || (!fits && room < distinctly_finer * n0))
       {
         stopped_ =
             fits ? "gmsh makes no mesh with distinctly more than " + std::to_string(std::lround(n0)) + " coordinates"
@@ -316,6 +334,7 @@ private:
   fem::FrameSpecification   specification_;
   const ConvergenceOptions &options_;
   double                    first_size_;
+  double                    n_nodes_ = 0.; // of the last mesh
   std::string               stopped_;
 };
 
@@ -351,7 +370,7 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
         result.left_out.push_back(name);
     result.quantities  = extrapolate_all(result.levels, last.watched);
     const double bound = worst(result.quantities).bound();
-    result.converged   = number > 1 && bound <= options.tolerance;
+    result.converged   = converged(result.quantities, options.tolerance);
     if (result.converged)
       break;
     if (number++ == options.max_meshes)
@@ -361,7 +380,7 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
     }
     begin               = cpu_seconds();
     const double growth = std::clamp(bound / (aim * options.tolerance), least_growth, greatest_growth);
-    mesh                = meshes.next(last, !mesh->hexahedra.empty(), growth, phases);
+    mesh                = meshes.next(last, mesh->made_by_script, growth, phases);
     result.stopped      = meshes.stopped();
   }
   if (options.compliances)

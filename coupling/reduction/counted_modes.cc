@@ -74,14 +74,17 @@ LowestModes CountedModes::find_all(int count)
 void CountedModes::finish()
 {
   release(); // before the modes are made of the space
-  if (search_)
+  if (wanted_ == 0)
+  {
+    search_.reset();
+    found_ = lowest(0);
+  }
+  else if (search_)
   {
     gap_   = search_->gap_above(wanted_);
     found_ = search_->modes(gap_.below);
     search_.reset();
   }
-  else if (wanted_ == 0)
-    found_ = lowest(0);
 }
 
 void CountedModes::look_for(const LowestModes &known, int count, int block)

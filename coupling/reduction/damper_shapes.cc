@@ -42,11 +42,11 @@ auto of(Kind kind, Index first, Index count)
 class DampedModel
 {
 public:
-  DampedModel(const HeldFrame &held, const ReductionBasis &basis, int m, const fem::FrameMatrices &frame)
-      : held_(held), basis_(basis), frame_(frame), n1_(basis.n1()), fixed_(n1_ + m), W_(frame.M.rows(), 0)
+  DampedModel(const HeldFrame &held, const ReductionBasis &basis, double highest, int m,
+              const fem::FrameMatrices &frame)
+      : held_(held), basis_(basis), frame_(frame), n1_(basis.n1()), fixed_(n1_ + m), W_(frame.M.rows(), 0),
+        slowest_beyond_(std::pow(highest, -2))
   {
-    if (basis.m() > 0 && basis.m() < frame.M.rows() - n1_)
-      slowest_beyond_ = std::pow(basis.omega0.tail<1>()[0], -2);
     extend(fixed_);
     scale_ = M_.diagonal().head(n1_).unaryExpr([](double x) { return x > 0. ? 1. / std::sqrt(x) : 1.; });
   }
@@ -103,7 +103,7 @@ public:
     { return MatrixXcd((scale_.asDiagonal() * A * scale_.asDiagonal()).partialPivLu().inverse()); };
     answer.H       = inverse(model - lacking);
     answer.H_model = inverse(model);
-    answer.error   = (answer.H_model - answer.H).norm() / answer.H.norm();
+    answer.error   = relative_error(answer.H_model, answer.H);
     return answer;
   }
 
@@ -195,7 +195,7 @@ private:
   const fem::FrameMatrices &frame_;
   Index                     n1_, fixed_; // columns of Psi; and of V
   MatrixXd                  W_;
-  double                    slowest_beyond_ = 0.; // largest 1 / omega0^2 [s^2] of modes that are not known
+  double                    slowest_beyond_; // largest 1 / omega0^2 [s^2] of modes that are not known
   VectorXd                  scale_;
   MatrixXd                  M_, B_, C_; // T^T M T, ..
   MatrixXd                  G_, Q_;     // F^T C22^-1 F; (all modes)^T F
@@ -213,11 +213,11 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
   return false;
 }
 
-DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, int m, const MatrixXd &X,
+DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, double highest, int m, const MatrixXd &X,
                            const fem::FrameMatrices &frame, const std::vector<ReceptanceFrequency> &frequencies,
                            const Groups &groups, double tolerance, int most)
 {
-  DampedModel model(held, basis, m, frame);
+  DampedModel model(held, basis, highest, m, frame);
   if (X.cols() > 0)
     model.append(X);
   DamperShapes result{MatrixXd(X.rows(), 0)};
@@ -234,7 +234,7 @@ DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, i
     }
     result.left       = worst.error;
     const auto shapes = result.W.cols();
-    if (worst.error <= tolerance || shapes >= most)
+    if (worst.error <= tolerance || shapes >= most || !std::isfinite(worst.error))
       return result;
     const MatrixXd W = model.principal_shapes(worst, tolerance, most - shapes);
     result.W.conservativeResize(Eigen::NoChange, shapes + W.cols());

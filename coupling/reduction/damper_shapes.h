@@ -31,24 +31,25 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
  * stiffness of the full frame is less than the model's by
  *
  *     r^T Z22^-1 r,    Z22^-1 ~ sum_j v_j v_j^T / ((1 + 2 i zeta) omega_0j^2 - omega^2)
- *                               + (1 - omega^2 / omega_0^2)^-1 (1 + 2 i zeta)^-1 (C22^-1 - sum_j v_j v_j^T /
- * omega_0j^2)
+ *                               + (C22^-1 - sum_j v_j v_j^T / omega_0j^2) / ((1 + 2 i zeta) (1 - omega^2 / omega_0^2))
  *
- * with the modes j that are known and omega_0 the highest of them: from above for what inertia does beyond, and without
- * the dampers in Z22, which would lower it.  It is the error of modes left out and of dampers alike.
+ * with the modes j that are known and omega_0 what no other lies below: from above for what inertia does beyond, and
+ * without the dampers in Z22, which would lower it.  It is the error of modes left out and of dampers alike.
  * At the frequency where it makes the largest error of the receptance, principal directions of C22^-1 r become shapes,
  * and again, until the error is within the tolerance or `most` shapes are made.  Thus dampers of any strength are met:
  * shapes of second order, C22^-1 B C22^-1 B Psi, come with the second round.
  *
  * @param held         with its factor.
  * @param basis        of all modes known; the model has the first m.
+ * @param highest      omega_0 [rad/s], above all frequencies; INFINITY where all modes are known.
  * @param X            other shapes of the model [n x k], zero on q1, or [n x 0].
  * @param frequencies  to look at, as for InterfaceReceptance.
  * @param groups       of q1, whose own errors are told.
  * Source: docs/theory/reduction.md (16e).
  */
-DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, int m, const Eigen::MatrixXd &X,
-                           const fem::FrameMatrices &frame, const std::vector<ReceptanceFrequency> &frequencies,
-                           const Groups &groups, double tolerance, int most);
+DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, double highest, int m,
+                           const Eigen::MatrixXd &X, const fem::FrameMatrices &frame,
+                           const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups, double tolerance,
+                           int most);
 
 } // namespace gestell::coupling

@@ -216,7 +216,7 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
       {
         if (progress)
           progress("dampers inside the frame", -1.);
-        dampers      = damper_shapes(held, basis, judgement.fewest.modes, found.shapes, frame,
+        dampers      = damper_shapes(held, basis, highest, judgement.fewest.modes, found.shapes, frame,
                                      receptance_frequencies(refined, frame.modal_damping_ratio, within),
                                      groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
         found.shapes = beside(found.shapes, dampers->W);

@@ -126,7 +126,7 @@ FreeModes free_modes(const ReductionBasis &basis, HeldFrame &held, const fem::Fr
       continue;
     const VectorXd &omega = modes.found().omega;
     const auto      kept  = std::min<Eigen::Index>(most, (omega.array() <= highest_kept(options, omega)).count());
-    FreeModes       result{omega.head(kept), modes.found().V.leftCols(kept), modes.statement()};
+    FreeModes       result{omega.head(kept), modes.found().V.leftCols(kept), modes.statement(), modes.n_rigid()};
     result.W -= basis.T * MatrixXd(result.W(basis.q1, Eigen::all));
     return result;
   }

@@ -66,6 +66,7 @@ struct FreeModes
   Eigen::VectorXd omega;     // [k] elastic, ascending [rad/s]
   Eigen::MatrixXd W;         // [n x k] modes less their static part, phi - Psi phi_1: zero on q1
   std::string     statement; // that none is missing; empty where nothing had to be proved
+  int             n_rigid = 0;
 };
 
 /**

@@ -73,7 +73,7 @@ std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMa
                                             const std::vector<int> &q1, const fem::RowsOnRanks *rows)
 {
   auto held = std::make_unique<TeamHeldFrame>(team, frame, q1, rows);
-  if (!held->positive() || held->softest() < suspicious_pivots)
+  if (!held->positive() || !(held->softest() >= suspicious_pivots))
     require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
   if (!held->positive())
     refuse_indefinite("");

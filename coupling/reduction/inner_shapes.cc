@@ -16,8 +16,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rounding  = 1e-6;  // size of a shape beside what it was made from
-constexpr double cancelled = 1e-10; // as in supported_modes()
+constexpr double rounding = 1e-6; // size of a shape beside what it was made from
 
 VectorXd mass_of(const MatrixXd &W, const MatrixXd &MW)
 {
@@ -67,15 +66,11 @@ MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &
   return load;
 }
 
-SupportedModes ritz_modes(const ReducedMatrices &star)
+SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
 {
-  const DenseModes ritz = dense_modes(star.C, star.M, cancelled);
-  SupportedModes   modes;
-  modes.n_rigid      = int((ritz.omega.array() == 0.).count());
-  const auto elastic = ritz.omega.size() - modes.n_rigid;
-  modes.omega        = ritz.omega.tail(elastic);
-  modes.P            = star.M * ritz.V.rightCols(elastic);
-  return modes;
+  const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
+  const auto       elastic = ritz.omega.size() - n_rigid;
+  return {n_rigid, ritz.omega.tail(elastic), star.M * ritz.V.rightCols(elastic)};
 }
 
 } // namespace gestell::coupling

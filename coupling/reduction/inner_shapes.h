@@ -21,9 +21,9 @@ namespace gestell::coupling
  */
 int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, Eigen::MatrixXd W);
 
-/// The elastic modes of the reduced model itself: where its shapes are no modes of the held frame, for damping and as
-/// what its frequencies are compared with.
-SupportedModes ritz_modes(const ReducedMatrices &star);
+/// The elastic modes of the reduced model itself, behind n_rigid rigid motions: where its shapes are no modes of the
+/// held frame, for damping and as what its frequencies are compared with.
+SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
 /**
  * Inertia relief: the static deflections of the inside under the inertia of rigid motions,

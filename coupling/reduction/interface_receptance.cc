@@ -33,6 +33,8 @@ Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double neg
 {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> a(A);
   const auto                                    kept = (a.eigenvalues().array() > negligible).count();
+  if (kept == 0)
+    return {MatrixXd(A.rows(), 0), VectorXd(0)};
   const VectorXd                                root = a.eigenvalues().tail(kept).cwiseSqrt();
   const MatrixXd                                U    = a.eigenvectors().rightCols(kept);
   const MatrixXd                                W    = U * root.cwiseInverse().asDiagonal();
@@ -97,8 +99,8 @@ InterfaceReceptance::InterfaceReceptance(const ReductionBasis &basis, const Redu
     const Complex   s     = omega * omega / Complex(1., 2. * ratio);
     const MatrixXcd lower = P1 + s * low.at(s), upper = (P1 - s * high.at(s)) / (1. - s * last);
     const MatrixXcd middle = receptance(s, known.at(s) + 0.5 * (lower + upper));
-    const auto      off    = [&](const MatrixXcd &R) { return (receptance(s, known.at(s) + R) - middle).norm(); };
-    frequencies_.push_back({s, middle, middle.norm(), std::max(off(lower), off(upper)) / middle.norm()});
+    const auto      off    = [&](const MatrixXcd &R) { return relative_error(receptance(s, known.at(s) + R), middle); };
+    frequencies_.push_back({s, middle, std::max(off(lower), off(upper))});
   }
 }
 
@@ -148,7 +150,7 @@ MatrixXcd InterfaceReceptance::receptance(Complex s, const MatrixXcd &R) const
 
 double InterfaceReceptance::error_at(const Frequency &frequency, const Fractions &model) const
 {
-  return (receptance(frequency.s, model.at(frequency.s)) - frequency.H).norm() / frequency.size;
+  return relative_error(receptance(frequency.s, model.at(frequency.s)), frequency.H);
 }
 
 double InterfaceReceptance::error(int m, Inside inside) const
@@ -160,13 +162,18 @@ double InterfaceReceptance::error(int m, Inside inside) const
   return largest;
 }
 
+double relative_error(const MatrixXcd &H_model, const MatrixXcd &H)
+{
+  const double error = (H_model - H).norm() / H.norm();
+  return std::isnan(error) ? INFINITY : error;
+}
+
 void raise_errors(const Groups &groups, const MatrixXcd &H_model, const MatrixXcd &H, std::vector<double> &errors)
 {
   errors.resize(groups.size(), 0.);
   for (std::size_t i = 0; i < groups.size(); ++i)
   {
-    const MatrixXcd block = H(groups[i], groups[i]);
-    errors[i]             = std::max(errors[i], (H_model(groups[i], groups[i]) - block).norm() / block.norm());
+    errors[i] = std::max(errors[i], relative_error(H_model(groups[i], groups[i]), H(groups[i], groups[i])));
   }
 }
 

@@ -29,7 +29,10 @@ std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &re
 /// Coordinates of one interface, counted in q1.
 using Groups = std::vector<std::vector<int>>;
 
-/// |(H_model - H)_gg| / |H_gg| of the coordinates of each group g: raises `errors` to it.
+/// |H_model - H| / |H|, infinite where it is no number.
+double relative_error(const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H);
+
+/// relative_error() of the coordinates of each group g: raises `errors` to it.
 void raise_errors(const Groups &groups, const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H,
                   std::vector<double> &errors);
 
@@ -107,7 +110,7 @@ private:
   {
     std::complex<double> s;
     Eigen::MatrixXcd     H; // of the full frame, scaled
-    double               size, doubt;
+    double               doubt;
   };
   Eigen::MatrixXd moment(int k, int m) const;
   double          negligible(int k) const;

@@ -6,6 +6,7 @@
 #include "coupling/reduction/openblas.h"
 #include "coupling/reduction/rounded.h"
 #include "coupling/reduction/team_assembly.h"
+#include "fem/attached_masses.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
 
@@ -25,6 +26,7 @@ class Service final : public MeshService
 public:
   Inspection inspect(const fem::FrameSpecification &frame) override
   {
+    fem::require_valid(frame.masses, frame.interfaces);
     const fem::GeometryReport geometry = fem::inspect_geometry(frame);
     Inspection  result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
                       geometry.notes};

@@ -15,21 +15,20 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    most_modes = 6;     // whose stresses are looked at: each costs as much as a static solution
-constexpr double cancelled  = 1e-10; // as in supported_modes()
-constexpr double coarse     = 0.02;  // error from which it is a warning, with a way out
+constexpr int    most_modes = 6;    // whose stresses are looked at: each costs as much as a static solution
+constexpr double coarse     = 0.02; // error from which it is a warning, with a way out
 
 } // namespace
 
 Eigen::VectorXd modal_mesh_error(const Reduction &reduced, const fem::MeshError &mesh_error)
 {
-  const DenseModes ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled);
-  const auto       n_rigid = (reduced.frame.frequencies_hz.array() == 0.).count();
+  const int        n_rigid = reduced.frame.n_rigid();
+  const DenseModes ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled_by_reduction, n_rigid);
   const double     limit   = (1. + 1e-6) * two_pi * reduced.frame.frequency_limit_hz;
   const auto       within  = static_cast<int>((ritz.omega.array() <= limit).count() - n_rigid);
   std::vector<int> looked_at; // the first, the last and some between
   for (int j = 0, count = std::min(within, most_modes); j < count; ++j)
-    looked_at.push_back(static_cast<int>(n_rigid) + (count > 1 ? j * (within - 1) / (count - 1) : 0));
+    looked_at.push_back(n_rigid + (count > 1 ? j * (within - 1) / (count - 1) : 0));
   Eigen::VectorXd share = mesh_error.of_cells(reduced.basis.T * ritz.V(Eigen::all, looked_at)).colwise().sum();
   share.array() /= ritz.omega(looked_at).array().square();
   return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });

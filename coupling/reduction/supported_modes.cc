@@ -19,17 +19,15 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double cancelled = 1e-10; // as `cancelled` of dense_modes(): C*_11 is the difference of far larger matrices
-
 /// Elastic modes, in the complement of the rigid motions (rigid; 0), rigid [n1 x k].
 DenseModes elastic_modes(const MatrixXd &C, const MatrixXd &M, const MatrixXd &rigid)
 {
   const auto n = C.rows(), k = rigid.cols();
   if (k == 0)
-    return dense_modes(C, M, cancelled, 0);
+    return dense_modes(C, M, cancelled_by_reduction, 0);
   const MatrixXd inertia = M.leftCols(rigid.rows()) * rigid;
   const MatrixXd Z = Eigen::HouseholderQR<MatrixXd>(inertia).householderQ() * MatrixXd::Identity(n, n).rightCols(n - k);
-  DenseModes     modes = dense_modes(Z.transpose() * C * Z, Z.transpose() * M * Z, cancelled, 0);
+  DenseModes     modes = dense_modes(Z.transpose() * C * Z, Z.transpose() * M * Z, cancelled_by_reduction, 0);
   modes.V              = Z * modes.V;
   return modes;
 }
@@ -87,7 +85,7 @@ FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m,
     estimate.omega.tail(elastic.size()) = elastic;
   }
   else
-    estimate.omega = dense_modes(C, M, cancelled, refined.n_rigid).omega;
+    estimate.omega = dense_modes(C, M, cancelled_by_reduction, refined.n_rigid).omega;
   estimate.error = VectorXd::Constant(estimate.omega.size(), std::numeric_limits<double>::quiet_NaN());
   estimate.error.head(std::min<Eigen::Index>(refined.n_rigid, estimate.error.size())).setZero();
   for (int j = refined.n_rigid; j < estimate.omega.size() && j - refined.n_rigid < refined.omega.size(); ++j)

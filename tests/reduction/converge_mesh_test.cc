@@ -82,6 +82,42 @@ TEST(ConvergeMesh, RefinesDistinctlyAndStatesLimitsOnTheirSide)
   EXPECT_THAT(result.stopped, AllOf(HasSubstr("4 meshes were allowed; "), HasSubstr(" would need about ")));
 }
 
+/// block() by a script that meshes by itself.
+fem::FrameSpecification block_by_script(const std::string &mesh)
+{
+  auto frame = block();
+  frame.cad  = fem::test::write_text("meshed.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n" +
+                                                       mesh + "Mesh 3;\n");
+  return frame;
+}
+
+TEST(ConvergeMesh, RefinesAScriptThatMeshesByItselfAsAWhole)
+{
+  coupling::ConvergenceOptions options;
+  options.tolerance = 0.05;
+  const auto result = coupling::converge_mesh(block_by_script(""), {}, options);
+  ASSERT_GE(result.levels.size(), 2u) << result.stopped;
+  EXPECT_TRUE(result.converged) << result.stopped;
+  for (std::size_t i = 1; i < result.levels.size(); ++i)
+  {
+    EXPECT_LT(result.levels[i].size, result.levels[i - 1].size);
+    EXPECT_GE(result.levels[i].n_coordinates, 1.5 * result.levels[i - 1].n_coordinates);
+  }
+}
+
+TEST(ConvergeMesh, IsNotProvedByAMeshThatStaysAsItIs)
+{
+  // a third of the nodes is held: they are no coordinates, and no finer mesh
+  coupling::ConvergenceOptions options;
+  options.tolerance = 0.9;
+  const auto result = coupling::converge_mesh(
+      block_by_script("Transfinite Curve {:} = 3;\nTransfinite Surface {:};\nTransfinite Volume {:};\n"), {}, options);
+  EXPECT_EQ(result.levels.size(), 1u);
+  EXPECT_FALSE(result.converged);
+  EXPECT_THAT(result.stopped, HasSubstr("gmsh makes no mesh with distinctly more than"));
+  EXPECT_THAT(result.stopped, ::testing::Not(HasSubstr("would need")));
+}
+
 TEST(ConvergeMesh, OfMoreFrequenciesThanTheFirstMeshHasIsRefused)
 {
   coupling::ReductionOptions reduction;

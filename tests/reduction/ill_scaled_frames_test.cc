@@ -74,6 +74,15 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
       EXPECT_NEAR(reduced.frequencies_hz[j] * 2. * M_PI, bodies[j], 1e-2 * bodies[j]) << soft << " " << j;
       EXPECT_LT(reduced.frequency_error[j], 1e-2);
     }
+    EXPECT_EQ(reduced.n_rigid(), 6);
+
+    auto damped                = frame; // every elastic mode is damped, soft ones too
+    damped.modal_damping_ratio = 0.02;
+    options.inertia_relief     = true;
+    const auto   relieved      = coupling::craig_bampton(damped, options);
+    const auto   modes         = coupling::dense_modes(relieved.C, relieved.M, 1e-10, 6);
+    const double omega         = modes.omega[6];
+    EXPECT_NEAR(modes.V.col(6).dot(relieved.B * modes.V.col(6)), 2. * 0.02 * omega, 1e-2 * omega) << soft;
   }
 }
 

@@ -223,6 +223,42 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
 INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,
                          ::testing::Combine(::testing::Values(0.2, 2., 20., 200.), ::testing::Values(0.01, 1e-3)));
 
+/// Whether the inside has coordinates without mass, and omega b / c of the foundation at the highest frequency.
+class FewCoordinates : public ::testing::TestWithParam<std::tuple<bool, double>>
+{
+};
+
+TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
+{
+  const auto [massless, strength] = GetParam();
+  Lattice lattice;
+  lattice.nx = 4, lattice.ny = 3, lattice.nz = 3;
+  const double highest = two_pi * 2000.;
+  lattice.damper       = strength * lattice.foundation / highest;
+  auto frame           = frame_of(lattice);
+  frame.interfaces     = {test::interface_at("table", lattice.point(1, 1, 2), lattice.point(3, 2, 2))};
+  if (massless)
+    for (int i = 0; i < 30; i += 2)
+      frame.M.coeffRef(i, i) = 0.;
+  coupling::ReductionOptions options;
+  options.frequency = highest / two_pi;
+  const auto model  = craig_bampton(frame, options);
+  ASSERT_LT(model.omega0(model.omega0.size() - 1), highest) << "or the test shows nothing";
+
+  std::vector<double> omegas;
+  for (int i = 1; i <= 100; ++i)
+    omegas.push_back(highest * i / 100.);
+  std::vector<int> first(model.n_interface);
+  std::iota(first.begin(), first.end(), 0);
+  const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
+  const auto     exact = direct(frame.M, frame.B, frame.C, frame.interface_coordinates(), omegas);
+  ASSERT_FALSE(model.statements.empty());
+  EXPECT_LE(error(direct(model.M, model.B, model.C, first, omegas), exact, scale), options.tolerance)
+      << model.statements[0];
+}
+INSTANTIATE_TEST_SUITE_P(DampedOrNot, FewCoordinates,
+                         ::testing::Combine(::testing::Bool(), ::testing::Values(0., 0.5, 20.)));
+
 TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
 {
   const Case c     = make_case(3e6, 10);

@@ -58,5 +58,12 @@ TEST(Team, FindsAllModesThereAreAndRefusesToFindMore)
   EXPECT_TRUE(answer.says("lowest modes: 21 of 22 are found; ask for fewer modes")) << answer.text;
 }
 
+TEST(Team, TakesNoModesWhereNoneIsNeeded)
+{
+  const Answer answer = trial("none");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("0 modes: reduction: 0 fixed-interface modes")) << answer.text;
+}
+
 } // namespace
 } // namespace gestell::tests
