@@ -140,6 +140,8 @@ coupling::Machine build_machine(const Scene &scene)
 {
   if (scene.frame.source == FrameSource::matrices)
     return machine_on(scene, placed(scene.frame.place, [&] { return coupling::dense_frame(scene.frame.matrices); }));
+  if (scene.bodies.empty())
+    throw std::invalid_argument(scene.file + ": has nothing that moves; declare a [frame] or at least one [body.NAME]");
   coupling::Machine machine;
   machine.set_gravity(scene.gravity);
   fill(machine, scene);

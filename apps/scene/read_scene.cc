@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -151,9 +152,20 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   return modes;
 }
 
-void check_gravity(const Scene &scene)
+constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
+
+void check_gravity(const SceneTable &table, const Scene &scene)
 {
-  const auto &g = scene.gravity;
+  const auto  &g      = scene.gravity;
+  const double amount = std::hypot(g[0], g[1], g[2]);
+  if (amount > strong_gravity)
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << "is " << amount << " m/s^2, " << amount / 9.81
+         << " times that of the earth; numbers without a unit are in m/s^2, others are written as \"-9810 mm/s^2\"";
+    table.warn("gravity", text.str());
+  }
   if (scene.frame.source == FrameSource::matrices && !scene.frame.has_translations &&
       (g[0] != 0. || g[1] != 0. || g[2] != 0.))
     throw std::invalid_argument(
@@ -181,7 +193,7 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   scene.gravity   = table.vector("gravity", kind::acceleration, {});
   scene.frame     = read_frame(table);
   scene.reduction = read_reduction(table, scene.frame);
-  check_gravity(scene);
+  check_gravity(table, scene);
 
   Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
   scene.bodies = read_bodies(table, names);

@@ -109,6 +109,11 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
   EXPECT_TRUE(good.says("1 solid, 0.02 m^3; surfaces: foot 1 face, top 1 face; not meshed")) << good.text;
   EXPECT_TRUE(good.says("well formed: 1 body, 1 element, 1 signal\n")) << good.text;
 
+  const Answer flat =
+      ask("check", block(support + "[frame.mass.motor]\non = \"top\"\nmass = 80\ninertia = [1, 1, 3]\n"));
+  EXPECT_EQ(flat.exit_code, 2);
+  EXPECT_TRUE(flat.says("frame.mass.motor: mass \"motor\": its principal moments of inertia")) << flat.text;
+
   std::string scene = block(support);
   scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");
   const Answer lost = ask("check", scene);
