@@ -109,6 +109,10 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
   EXPECT_TRUE(good.says("1 solid, 0.02 m^3; surfaces: foot 1 face, top 1 face; not meshed")) << good.text;
   EXPECT_TRUE(good.says("well formed: 1 body, 1 element, 1 signal\n")) << good.text;
 
+  const Answer pushed =
+      ask("check", block(support + "[element.push]\ntype = \"force\"\nfrom = \"load\"\nconstant = \"5 N\"\n"));
+  EXPECT_TRUE(pushed.says("1 body, 2 elements, 1 signal\n")) << "a force is an element, too: " << pushed.text;
+
   std::string scene = block(support);
   scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");
   const Answer lost = ask("check", scene);
