@@ -9,8 +9,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace gestell::coupling
@@ -74,6 +76,7 @@ public:
   }
 
   const std::string &line() const { return line_; }
+  long               number() const { return number_; }
 
   int integer(const char *expected)
   {
@@ -188,6 +191,28 @@ void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &
     }
 }
 
+/// The file once more, up to the entry whose row and column an earlier line has already: the format gives each entry
+/// by its own row and column, and is silent on what a second one would mean (Boisvert, Pozo and Remington, The Matrix
+/// Market Exchange Formats: Initial Design, NISTIR 5935, 1996).
+[[noreturn]] void refuse_repeated(const std::string &file)
+{
+  Reader reader(file);
+  read_header(reader);
+  reader.next_entry(); // the sizes
+  std::map<std::pair<int, int>, long> lines;
+  while (reader.next_entry())
+  {
+    const int row = reader.integer("a row"), column = reader.integer("a column");
+    const auto [first, is_new] = lines.try_emplace({row, column}, reader.number());
+    if (!is_new)
+      reader.fail("row " + std::to_string(row) + ", column " + std::to_string(column) + " stands in line " +
+                  std::to_string(first->second) +
+                  " already, and entries of this format are no parts of a sum; add up what belongs to one entry before "
+                  "writing (in scipy: A.sum_duplicates())");
+  }
+  reader.fail_at_end("an entry was found twice before; the file changes while it is read");
+}
+
 } // namespace
 
 Matrix read_matrix_market(const std::string &file)
@@ -215,6 +240,8 @@ Matrix read_matrix_market(const std::string &file)
     reader.fail("more entries than announced");
   Matrix A(rows, columns);
   A.setFromTriplets(entries.begin(), entries.end());
+  if (static_cast<std::size_t>(A.nonZeros()) != entries.size())
+    refuse_repeated(file);
   return A;
 }
 

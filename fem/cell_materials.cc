@@ -1,11 +1,7 @@
 #include "fem/cell_materials.h"
 
 #include "fem/elasticity.h"
-#include "fem/nearest_name.h"
-
-#include <fnmatch.h>
-
-#include <stdexcept>
+#include "fem/solid_materials.h"
 
 namespace gestell::fem
 {
@@ -14,20 +10,11 @@ CellMaterials cell_materials(const Mesh &mesh, const FrameSpecification &specifi
 {
   require_valid(specification.material);
   CellMaterials result{{mesh.solids.size(), specification.material}, mesh.cell_solid};
-  for (const auto &[pattern, material] : specification.materials)
+  for (const auto &named : specification.materials)
   {
-    require_valid(material);
-    bool fits = false;
-    for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid)
-      if (fnmatch(pattern.c_str(), mesh.solids[solid].c_str(), 0) == 0)
-      {
-        result.materials[solid] = material;
-        fits                    = true;
-      }
-    if (!fits)
-      throw std::invalid_argument(
-          (material.place.empty() ? "frame.materials" : material.place) + ": no solid is called \"" + pattern + "\"; " +
-          nearest_names(pattern, mesh.solids, "solid") + "; `gestell mesh` lists all solids of a file.");
+    require_valid(named.second);
+    for (const std::size_t solid : solids_of(named, mesh.solids))
+      result.materials[solid] = named.second;
   }
   return result;
 }

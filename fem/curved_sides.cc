@@ -210,7 +210,8 @@ void follow_geometry(ExtractedMesh &extracted, const CadModel &model)
 
 void unfold(Mesh &mesh)
 {
-  std::set<Edge> straightened;
+  const std::size_t n_curved = mesh.middles.size();
+  std::set<Edge>    straightened; // or only halved: those keep a middle
   for (bool folded = !mesh.middles.empty(); folded;)
   {
     folded = false;
@@ -234,8 +235,7 @@ void unfold(Mesh &mesh)
     }
   }
   if (!straightened.empty())
-    mesh.notes.push_back(std::to_string(straightened.size()) + " of " +
-                         std::to_string(straightened.size() + mesh.middles.size()) +
+    mesh.notes.push_back(std::to_string(straightened.size()) + " of " + std::to_string(n_curved) +
                          " curved edges are straightened, as cells beside them would fold; smaller elements there keep "
                          "them curved");
 }

@@ -41,6 +41,16 @@ private:
     std::string surface, of, side; ///< `of`: number or set of elements
   };
 
+  /// Of *NSET or *ELSET with GENERATE: first, first + step, ... last.
+  struct Range
+  {
+    bool        of_nodes;
+    std::string set;
+    std::size_t first, last, step;
+    std::string file;
+    int         line;
+  };
+
   [[noreturn]] void refuse(const std::string &why) const
   {
     throw std::invalid_argument(source_.place + ": " + file_ + ":" + std::to_string(line_) + ": " + why);
@@ -204,8 +214,26 @@ private:
     }
     const std::size_t first = number(fields[0]), last = fields.size() > 1 ? number(fields[1]) : first;
     const std::size_t step = fields.size() > 2 ? std::max<std::size_t>(1, number(fields[2])) : 1;
-    for (std::size_t i = first; i <= last; i += step)
-      set.push_back(std::to_string(i));
+    if (last < first)
+      refuse("GENERATE goes from " + fields[0] + " to " + fields[1] + "; give the lower number first.");
+    ranges_.push_back({&sets == &node_entries_, in_capitals((*keyword_)[keyword_->name]), first, last, step, file_,
+                       line_}); // taken apart once all nodes and elements are known
+  }
+
+  /// A wrong number would take all memory.
+  void add_range(const Range &range)
+  {
+    const std::size_t most  = range.of_nodes ? nodes_.size() : elements_.size(),
+                      steps = (range.last - range.first) / range.step;
+    file_                   = range.file;
+    line_                   = range.line;
+    if (steps >= most)
+      refuse("GENERATE from " + std::to_string(range.first) + " to " + std::to_string(range.last) + " names more " +
+             (range.of_nodes ? "nodes" : "elements") + " than the " + std::to_string(most) +
+             " there are; give first, last and step of those that are meant.");
+    auto &set = (range.of_nodes ? node_entries_ : element_entries_)[range.set];
+    for (std::size_t k = 0; k <= steps; ++k)
+      set.push_back(std::to_string(range.first + k * range.step));
   }
 
   std::size_t number(const std::string &field) const
@@ -254,6 +282,8 @@ private:
 
   void finish()
   {
+    for (const Range &range : ranges_)
+      add_range(range);
     for (const std::size_t number : order_)
       if (const std::string &set = elements_.at(number).set; !set.empty())
         element_entries_[set].push_back(std::to_string(number));
@@ -350,6 +380,7 @@ private:
   std::unordered_map<std::size_t, Element>        elements_;
   std::vector<std::size_t>                        order_; // of the elements
   std::map<std::string, std::vector<std::string>> node_entries_, element_entries_;
+  std::vector<Range>                              ranges_;
   std::vector<std::string>                        sections_;
   std::vector<Side>                               sides_;
   std::map<std::string, int>                      n_parts_;

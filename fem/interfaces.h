@@ -42,7 +42,8 @@ void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh);
  */
 CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic);
 
-/// Where nodes stand that are farther than `tolerance` [m] from the position asked for, in words.
+/// Where nodes and points of a surface stand that are farther than `tolerance` [m] from the position asked for, in
+/// words; points of a surface not before a quarter of the width of the triangles around them.
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance);
 
 /// A note on every interface or attached mass that stands farther than `distance` [m] from its surface: a unit

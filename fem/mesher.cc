@@ -12,6 +12,7 @@
 #include "fem/point_freedom.h"
 #include "fem/shared_faces.h"
 #include "fem/small_features.h"
+#include "fem/solid_materials.h"
 #include "fem/surface_selection.h"
 #include "fem/vector3.h"
 
@@ -59,6 +60,15 @@ Selection select_all(const CadModel &model, const FrameSpecification &specificat
     selection[name] = select_faces(model.faces, selector, model.diagonal());
   require_faces_of_one_owner(selection, model.faces, specification);
   return selection;
+}
+
+/// Before the mesh, which may take long.
+void check_materials(const CadModel &model, const FrameSpecification &specification)
+{
+  std::vector<std::string> names;
+  for (const Solid &solid : model.solids)
+    names.push_back(solid.name);
+  check_solids_of_materials(specification, names);
 }
 
 /// Sides of hexahedra are straight.
@@ -177,7 +187,8 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
   MeshOptions options = specification.mesh;
   if (options.size == 0. && missing == MissingSize::chosen)
     options.size = size_for_cells(result.model, cells_by_default);
-  result.size      = options.size;
+  result.size = options.size;
+  check_materials(result.model, specification);
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
   judge_memory(result, specification, options);
@@ -240,6 +251,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
     throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
+  check_materials(result.model, specification);
   measure_solids(result.model, mesh);
   unfold(result.extracted.mesh);
   const auto divided = divide_skin(result.extracted, result.model.groups);

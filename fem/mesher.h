@@ -59,7 +59,7 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
  * Reads the file and finds the surfaces as for a mesh, and judges sizes and memory, but meshes nothing (a script that
  * meshes by itself does): counts and qualities of cells stay 0.
  *
- * @throws std::invalid_argument as make_mesh() until its mesh.
+ * @throws std::invalid_argument as make_mesh() until its mesh, and check_solids_of_materials().
  */
 GeometryReport inspect_geometry(const FrameSpecification &specification);
 

@@ -35,7 +35,10 @@ std::string nearest_names(const std::string &name, const std::vector<std::string
   if (known.empty())
     return "it has no named " + what + " at all";
 
-  std::vector<std::string> sorted(known);
+  std::vector<std::string> sorted; // each once: a solid in several pieces has the name of all
+  for (const std::string &one : known)
+    if (std::find(sorted.begin(), sorted.end(), one) == sorted.end())
+      sorted.push_back(one);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const std::string &a, const std::string &b)
                    { return edit_distance(name, a) < edit_distance(name, b); });

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -108,22 +109,33 @@ CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &m
   return coupled;
 }
 
+namespace
+{
+
+/// Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge of h
+/// of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
+constexpr double facets_off = 0.25;
+
+} // namespace
+
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance)
 {
   std::vector<std::string> notes;
   for (const CoupledPatch &coupled : interfaces)
   {
-    const InterfaceSpecification &own = coupled.specification;
-    if (own.coupling != InterfaceCoupling::node)
+    const InterfaceSpecification &own     = coupled.specification;
+    const bool                    is_node = own.coupling == InterfaceCoupling::node;
+    if (!is_node && (own.coupling != InterfaceCoupling::point || !own.position))
       continue;
     const Eigen::Map<const Vector3d> wanted(own.position->data());
     const double                     distance = (coupled.position - wanted).norm();
-    if (distance <= tolerance)
+    if (distance <= (is_node ? tolerance : std::max(tolerance, facets_off * std::sqrt(coupled.patch.area))))
       continue;
     std::ostringstream text;
-    text << own.what << " \"" << own.name << "\" is the node at " << metres(coupled.position) << ", " << 1e3 * distance
-         << " mm from its position " << metres(wanted)
-         << ": elsewhere the mesh has none; a vertex of the geometry is always one";
+    text << own.what << " \"" << own.name << "\" is the " << (is_node ? "node" : "point of its surface") << " at "
+         << metres(coupled.position) << ", " << 1e3 * distance << " mm from its position " << metres(wanted)
+         << (is_node ? ": elsewhere the mesh has none; a vertex of the geometry is always one"
+                     : ": give a position on the surface, or take coupling = \"average\" for a node beside it");
     notes.push_back(text.str());
   }
   return notes;

@@ -6,6 +6,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -150,6 +151,23 @@ int number_of_common_faces(const std::vector<Solid> &solids)
       std::count_if(owners.begin(), owners.end(), [](const auto &owner) { return owner.second > 1; }));
 }
 
+/// A gap must be smaller than this share of the thickness of a solid: OpenCASCADE takes two vertices for one where they
+/// are nearer than the sum of their tolerances and the gap, and a vertex it has joined may have a tolerance of a gap.
+constexpr double share_of_thickness = 1. / 3.;
+
+/// Mean thickness 2 V / A [m]: that of a thin wall, never more than the thinnest side of the box around the solid.
+double thickness(const Solid &solid, double unit)
+{
+  double area = 0.;
+  for (const int face : solid.faces)
+  {
+    double of_face = 0.;
+    gmsh::model::occ::getMass(2, face, of_face);
+    area += unit * unit * of_face;
+  }
+  return 2. * solid.volume / area;
+}
+
 double box_distance(const Solid &a, const Solid &b)
 {
   double squares = 0.;
@@ -170,6 +188,30 @@ bool some_are_near(const CadModel &model, double distance)
   return false;
 }
 
+/// Solids that another one is as near to as the gap must be far thicker: their own faces would be taken for one.
+void require_small_gap(const CadModel &model, const FrameSpecification &specification)
+{
+  const double gap = specification.mesh.gap;
+  for (std::size_t i = 0; i < model.solids.size(); ++i)
+  {
+    const Solid &solid   = model.solids[i];
+    bool         is_near = false;
+    for (std::size_t j = 0; j < model.solids.size(); ++j)
+      is_near = is_near || (j != i && box_distance(solid, model.solids[j]) <= gap);
+    if (!is_near)
+      continue;
+    const double thick = thickness(solid, model.unit), allowed = share_of_thickness * thick;
+    if (gap >= allowed)
+      throw std::invalid_argument(specification.mesh.place + ": gap = " + text(gap) + " m, but solid \"" + solid.name +
+                                  "\" is only " + text(thick) +
+                                  " m thick in the mean (2 volume / surface), so that faces of its own could be taken "
+                                  "for one; needed is less than a third of that: set gap below " +
+                                  text(allowed) +
+                                  " m, or leave it out and let the solids touch in the CAD program, or set mesh.bodies "
+                                  "where they are meant to be separate.");
+  }
+}
+
 } // namespace
 
 void join_solids(CadModel &model, const FrameSpecification &specification, const GmshSession &session)
@@ -177,6 +219,7 @@ void join_solids(CadModel &model, const FrameSpecification &specification, const
   const double reach = std::max(specification.mesh.gap, 1e-6 * model.diagonal());
   if (model.solids.size() < 2 || !some_are_near(model, reach))
     return;
+  require_small_gap(model, specification);
   const Parents                  parents  = fragment(model, specification, session);
   const std::vector<std::string> overlaps = overlaps_of(parents, model);
   if (!overlaps.empty() && specification.mesh.overlaps == Overlaps::refused)
@@ -241,22 +284,29 @@ void check_bodies(const CadModel &model, const FrameSpecification &specification
     list += "\n  and " + std::to_string(model.solids.size() - 2 * listed) + " solids more";
 
   std::string where;
-  double      widest = 0.;
+  double      widest = 0., thinnest = std::numeric_limits<double>::max();
   for (const BodyGap &gap : nearest_gaps(model, body))
   {
     widest = std::max(widest, gap.distance);
+    for (const int solid : {gap.solid_a, gap.solid_b})
+      thinnest = std::min(thinnest, thickness(model.solids[solid], model.unit));
     where += "\n  \"" + model.solids[gap.solid_a].name + "\" and \"" + model.solids[gap.solid_b].name + "\" are " +
              text(1e3 * gap.distance) + " mm apart at " + text(gap.at) + ", between " + gap.face_a + " and " +
              gap.face_b;
   }
+  const double      closing = 1.01 * widest, allowed = share_of_thickness * thinnest;
+  const std::string number = std::to_string(found);
   const std::string way_out =
-      widest > 0. ? ". Where a gap is a slip of the drawing, set mesh.gap = \"" + text(1.01e3 * widest) +
-                        " mm\" to "
-                        "close it; where they are meant to be separate, set mesh.bodies = " +
-                        std::to_string(found) + "."
-                  : ". They meet in a line or a point at most, which holds nothing: let them overlap or share a face, "
-                    "or set mesh.bodies = " +
-                        std::to_string(found) + " where they are meant to be separate.";
+      widest > 0. && closing < allowed
+          ? ". Where a gap is a slip of the drawing, set mesh.gap = \"" + text(1e3 * closing) +
+                " mm\" to close it; where they are meant to be separate, set mesh.bodies = " + number + "."
+      : widest > 0.
+          ? ". They are too far apart for mesh.gap, which must be less than a third of the thickness of solids, here " +
+                text(1e3 * allowed) + " mm: let them touch in the CAD program, or set mesh.bodies = " + number +
+                " where they are meant to be separate."
+          : ". They meet in a line or a point at most, which holds nothing: let them overlap or share a face, or set "
+            "mesh.bodies = " +
+                number + " where they are meant to be separate.";
   throw std::invalid_argument(specification.place + ": " + specification.cad + " holds " + std::to_string(found) +
                               " bodies that do not hang together by common faces, but mesh.bodies = " +
                               std::to_string(wanted) + way_out + " Lengths in m:" + list + where);

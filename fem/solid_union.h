@@ -13,7 +13,8 @@ namespace gestell::fem
  * mesh.overlaps = once their common part belongs to the first of them.  Solids keep their names; a solid that is cut by
  * another one becomes several of its name.  So do physical surfaces of a script.
  *
- * @throws std::invalid_argument if solids overlap, one of them is swallowed by the gap, or OpenCASCADE fails.
+ * @throws std::invalid_argument if solids overlap, the gap is a third of the mean thickness 2 V / A of a solid or more,
+ *         one of them is swallowed by it, or OpenCASCADE fails.
  */
 void join_solids(CadModel &model, const FrameSpecification &specification, const GmshSession &session);
 

@@ -23,9 +23,9 @@ namespace
 }
 
 /// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
-const char *const own_files[] = {"summary.json", "history.csv", "modes.csv",       "frame_modes.pvd",
-                                 "motion.pvd",   "report.html", "modes_along.csv", "modes_along_shapes.csv",
-                                 "stress.pvd"};
+const char *const own_files[] = {"summary.json", "history.csv",         "modes.csv",       "frame_modes.pvd",
+                                 "motion.pvd",   "report.html",         "modes_along.csv", "modes_along_shapes.csv",
+                                 "stress.pvd",   "mesh_convergence.csv"};
 const std::pair<const char *, const char *> own_folders[] = {
     {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}, {"stress", ".vtp"}};
 

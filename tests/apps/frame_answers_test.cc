@@ -113,6 +113,9 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
       ask("check", block(support + "[frame.mass.motor]\non = \"top\"\nmass = 80\ninertia = [1, 1, 3]\n"));
   EXPECT_EQ(flat.exit_code, 2);
   EXPECT_TRUE(flat.says("frame.mass.motor: mass \"motor\": its principal moments of inertia")) << flat.text;
+  const Answer pushed =
+      ask("check", block(support + "[element.push]\ntype = \"force\"\nfrom = \"load\"\nconstant = \"5 N\"\n"));
+  EXPECT_TRUE(pushed.says("1 body, 2 elements, 1 signal\n")) << "a force is an element, too: " << pushed.text;
 
   std::string scene = block(support);
   scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");

@@ -160,10 +160,12 @@ TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)
 TEST_F(ResultFolder, IsCreatedWithItsParentsAndClearedOfOwnFilesOnly)
 {
   fs::create_directories(folder / "charts");
-  for (const char *name : {"summary.json", "charts/1-forces.svg", "notes.txt", "charts/mine.png"})
+  for (const char *name :
+       {"summary.json", "mesh_convergence.csv", "charts/1-forces.svg", "notes.txt", "charts/mine.png"})
     std::ofstream(folder / name) << "old";
   prepare_folder(folder);
   EXPECT_FALSE(fs::exists(folder / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder / "mesh_convergence.csv")); // of another mesh than the next summary
   EXPECT_FALSE(fs::exists(folder / "charts/1-forces.svg"));
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
   EXPECT_TRUE(fs::exists(folder / "charts/mine.png"));

@@ -123,6 +123,8 @@ TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
   says("%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n", "3", "lower triangle");
   says("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", "2", "square");
   says("%%MatrixMarket matrix array real general\n2 2\n1\n2\n3\n", "5", "column 2");
+  says(head + "2 2 3\n1 1 1\n% of the second element\n2 2 1\n1 1 2\n", "6", "column 1 stands in line 3 already");
+  says("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 1\n2 1 1\n", "5", "add up");
   EXPECT_THROW(read_matrix_market(file + ".absent"), std::invalid_argument);
 }
 

@@ -115,6 +115,18 @@ TEST(CurvedSides, ThatWouldFoldCellsAreStraightened)
   EXPECT_GT(curved_volume(mesh), 0.);
 }
 
+TEST(CurvedSides, ThatAreOnlyHalvedCountOnce)
+{
+  Mesh mesh;
+  mesh.points          = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 0.1}, {0., 0., -5.}};
+  mesh.cells           = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  mesh.middles[{0, 1}] = {0.5, 0., 0.04}; // half of it does not fold the cell
+  mesh.middles[{2, 4}] = {0., 0.5, -2.51};
+  unfold(mesh);
+  EXPECT_EQ(mesh.middles.size(), 2u);
+  EXPECT_THAT(mesh.notes, Contains(HasSubstr("1 of 2 curved edges are straightened")));
+}
+
 TEST(QuadraticMeshFile, KeepsItsCurvedSides)
 {
   for (const double version : {2.2, 4.1})

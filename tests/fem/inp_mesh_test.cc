@@ -87,6 +87,11 @@ TEST(InpMesh, TakesSurfacesOfElementSides)
   FrameSpecification s       = specification(write_text("cube.inp", cube() + surface), 0.);
   s.surfaces["bottom"]       = group("BOTTOM");
   EXPECT_NEAR(norm(area_vector(make_mesh(s), "bottom") - Vector3{0., 0., -1.}), 0., 1e-14);
+  for (const std::string kind : {"NSET", "ELSET"}) // which would take all memory
+    EXPECT_THAT(told_of(cube() + "*" + kind + ", " + kind + "=ALL, GENERATE\n1, 18446744073709551615\n"),
+                AllOf(HasSubstr("mesh.inp:"), HasSubstr("GENERATE from 1 to 18446744073709551615 names more"),
+                      HasSubstr(kind == "NSET" ? "nodes than the 8 there are" : "elements than the 6 there are")));
+  EXPECT_THAT(told_of(cube() + "*NSET, NSET=ALL, GENERATE\n8, 1\n"), HasSubstr("from 8 to 1"));
   EXPECT_THAT(told_of(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is no side of element 1"));
 }
 

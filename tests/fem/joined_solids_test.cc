@@ -131,6 +131,42 @@ TEST(SolidsWithAGap, AreJoinedWhereTheGapIsAllowed)
   EXPECT_NEAR(area_of_skin(mesh), 10 * 0.01, 1e-4);
 }
 
+TEST(SolidsWithAGap, ThatIsNoSmallShareOfTheirThicknessAreRefused)
+{
+  // A cube of 100 mm has 2 V / A = 33.3 mm.
+  FrameSpecification s = specification(two_cubes(100.05), 0.05);
+  for (const double wide : {0.0112, 0.05, 0.2})
+  {
+    s.mesh.gap = wide;
+    EXPECT_THAT(refusal(s),
+                AllOf(StartsWith("scene.toml:4: frame.mesh: gap = " + text(wide) + " m"),
+                      HasSubstr("is only 0.033333 m thick in the mean"), HasSubstr("set gap below 0.011111 m")));
+  }
+  s.mesh.gap = 0.011;
+  EXPECT_NEAR(volume_of_cells(make_mesh(s)), 2e-3, 2e-6);
+
+  EXPECT_THAT(refusal(specification(two_cubes(130.), 0.05)),
+              AllOf(HasSubstr("are 30 mm apart"), HasSubstr("too far apart for mesh.gap"), HasSubstr("11.111 mm"),
+                    HasSubstr("mesh.bodies = 2")));
+}
+
+TEST(SolidsOfAScript, ThatMaterialsNameWronglyAreToldBeforeTheMesh)
+{
+  FrameSpecification s = in_millimetres(two_cubes_of_a_script(100., 20.));
+  s.materials          = {{"rigth", {70e9, 0.3, 2700., "scene.toml:9"}}};
+  for (const bool meshed : {false, true})
+    try
+    {
+      meshed ? void(make_mesh(s)) : void(inspect_geometry(s));
+      ADD_FAILURE() << "no solid has that name";
+    }
+    catch (const std::invalid_argument &refused)
+    {
+      EXPECT_THAT(refused.what(),
+                  AllOf(StartsWith("scene.toml:9: no solid is called \"rigth\""), HasSubstr("\"right\", \"left\"")));
+    }
+}
+
 TEST(SolidsWithAGap, AreTwoBodiesWhereTwoAreExpected)
 {
   FrameSpecification s = specification(two_cubes(100.05), 0.05);

@@ -1,4 +1,5 @@
 #include "fem/discretisation.h"
+#include "fem/nearest_name.h"
 #include "tests/fem/box_mesh.h"
 #include "tests/fem/statics.h"
 
@@ -69,6 +70,8 @@ TEST(Materials, OfUnknownSolidsOrImpossibleNumbersAreRefusedWithThePlace)
                           "\"column\""),
             std::string::npos)
       << refuse();
+  EXPECT_EQ(fem::nearest_names("colum", {"all", "column", "all"}, "solid"),
+            "the nearest names are \"column\", \"all\"");
   specification.materials = {{"column", {70e9, 0., -1., "press.toml:8"}}};
   EXPECT_NE(refuse().find("press.toml:8: density rho = -1"), std::string::npos);
 }

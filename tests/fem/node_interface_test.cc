@@ -182,6 +182,20 @@ TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
   EXPECT_EQ(discretise(known, clamped_block({node("tip", size)})).notes, known.notes) << "what the mesh tells stays";
 }
 
+TEST(PointInterfaces, BesideTheirSurfaceAreTold)
+{
+  auto point     = interface("tip", {"z1"}, fem::InterfaceCoupling::point);
+  point.position = Vector3{0.5, 0.4, 1.51}; // no farther than the facets of a curved surface could be
+  EXPECT_TRUE(discretise(tetrahedra(), clamped_block({point})).notes.empty());
+  point.position   = Vector3{0.5, 0.4, 2.5};
+  const auto notes = discretise(tetrahedra(), clamped_block({point})).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("interface \"tip\" is the point of its surface at (0.5, 0.4, 1.5) m, 1000 mm from its "
+                          "position (0.5, 0.4, 2.5) m"),
+            std::string::npos)
+      << notes[0];
+}
+
 TEST(Interfaces, FarFromTheirSurfaceAreTold)
 {
   auto near         = interface("tip", {"z1"}, fem::InterfaceCoupling::rigid);
