@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <new>
 
 namespace
 {
@@ -234,6 +235,14 @@ int main(int argc, char **argv)
     if (speaks)
       std::cerr << "gestell: " << error.what() << '\n';
     return exit_wrong_input;
+  }
+  catch (const std::bad_alloc &)
+  {
+    if (speaks)
+      std::cerr << "gestell: the computation failed: out of memory; take a coarser mesh (mesh.size), fewer modes "
+                   "(reduction.modes) or a larger step of what is kept (output.step, output.picture_step, "
+                   "output.stress.step), or a machine with more memory\n";
+    return exit_failed;
   }
   catch (const std::exception &error)
   {

@@ -9,8 +9,8 @@ namespace gestell::coupling
 
 /**
  * Reads a matrix in the exchange format MatrixMarket: coordinate or array, real or integer, general or symmetric.  A
- * symmetric file holds one triangle; both come back.  An entry that is named twice is refused.  Exponents may be those of
- * Fortran (D).
+ * symmetric file holds one triangle; both come back.  An entry that is named twice is refused.  Exponents may be those
+ * of Fortran (D).
  *
  * @throws std::invalid_argument with file and line, the offending text and what was expected.
  */

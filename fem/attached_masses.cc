@@ -1,5 +1,6 @@
 #include "fem/attached_masses.h"
 
+#include "fem/face.h"
 #include "fem/nearest_name.h"
 #include "fem/rigid_motions.h"
 
@@ -53,7 +54,7 @@ void require_valid(const std::vector<AttachedMass> &masses, const std::vector<In
   for (const AttachedMass &mass : masses)
   {
     if (!std::isfinite(mass.mass) || !(mass.mass > 0.))
-      throw std::invalid_argument(head(mass) + " has " + std::to_string(mass.mass) + " kg, but more than 0 is needed.");
+      throw std::invalid_argument(head(mass) + " has " + text(mass.mass) + " kg, but more than 0 is needed.");
     require_inertia(mass);
     if (mass.interface.empty())
       continue;

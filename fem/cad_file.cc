@@ -1,5 +1,6 @@
 #include "fem/cad_file.h"
 
+#include "fem/face.h"
 #include "fem/step_text.h"
 
 #include <algorithm>
@@ -115,8 +116,7 @@ CadFile check_cad_file(const CadSource &source)
     refuse("ends in \"" + extension(path) +
            "\"; .step, .stp, .brep, .geo, .msh and .inp are read: export the model as STEP.");
   if (source.unit < 0.)
-    throw std::invalid_argument(source.place + ": unit = " + std::to_string(source.unit) +
-                                " m; it must be > 0, or be left out.");
+    throw std::invalid_argument(source.place + ": unit = " + text(source.unit) + " m; it must be > 0, or be left out.");
 
   if (kind->second == CadFile::brep)
     check_brep(path, size, refuse);

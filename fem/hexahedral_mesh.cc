@@ -1,5 +1,6 @@
 #include "fem/hexahedral_mesh.h"
 
+#include "fem/face.h"
 #include "fem/hexahedron.h"
 #include "fem/mesh_quality.h"
 #include "fem/vector3.h"
@@ -103,10 +104,9 @@ void require_sound(const Mesh &mesh)
 {
   for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
     if (const double q = corner_quality(mesh, mesh.hexahedra[i]); !(q > 0.))
-      throw std::invalid_argument("quadratic_mesh: hexahedron " + std::to_string(i) + " folds: the determinant at a " +
-                                  "corner is " + std::to_string(q) +
-                                  " times the edges there, but a positive one is needed; mesh again, or order its " +
-                                  "corners as gmsh does.");
+      throw std::invalid_argument(
+          "quadratic_mesh: hexahedron " + std::to_string(i) + " folds: the determinant at a " + "corner is " + text(q) +
+          " times the edges there, but a positive one is needed; mesh again, or order its " + "corners as gmsh does.");
 }
 
 } // namespace

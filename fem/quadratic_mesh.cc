@@ -7,6 +7,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <cstdint>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -41,9 +42,12 @@ void require_sound(const Mesh &mesh)
     throw std::invalid_argument("quadratic_mesh: the mesh has no cells; a solid volume is needed, not surfaces.");
   for (std::size_t i = 0; i < mesh.cells.size(); ++i)
     if (const double volume = signed_volume(mesh, mesh.cells[i]); !(volume > 0.))
-      throw std::invalid_argument("quadratic_mesh: tetrahedron " + std::to_string(i) + " has the volume " +
-                                  std::to_string(volume) +
-                                  " m^3, but a positive one is needed; mesh again with another size.");
+    {
+      std::ostringstream message;
+      message << "quadratic_mesh: tetrahedron " << i << " has the volume " << volume
+              << " m^3, but a positive one is needed; mesh again with another size.";
+      throw std::invalid_argument(message.str());
+    }
 }
 
 dealii::Triangulation<3> triangulation(const Mesh &mesh)

@@ -77,8 +77,47 @@ std::string origin_text(const coupling::FrameOrigin &origin)
   return name(origin.source) + " for " + origin.scene;
 }
 
-std::string ingredient_text(const std::string &value)
+bool begins(const std::string &text, const std::string &part)
 {
+  return text.compare(0, part.size(), part) == 0;
+}
+
+/// "interface.2.coupling": a choice that a recipe holds as a number is shown by its name in scenes; others as they are.
+std::string choice_text(const std::string &name, const std::string &value)
+{
+  struct Choice
+  {
+    const char                 *begin, *end; ///< of the ingredient's name
+    std::map<int, const char *> names;
+  };
+  using fem::InterfaceCoupling;
+  const std::map<int, const char *> couplings{{int(InterfaceCoupling::rigid), "rigid"},
+                                              {int(InterfaceCoupling::average), "average"},
+                                              {int(InterfaceCoupling::point), "point"},
+                                              {int(InterfaceCoupling::node), "node"}};
+  const std::vector<Choice>         choices{
+      {"interface.", ".coupling", couplings},
+      {"mass.", ".coupling", couplings},
+      {"support.",
+               ".kind",
+               {{int(fem::SupportKind::clamped), "clamped"}, {int(fem::SupportKind::foundation), "foundation"}}},
+      {"mesh.overlaps", "", {{int(fem::Overlaps::refused), "refused"}, {int(fem::Overlaps::once), "once"}}},
+      {"reduction.inside",
+               "",
+               {{int(coupling::InnerModes::interface_held), "fixed-interface"},
+                {int(coupling::InnerModes::interface_free), "free-interface"}}}};
+  for (const Choice &choice : choices)
+    if (const std::string end = choice.end; begins(name, choice.begin) && name.size() >= end.size() &&
+                                            name.compare(name.size() - end.size(), end.size(), end) == 0)
+      for (const auto &[number, called] : choice.names)
+        if (value == std::to_string(number))
+          return called;
+  return value;
+}
+
+std::string ingredient_text(const std::string &name, const std::string &given)
+{
+  const std::string value = choice_text(name, given);
   return value.empty() ? "(none)" : value.size() > 48 ? value.substr(0, 12) + "..." : value;
 }
 
@@ -94,7 +133,8 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
   std::cout << "  nearest: " << short_key(nearest->key) << ", " << origin_text(nearest->origin) << ", last used "
             << date_text(nearest->last_used) << "; it differs in\n";
   for (const auto &[name, kept, asked] : different)
-    std::cout << "    " << name << ": kept " << ingredient_text(kept) << ", asked " << ingredient_text(asked) << '\n';
+    std::cout << "    " << name << ": kept " << ingredient_text(name, kept) << ", asked "
+              << ingredient_text(name, asked) << '\n';
   if (different.empty())
     std::cout << "    the order of supports, interfaces or cuts\n";
 }
@@ -125,7 +165,7 @@ std::string particulars(const CacheEntry &entry, const std::vector<CacheEntry> &
   {
     const auto own =
         std::find_if(recipe.begin(), recipe.end(), [&](const auto &part) { return part.name == names[i]; });
-    text += (i > 0 ? ", " : "") + names[i] + " " + ingredient_text(own == recipe.end() ? "" : own->value);
+    text += (i > 0 ? ", " : "") + names[i] + " " + ingredient_text(names[i], own == recipe.end() ? "" : own->value);
   }
   return text + (shown < names.size() ? ", and " + std::to_string(names.size() - shown) + " more" : "");
 }

@@ -1,6 +1,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/progress.h"
 #include "apps/scene/quantity.h"
+#include "apps/scene/read_material.h"
 #include "coupling/frame_service_loader.h"
 #include "coupling/mesh_report.h"
 
@@ -145,9 +146,11 @@ void print_selectors(const coupling::MeshReport &report)
 int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
 {
   const fem::FrameSpecification frame = frame_of(options, mesh);
-  ProgressLine                  progress(options.quiet);
-  const auto report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
-                                                     { progress.show(phase, share); });
+  if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
+    std::cerr << "gestell: warning: --density " << suspicion << '\n';
+  ProgressLine progress(options.quiet);
+  const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
+                                                       { progress.show(phase, share); });
   progress.done();
 
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "

@@ -2,6 +2,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/prepared_machine.h"
 #include "apps/commands/results_path.h"
+#include "apps/output/number_text.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/stability_report.h"
 #include "apps/version.h"
@@ -21,7 +22,7 @@ void check_ratios(const std::vector<double> &zetas)
 {
   for (const double zeta : zetas)
     if (!(zeta >= 0.) || zeta > 10.)
-      throw std::invalid_argument("--zeta is " + std::to_string(zeta) + "; damping ratios lie between 0 and 10");
+      throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios lie between 0 and 10");
 }
 
 MethodVerdict verdict(const coupling::Machine &machine, const coupling::InitialState &start, const MappedMethod &method,
@@ -70,7 +71,7 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
   if (!(method.step > 0.))
     throw std::invalid_argument("stability: the scene names no step; give the one to look at, such as --step 1e-4");
   if (method.tolerance > 0.)
-    study.notes.push_back("The scene controls its step; its modes are shown at " + std::to_string(method.step) + " s.");
+    study.notes.push_back("The scene controls its step; its modes are shown at " + short_text(method.step) + " s.");
   method.tolerance = 0.;
   if (prepared.companion)
     study.notes.push_back("The frame is unreduced; modes are those of its reduced companion.");

@@ -1,5 +1,6 @@
 #include "apps/commands/stress_answer.h"
 
+#include "apps/output/number_text.h"
 #include "coupling/stress_search.h"
 
 #include <algorithm>
@@ -119,8 +120,7 @@ StressResult stress_answer(const Scene &scene, const ReducedFrame &frame, const 
       kept = &(instant.when == StressInstant::time ? run.states.at : run.states.extremes)[instant.index];
     if (!kept || kept->q.size() == 0)
     {
-      warnings.push_back("the stress " +
-                         (instant.label.empty() ? "at " + std::to_string(kept->t) + " s" : instant.label) +
+      warnings.push_back("the stress " + (instant.label.empty() ? "at " + short_text(kept->t) + " s" : instant.label) +
                          " is not told: the run ended before");
       continue;
     }

@@ -139,6 +139,11 @@ double read_plausible_density(const SceneTable &table)
   return density;
 }
 
+std::string suspect_density(double density)
+{
+  return suspicion(plausible_density(), density, lightest_common, heaviest_common);
+}
+
 void warn_of_density(const SceneTable &table, double mass, double volume)
 {
   const std::string text = suspicion(plausible_density(), mass / volume, 0., 0.);

@@ -21,6 +21,9 @@ fem::Material read_material(const SceneTable &table, const SceneTable &scene, co
 /// `density` of a body, judged as that of a material.
 double read_plausible_density(const SceneTable &table);
 
+/// What speaks against a density [kg/m^3], with the unit that was probably meant; empty for those that solids have.
+std::string suspect_density(double density);
+
 /// Warns if a weighed mass and a volume [m^3] make a density that no solid has: the unit of one of them is wrong.
 void warn_of_density(const SceneTable &table, double mass, double volume);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -148,6 +149,13 @@ coupling::MethodOptions read_method_options(const SceneTable &run)
 
 } // namespace
 
+std::string seconds(double t)
+{
+  std::ostringstream text;
+  text << t << " s";
+  return text.str();
+}
+
 RunRequest read_run(const SceneTable &scene)
 {
   RunRequest run;
@@ -162,10 +170,9 @@ RunRequest read_run(const SceneTable &scene)
   o.begin   = table->number("begin", kind::time, 0.);
   o.end     = table->number("end", kind::time);
   if (o.end <= o.begin)
-    throw table->error("end", "must lie after 'begin' (" + std::to_string(o.begin) + " s), got " +
-                                  std::to_string(o.end) + " s");
+    throw table->error("end", "must lie after 'begin' (" + seconds(o.begin) + "), got " + seconds(o.end));
   if (o.method.step > o.end - o.begin)
-    throw table->error("step", "is longer than the run itself, " + std::to_string(o.end - o.begin) + " s");
+    throw table->error("step", "is longer than the run itself, " + seconds(o.end - o.begin));
   o.events         = table->boolean("events", o.events);
   o.force_unstable = table->boolean("force_unstable", o.force_unstable);
   o.energy         = table->boolean("energy", o.energy);

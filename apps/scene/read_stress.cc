@@ -1,5 +1,6 @@
 #include "apps/scene/read_stress.h"
 
+#include "apps/scene/read_run.h"
 #include "coupling/nearest_name.h"
 
 #include <algorithm>
@@ -39,8 +40,8 @@ void read_instants(const SceneTable &stress, Scene &scene)
       stress.is_array("at") ? stress.numbers("at", kind::time) : std::vector<double>{stress.number("at", kind::time)};
   for (const double t : run.states.at)
     if (scene.run.given && !(t >= run.begin && t <= run.end))
-      throw stress.error("at", "the instant " + std::to_string(t) + " s lies outside the run, which goes from " +
-                                   std::to_string(run.begin) + " s to " + std::to_string(run.end) + " s");
+      throw stress.error("at", "the instant " + seconds(t) + " lies outside the run, which goes from " +
+                                   seconds(run.begin) + " to " + seconds(run.end));
   std::sort(run.states.at.begin(), run.states.at.end());
   for (std::size_t i = 0; i < run.states.at.size(); ++i)
     scene.stress.instants.push_back({"", StressInstant::time, static_cast<int>(i)});

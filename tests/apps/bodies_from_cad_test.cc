@@ -190,6 +190,11 @@ TEST(MeshCommand, WeighsInTheDensityAskedFor)
   const auto steel = tests::gestell("mesh " + part), light = tests::gestell("mesh " + part + " --density '2.7 t/m^3'");
   EXPECT_TRUE(steel.says("volume 0.0024 m^3, 18.84 kg in steel")) << steel.text;
   EXPECT_TRUE(light.says("volume 0.0024 m^3, 6.48 kg at 2700 kg/m^3")) << light.text;
+  EXPECT_FALSE(light.says("warning")) << light.text;
+  const auto odd = tests::gestell("mesh " + part + " --density 7.85e-9");
+  EXPECT_EQ(odd.exit_code, 0);
+  EXPECT_TRUE(odd.says("warning: --density is 7.85e-09 kg/m^3, lighter than any solid; if 7.85e-09 t/mm^3 was meant"))
+      << odd.text;
   const auto wrong = tests::gestell("mesh " + part + " --density '3 m'");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_TRUE(wrong.says("--density: ")) << wrong.text;

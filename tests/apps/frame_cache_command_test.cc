@@ -87,6 +87,32 @@ TEST_F(FrameCacheCommand, ExplainsHitAndMiss)
   EXPECT_TRUE(damaged.says("is damaged")) << damaged.text;
 }
 
+TEST_F(FrameCacheCommand, NamesChoicesAsScenesDo)
+{
+  folder.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n");
+  const std::string block  = folder.file("block.toml", R"(name = "block"
+[frame]
+cad  = "block.geo"
+unit = "1 m"
+mesh = { size = "0.5 m" }
+[frame.surface.top]
+plane = { normal = [0, 0, 1], through = [0, 0, 1] }
+[frame.interface.top]
+surface = "top"
+[reduction]
+modes = 2
+)");
+  const auto        origin = apps::frame_origin(apps::read_scene((folder / "block.toml").string()));
+  ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
+  const Answer miss = shell(called + "reduce --explain " + block +
+                            " --set frame.interface.top.coupling='\"average\"' "
+                            "--set reduction.inside='\"free-interface\"' --set frame.mesh.overlaps='\"once\"'");
+  for (const char *part :
+       {"interface.1.coupling: kept rigid, asked average\n", "mesh.overlaps: kept refused, asked once\n",
+        "reduction.inside: kept fixed-interface, asked free-interface\n"})
+    EXPECT_TRUE(miss.says(part)) << miss.text;
+}
+
 TEST_F(FrameCacheCommand, ListsAndPrunesWhatIsAskedForOnly)
 {
   const Answer list = shell(called + "reduce --list");

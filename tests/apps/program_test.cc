@@ -48,7 +48,8 @@ TEST(Program, ModesOfAMassOutOfAllProportionAreThoseOfTheRestOrRefused)
     return gestell("modes " + scene("press_minimal.toml") + folder.option() + "--set 'parameters.m3=\"" + mass +
                    " kg\"'");
   };
-  for (const std::string mass : {"1e-308", "1e-150", "1e-20", "1e-6"}) // a slide without mass; 0.0074 Hz: on its springs
+  for (const std::string mass :
+       {"1e-308", "1e-150", "1e-20", "1e-6"}) // a slide without mass; 0.0074 Hz: on its springs
   {
     const Answer without = with(mass);
     EXPECT_EQ(without.exit_code, 0) << without.text;
@@ -130,6 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"step_zero", "--set run.step=0", "run.step"},
                       Wrong{"step_negative", "--set run.step='\"-10 us\"'", "run.step"},
                       Wrong{"end_before_start", "--set run.end=-1", "run.end"},
+                      Wrong{"end_at_start", "--set run.end='\"-1 us\"'", "got -1e-06 s"},
                       Wrong{"unstable_order", "--set run.order=4 --set run.step='\"2 ms\"'", "unstable"},
                       Wrong{"negative_damping", "--set frame.damping='[[-1e6, 0], [0, -1e6]]'", "frame.damping"},
                       Wrong{"ratio_in_percent", "--set frame.damping='{ ratio = 5 }'", "ratio"},
@@ -159,6 +161,16 @@ TEST(Program, LengthsOnTheCommandLineTakeUnitsAndSayWhatIsWrong)
   const Answer right = gestell("mesh no_such.step --size='80 mm'");
   EXPECT_EQ(right.exit_code, 2);
   EXPECT_FALSE(right.says("--size")) << right.text;
+}
+
+TEST(Program, MoreMemoryThanThereIsIsToldWithWhatHelps)
+{
+  const Folder folder("memory"); // 20 GB of history
+  const Answer answer =
+      shell("ulimit -v 2000000; '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
+            folder.option() + "--set run.step=1e-9 --set output.allow_large=true");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("out of memory; take a coarser mesh")) << answer.text;
 }
 
 TEST(Program, MissingSceneIsWrongInput)
