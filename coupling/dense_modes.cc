@@ -127,7 +127,7 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
     auto v = modes.V.col(j);
     v /= std::sqrt(v.dot(M * v));
     const double square   = v.dot(C * v);
-    const double rest     = at_rest * C.diagonal().cwiseAbs().cwiseProduct(v.cwiseAbs2()).maxCoeff();
+    const double rest     = at_rest * C.diagonal().maxCoeff() * v.cwiseAbs2().maxCoeff();
     const double rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
     const bool   moves    = n_rigid ? j >= *n_rigid && square > 0. : square > rounding;
     modes.omega(j)        = moves ? std::sqrt(square) : 0.;

@@ -234,7 +234,8 @@ public:
   void add(const fem::FrameMatrices &value)
   {
     const auto &[M, B, C, ratios, modal_damping, interfaces, translations, acceleration_load, rigid_motions, centre,
-                 outputs, picture, facts, mass, stress, n_cells, notes] = value; // facts, stress, notes: of cells only
+                 outputs, picture, facts, mass, stress, n_cells, notes, statements] =
+        value; // facts, stress and the last two: of cells only
     add("mass", M);
     add("damping", B);
     add("stiffness", C);

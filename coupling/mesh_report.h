@@ -35,7 +35,7 @@ struct MeshReport
   double                     expected_cells = 0.;                ///< judged before meshing; 0 for a mesh file
   double                     memory = 0., available_memory = 0.; ///< of the reduction, of this machine [byte]
   std::vector<std::string>   features;                           ///< smallest edges and faces, thin walls
-  std::vector<std::string>   notes;
+  std::vector<std::string>   notes, statements;
   std::vector<SolidReport>   solids;
   std::vector<SurfaceReport> surfaces;
 };

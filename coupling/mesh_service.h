@@ -16,7 +16,7 @@ public:
   struct Inspection
   {
     std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"
-    std::vector<std::string> notes;
+    std::vector<std::string> notes, statements;
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 

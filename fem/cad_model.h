@@ -39,7 +39,8 @@ struct CadModel
   std::vector<Face>        faces; ///< between the solids and the outside; faces between two solids are not among them
   Vector3                  min{}, max{};
   MeshGroups               groups;
-  std::vector<std::string> notes; ///< what a user should know of the file, such as solids that were joined
+  std::vector<std::string> notes;      ///< what a user should look at
+  std::vector<std::string> statements; ///< what is as it should be, such as solids that were joined
 
   double diagonal() const;
   double volume() const;

@@ -203,6 +203,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   FrameMatrices frame;
   frame.n_cells                      = mesh.n_cells();
   frame.notes                        = mesh.notes;
+  frame.statements                   = mesh.statements;
   frame.modal_damping_ratio          = specification.modal_damping_ratio;
   frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
   const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);

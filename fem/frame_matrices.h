@@ -105,7 +105,8 @@ struct FrameMatrices
   double                   mass = 0.; ///< of the frame with what is attached [kg]
   StressRecovery           stress;    ///< empty unless it was asked for
   int                      n_cells = 0;
-  std::vector<std::string> notes; ///< what a user should know of geometry, mesh and assembly
+  std::vector<std::string> notes;      ///< what a user should look at in geometry, mesh and assembly
+  std::vector<std::string> statements; ///< what is as it should be
 
   /// Coordinates q1 of all interfaces, ascending.
   std::vector<int> interface_coordinates() const;

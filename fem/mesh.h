@@ -28,7 +28,8 @@ struct Mesh
 
   bool made_by_script = false; ///< which takes one size for all: no field of sizes refines it
 
-  std::vector<std::string> notes; ///< what a user should know of the geometry and the mesh
+  std::vector<std::string> notes;      ///< what a user should look at in the geometry and the mesh
+  std::vector<std::string> statements; ///< what is as it should be
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;

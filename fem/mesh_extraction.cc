@@ -253,7 +253,8 @@ std::string touching_nodes(const Mesh &mesh)
 void note_nodes(Mesh &mesh, const MeshNodes &nodes)
 {
   if (nodes.n_merged() > 0)
-    mesh.notes.push_back(std::to_string(nodes.n_merged()) + " nodes are taken for one with another, as mesh.gap says");
+    mesh.statements.push_back(std::to_string(nodes.n_merged()) +
+                              " nodes are taken for one with another, as mesh.gap says");
   if (const auto n_unused = nodes.n_unused(); n_unused > 0)
     mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
   if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())

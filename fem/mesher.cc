@@ -332,8 +332,9 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
       mesh_geometry(result, specification, session, missing, progress, refined);
     check_flatness(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
-    auto &notes = result.extracted.mesh.notes;
-    notes.insert(notes.begin(), result.model.notes.begin(), result.model.notes.end());
+    Mesh &mesh = result.extracted.mesh;
+    mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
+    mesh.statements.insert(mesh.statements.begin(), result.model.statements.begin(), result.model.statements.end());
   };
   session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
   return result;
@@ -378,6 +379,7 @@ GeometryReport inspect_geometry(const FrameSpecification &specification)
   GeometryReport report = report_of(result);
   report.volume         = result.model.volume();
   report.notes          = result.model.notes;
+  report.statements     = result.model.statements;
   return report;
 }
 
@@ -387,6 +389,7 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   const Mesh    &mesh   = meshed.extracted.mesh;
   GeometryReport report = report_of(meshed);
   report.notes          = mesh.notes;
+  report.statements     = mesh.statements;
   report.smallest       = meshed.smallest;
   report.walls          = wall_thickness(mesh);
   report.hexahedra      = !mesh.hexahedra.empty();

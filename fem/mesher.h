@@ -49,7 +49,8 @@ struct GeometryReport
   std::string                             smallest;            ///< edge and face of the geometry
   WallThickness                           walls;
   bool                                    hexahedra = false;
-  std::vector<std::string>                notes; ///< what a user should know of the file
+  std::vector<std::string>                notes;      ///< what a user should look at in the file
+  std::vector<std::string>                statements; ///< what is as it should be
 };
 
 /// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.

@@ -238,9 +238,9 @@ void join_solids(CadModel &model, const FrameSpecification &specification, const
   if (!overlaps.empty())
     model.notes.push_back("the common part of solids that overlap counts once: " + joined(overlaps, "; ").substr(2));
   if (const int common = number_of_common_faces(pieces); common > 0)
-    model.notes.push_back("its " + std::to_string(model.solids.size()) + " solids are joined at " +
-                          std::to_string(common) + (common == 1 ? " common face" : " common faces") +
-                          ", as if they were welded there");
+    model.statements.push_back("its " + std::to_string(model.solids.size()) + " solids are joined at " +
+                               std::to_string(common) + (common == 1 ? " common face" : " common faces") +
+                               ", as if they were welded there");
   model.solids = std::move(pieces);
 }
 

@@ -20,9 +20,12 @@ std::string try_geometry(const fem::FrameSpecification &frame, std::vector<std::
 {
   if (!coupling::has_frame_service())
     return frame.cad + " is there; this build cannot read it";
-  const auto [found, notes] = coupling::mesh_service().inspect(frame);
+  const auto [found, notes, statements] = coupling::mesh_service().inspect(frame);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
-  return frame.cad + ": " + found + "; not meshed";
+  std::string text = frame.cad + ": " + found + "; not meshed";
+  for (const std::string &statement : statements)
+    text += "\nframe: " + statement;
+  return text;
 }
 
 /// How many [element.NAME] the scene has, whatever each of them becomes: of some a force, a mass, several contacts.

@@ -156,6 +156,8 @@ int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
             << report.volume << " m^3, " << report.mass << " kg " << weighed(frame.material.rho) << '\n';
   print_solids(report, frame.material.rho);
+  for (const std::string &statement : report.statements)
+    std::cout << statement << '\n';
   for (const std::string &note : report.notes)
     std::cout << "note: " << note << '\n';
   print_mesh(report);

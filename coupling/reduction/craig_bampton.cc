@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -292,10 +293,10 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   {
     const InterfaceReceptance receptance(shapes.basis, shapes.star, statics.response, shapes.refined,
                                          frame.modal_damping_ratio, two_pi * options.frequency);
-    notes.push_back(receptance_statement(receptance, shapes.basis, frame.interfaces, {m}, options.frequency) +
-                    (has_inner_dampers(shapes.basis, frame.B)
-                         ? "; dampers inside the frame are left out of this: leave modes out, and shapes for them join"
-                         : ""));
+    shapes.statement = receptance_statement(receptance, shapes.basis, frame.interfaces, {m}, options.frequency);
+    if (has_inner_dampers(shapes.basis, frame.B))
+      notes.push_back(std::exchange(shapes.statement, "") +
+                      "; dampers inside the frame are left out of this: leave modes out, and shapes for them join");
   }
   if (options.n_modes >= 0)
     warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
@@ -331,7 +332,8 @@ Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Sta
   const ReductionBasis &basis = shapes.basis;
   ReducedMatrices      &star  = shapes.star;
   ReducedFrame          reduced;
-  reduced.notes = frame.notes;
+  reduced.notes      = frame.notes;
+  reduced.statements = frame.statements;
   reduced.notes.insert(reduced.notes.end(), notes.begin(), notes.end());
   if (!shapes.statement.empty())
     reduced.statements.push_back(shapes.statement);

@@ -51,8 +51,8 @@ public:
     scale_ = M_.diagonal().head(n1_).unaryExpr([](double x) { return x > 0. ? 1. / std::sqrt(x) : 1.; });
   }
 
-  /// Shapes zero on q1; takes what is new of them, and tells whether there is anything.
-  bool append(MatrixXd W)
+  /// Shapes zero on q1; takes what is new of them and has mass, and tells how many those are.
+  Index append(MatrixXd W)
   {
     const auto mass = [&] { return MatrixXd(W.transpose() * symmetric_product(frame_.M, W)); };
     W *= mass().diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 0.; }).asDiagonal();
@@ -69,8 +69,10 @@ public:
     W_.rightCols(kept) =
         W * left.eigenvectors().rightCols(kept) * left.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
     extend(kept);
-    return kept > 0;
+    return kept;
   }
+
+  const MatrixXd &shapes() const { return W_; }
 
   struct Answer
   {
@@ -220,7 +222,8 @@ DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, d
   DampedModel model(held, basis, highest, m, frame);
   if (X.cols() > 0)
     model.append(X);
-  DamperShapes result{MatrixXd(X.rows(), 0)};
+  DamperShapes result;
+  Index        shapes = 0;
   for (;;)
   {
     DampedModel::Answer worst;
@@ -232,16 +235,17 @@ DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, d
       if (answer.error >= worst.error)
         worst = std::move(answer);
     }
-    result.left       = worst.error;
-    const auto shapes = result.W.cols();
+    result.left = worst.error;
     if (worst.error <= tolerance || shapes >= most || !std::isfinite(worst.error))
-      return result;
-    const MatrixXd W = model.principal_shapes(worst, tolerance, most - shapes);
-    result.W.conservativeResize(Eigen::NoChange, shapes + W.cols());
-    result.W.rightCols(W.cols()) = W;
-    if (!model.append(W))
-      return result;
+      break;
+    const Index added = model.append(model.principal_shapes(worst, tolerance, most - shapes));
+    result.exhausted  = added == 0;
+    if (result.exhausted)
+      break;
+    shapes += added;
   }
+  result.W = model.shapes().rightCols(shapes);
+  return result;
 }
 
 } // namespace gestell::coupling

@@ -17,6 +17,7 @@ struct DamperShapes
   Eigen::MatrixXd W;         ///< [n x k], zero on q1
   double          left = 0.; ///< estimated relative error of the damped receptance with them, modes left out included
   std::vector<double> of_groups{}; ///< the same of each interface by itself
+  bool exhausted = false; ///< no shape is left that has mass: what remains no coordinate of the model could carry
 };
 
 /// Whether B acts on anything but q1.

@@ -226,7 +226,9 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
                                                options.frequency, dampers ? &*dampers : nullptr);
       if (dampers && dampers->left > options.tolerance)
         notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
-                        percent(options.tolerance) + ", for the dampers inside the frame are strong");
+                        percent(options.tolerance) +
+                        (dampers->exhausted ? ", for dampers act where the frame has no mass"
+                                            : ", for the dampers inside the frame are strong"));
       basis.truncate(judgement.fewest.modes);
       fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
     }

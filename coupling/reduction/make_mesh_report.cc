@@ -107,6 +107,7 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
   report.available_memory = fem::available_memory();
   report.features         = features_of(geometry);
   report.notes            = geometry.notes;
+  report.statements       = geometry.statements;
   for (const auto &solid : geometry.solids)
     report.solids.push_back({solid.name, solid.volume, solid.volume * frame.material.rho, solid.min, solid.max});
   double diagonal = 0.;

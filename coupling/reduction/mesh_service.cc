@@ -29,7 +29,7 @@ public:
     fem::require_valid(frame.masses, frame.interfaces);
     const fem::GeometryReport geometry = fem::inspect_geometry(frame);
     Inspection  result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
-                      geometry.notes};
+                      geometry.notes, geometry.statements};
     std::string between = "; surfaces: ";
     for (const auto &[name, faces] : geometry.surfaces)
     {

@@ -114,6 +114,29 @@ TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
       << scene.warnings[0];
 }
 
+TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
+{
+  try
+  {
+    const SceneFolder folder;
+    apps::build_machine(apps::read_scene(folder.write("scene.toml", "name = \"x\"\n")));
+    FAIL() << "built from nothing";
+  }
+  catch (const std::invalid_argument &refusal)
+  {
+    EXPECT_NE(std::string(refusal.what()).find("has nothing that moves; declare a [frame]"), std::string::npos)
+        << refusal.what();
+  }
+}
+
+TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
+{
+  const SceneFolder folder;
+  const auto        scene = apps::read_scene(folder.write("scene.toml", small_scene()), {"gravity=[0, 0, -9810]"});
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("1000 times that of the earth"), std::string::npos) << scene.warnings[0];
+}
+
 TEST(SceneFrame, MistakesInMassesMaterialsAndDampingAreReportedWithPlaceAndRemedy)
 {
   const std::vector<std::array<std::string, 4>> cases = {

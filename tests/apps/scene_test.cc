@@ -293,27 +293,6 @@ TEST(Scene, WithoutRunOrSignalsIsReadButNotRun)
   EXPECT_NO_THROW(apps::require_run(read(small_scene())));
 }
 
-TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
-{
-  try
-  {
-    apps::build_machine(read("name = \"x\"\n"));
-    FAIL() << "built from nothing";
-  }
-  catch (const std::invalid_argument &refusal)
-  {
-    EXPECT_NE(std::string(refusal.what()).find("has nothing that moves; declare a [frame]"), std::string::npos)
-        << refusal.what();
-  }
-}
-
-TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
-{
-  const auto scene = read(small_scene(), {"gravity=[0, 0, -9810]"});
-  ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_NE(scene.warnings[0].find("1000 times that of the earth"), std::string::npos) << scene.warnings[0];
-}
-
 // --- frames from CAD
 
 TEST(SceneFrame, FromCadBecomesTheSpecificationForFem)

@@ -302,7 +302,7 @@ TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
   const Mesh merged    = make_mesh(s);
   EXPECT_EQ(merged.points.size(), 12u);
   EXPECT_NEAR(volume_of_cells(merged), 2., 1e-14);
-  EXPECT_THAT(merged.notes, Contains(HasSubstr("4 nodes are taken for one with another")));
+  EXPECT_THAT(merged.statements, Contains(HasSubstr("4 nodes are taken for one with another")));
   s.mesh.gap    = 0.;
   s.mesh.bodies = 2;
   EXPECT_EQ(make_mesh(s).points.size(), 16u);

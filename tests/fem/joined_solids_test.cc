@@ -46,8 +46,8 @@ TEST(SolidsThatTouch, ShareTheNodesOfTheirCommonFace)
   EXPECT_EQ(mesh.solids.size(), 2u);
   EXPECT_NEAR(volume_of_cells(mesh), 2e-3, 1e-12);
   EXPECT_NEAR(area_of_skin(mesh), 12 * 0.01 - 2 * 0.1 * 0.08, 1e-10); // what they share is inside
-  ASSERT_FALSE(mesh.notes.empty());
-  EXPECT_THAT(mesh.notes[0], HasSubstr("2 solids are joined at 1 common face"));
+  ASSERT_FALSE(mesh.statements.empty());
+  EXPECT_THAT(mesh.statements[0], HasSubstr("2 solids are joined at 1 common face"));
 }
 
 TEST(SolidsThatTouch, InALineOnlyAreTwoBodies)

@@ -269,9 +269,9 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
     options.frequency    = c.highest_hz;
     const auto     model = craig_bampton(c.frame, options);
     const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
-    ASSERT_FALSE(model.notes.empty());
-    const auto       at   = model.notes[0].find("within ");
-    const double     told = std::stod(model.notes[0].substr(at + 7)) / 100.;
+    ASSERT_FALSE(model.statements.empty());
+    const auto       at   = model.statements[0].find("within ");
+    const double     told = std::stod(model.statements[0].substr(at + 7)) / 100.;
     std::vector<int> first(model.n_interface);
     std::iota(first.begin(), first.end(), 0);
     const double found = error(by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor), exact, scale);
@@ -288,9 +288,10 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
         full.emplace_back(of_all(own, own));
       worst = std::max(worst, error(H, full, scale.segment(at, 6)));
     }
-    const auto by_itself = model.notes[0].find("by itself ");
-    ASSERT_NE(by_itself, std::string::npos) << model.notes[0];
-    EXPECT_NEAR(std::stod(model.notes[0].substr(by_itself + 10)) / 100., worst, 0.15 * worst) << model.notes[0];
+    const auto by_itself = model.statements[0].find("by itself ");
+    ASSERT_NE(by_itself, std::string::npos) << model.statements[0];
+    EXPECT_NEAR(std::stod(model.statements[0].substr(by_itself + 10)) / 100., worst, 0.15 * worst)
+        << model.statements[0];
   }
 }
 
@@ -300,12 +301,12 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   auto       options = with_modes(2);
   options.frequency  = c.highest_hz;
   const auto model   = craig_bampton(c.frame, options);
-  ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
-      << model.notes[0];
-  const double told = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
+  ASSERT_EQ(model.statements.size(), 1u);
+  EXPECT_EQ(model.statements[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
+      << model.statements[0];
+  const double told = std::stod(model.statements[0].substr(model.statements[0].find("has ") + 4));
   EXPECT_NEAR(told, model.omega0[1] / (2. * M_PI), 1e-2 * told) << "rounded";
-  EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
+  EXPECT_NE(model.statements[0].find("ask for more modes"), std::string::npos);
 
   EXPECT_NE(craig_bampton(c.frame,
                           [&]
