@@ -101,7 +101,7 @@ TEST(ConvergeMesh, RefinesAScriptThatMeshesByItselfAsAWhole)
   for (std::size_t i = 1; i < result.levels.size(); ++i)
   {
     EXPECT_LT(result.levels[i].size, result.levels[i - 1].size);
-    EXPECT_GE(result.levels[i].n_coordinates, 1.5 * result.levels[i - 1].n_coordinates);
+    EXPECT_GE(result.levels[i].n_coordinates, 1.2 * result.levels[i - 1].n_coordinates);
   }
 }
 

@@ -252,9 +252,18 @@ TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
   std::iota(first.begin(), first.end(), 0);
   const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
   const auto     exact = direct(frame.M, frame.B, frame.C, frame.interface_coordinates(), omegas);
+  const double   found = error(direct(model.M, model.B, model.C, first, omegas), exact, scale);
+  if (massless && strength > 1.) // no coordinate could carry what dampers do there: modes must have mass
+  {
+    ASSERT_EQ(model.notes.size(), 1u);
+    EXPECT_NE(model.notes[0].find("dampers act where the frame has no mass"), std::string::npos) << model.notes[0];
+    const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
+    EXPECT_LE(found, 1.05 * told) << model.notes[0]; // the grids differ
+    EXPECT_LE(told, 1.5 * found) << model.notes[0];
+    return;
+  }
   ASSERT_FALSE(model.statements.empty());
-  EXPECT_LE(error(direct(model.M, model.B, model.C, first, omegas), exact, scale), options.tolerance)
-      << model.statements[0];
+  EXPECT_LE(found, options.tolerance) << model.statements[0];
 }
 INSTANTIATE_TEST_SUITE_P(DampedOrNot, FewCoordinates,
                          ::testing::Combine(::testing::Bool(), ::testing::Values(0., 0.5, 20.)));
@@ -301,12 +310,12 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   auto       options = with_modes(2);
   options.frequency  = c.highest_hz;
   const auto model   = craig_bampton(c.frame, options);
-  ASSERT_EQ(model.statements.size(), 1u);
-  EXPECT_EQ(model.statements[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
-      << model.statements[0];
-  const double told = std::stod(model.statements[0].substr(model.statements[0].find("has ") + 4));
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
+      << model.notes[0];
+  const double told = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
   EXPECT_NEAR(told, model.omega0[1] / (2. * M_PI), 1e-2 * told) << "rounded";
-  EXPECT_NE(model.statements[0].find("ask for more modes"), std::string::npos);
+  EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
 
   EXPECT_NE(craig_bampton(c.frame,
                           [&]
@@ -319,7 +328,7 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
                 .find("no fixed-interface modes are kept"),
             std::string::npos);
   options.n_modes = 40;
-  EXPECT_EQ(craig_bampton(c.frame, options).notes[0].find("ask for more modes"), std::string::npos);
+  EXPECT_TRUE(craig_bampton(c.frame, options).notes.empty());
 }
 
 } // namespace
