@@ -259,7 +259,7 @@ TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
     EXPECT_NE(model.notes[0].find("dampers act where the frame has no mass"), std::string::npos) << model.notes[0];
     const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
     EXPECT_LE(found, 1.05 * told) << model.notes[0]; // the grids differ
-    EXPECT_LE(told, 1.5 * found) << model.notes[0];
+    EXPECT_LE(told, 2. * found) << "dampers within the inside are left out of the estimate, and would lower it";
     return;
   }
   ASSERT_FALSE(model.statements.empty());
