@@ -2,7 +2,9 @@
 
 #include "coupling/dense_modes.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <limits>
@@ -106,6 +108,14 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.frequencies_hz  = modes.omega / (2. * M_PI);
   dense.frequency_error = VectorXd::Zero(modes.omega.size());
   return dense;
+}
+
+MatrixXd unit_translations(const ReducedFrame &frame)
+{
+  const Eigen::LLT<MatrixXd> factor(frame.M);
+  if (factor.info() == Eigen::Success)
+    return factor.solve(frame.translations_load);
+  return frame.M.completeOrthogonalDecomposition().solve(frame.translations_load);
 }
 
 } // namespace gestell::coupling

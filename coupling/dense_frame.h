@@ -19,4 +19,7 @@ namespace gestell::coupling
  */
 ReducedFrame dense_frame(const fem::FrameMatrices &frame);
 
+/// R [n x 3] with M R = translations_load: what dense_frame() needs to give the same load again.  M may be singular.
+Eigen::MatrixXd unit_translations(const ReducedFrame &frame);
+
 } // namespace gestell::coupling

@@ -105,8 +105,8 @@ void require_sound(const Mesh &mesh)
   for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
     if (const double q = corner_quality(mesh, mesh.hexahedra[i]); !(q > 0.))
       throw std::invalid_argument(
-          "quadratic_mesh: hexahedron " + std::to_string(i) + " folds: the determinant at a " + "corner is " + text(q) +
-          " times the edges there, but a positive one is needed; mesh again, or order its " + "corners as gmsh does.");
+          "quadratic_mesh: hexahedron " + std::to_string(i) + " folds: the determinant at a corner is " + text(q) +
+          " times the edges there, but a positive one is needed; mesh again, or order its corners as gmsh does.");
 }
 
 } // namespace

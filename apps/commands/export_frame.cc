@@ -1,10 +1,8 @@
 #include "apps/commands/export_frame.h"
 
+#include "coupling/dense_frame.h"
 #include "coupling/matrix_market.h"
 #include "coupling/petsc_binary.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 
 #include <cstdio>
 #include <filesystem>
@@ -132,15 +130,6 @@ Eigen::MatrixXd node_displacements(const coupling::ReducedFrame &frame)
   return A;
 }
 
-/// R with M R = load; M may be singular.
-Eigen::MatrixXd translations(const coupling::ReducedFrame &frame)
-{
-  const Eigen::LLT<Eigen::MatrixXd> factor(frame.M);
-  if (factor.info() == Eigen::Success)
-    return factor.solve(frame.translations_load);
-  return frame.M.completeOrthogonalDecomposition().solve(frame.translations_load);
-}
-
 std::string row_text(const Eigen::VectorXd &row)
 {
   std::string text = "[";
@@ -177,7 +166,7 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   add("mass", frame.M, true);
   add("damping", frame.B, true);
   add("stiffness", frame.C, true);
-  add("translations", translations(frame));
+  add("translations", coupling::unit_translations(frame));
   if (frame.mass > 0.)
     scene += "total_mass = " + digits(frame.mass) + '\n';
   files.text("nodes.csv", node_table(frame));

@@ -90,4 +90,16 @@ TEST(DenseFrame, RecognisesModesBehindTheInterface)
   EXPECT_FALSE(coupling::dense_frame(frame).modal);
 }
 
+TEST(UnitTranslations, GiveTheLoadAgainWhereACoordinateHasNoMass)
+{
+  for (const double mass : {3., 0.})
+  {
+    coupling::ReducedFrame frame;
+    frame.M                 = Eigen::Vector3d(2., mass, 5.).asDiagonal();
+    frame.translations_load = frame.M * Eigen::Matrix3d::Random();
+    const auto R            = coupling::unit_translations(frame);
+    EXPECT_LT((frame.M * R - frame.translations_load).norm(), 1e-14) << mass;
+  }
+}
+
 } // namespace

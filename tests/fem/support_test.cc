@@ -1,5 +1,6 @@
 #include "fem/discretisation.h"
 #include "fem/rigid_motions.h"
+#include "fem/sparse_sum.h"
 #include "tests/fem/box_mesh.h"
 #include "tests/fem/statics.h"
 
@@ -87,6 +88,17 @@ TEST(Rayleigh, DampsInProportionToMassAndStiffnessOfTheMaterial)
   const auto            with = discretise(bar_mesh(), damped), without = discretise(bar_mesh(), bar_on_springs());
   const Eigen::MatrixXd C = discretise(bar_mesh(), floating).C, B = with.B - without.B;
   EXPECT_LT((B - 3. * Eigen::MatrixXd(with.M) - 2e-5 * C).norm(), 1e-12 * B.norm()) << "springs of the feet stay out";
+}
+
+TEST(Rayleigh, OfMassIsWarnedOfWhereNothingHoldsTheFrame)
+{
+  auto frame          = bar_on_springs();
+  frame.rayleigh_mass = 3.;
+  EXPECT_TRUE(discretise(bar_mesh(), frame).notes.empty());
+  frame.supports   = {};
+  const auto notes = discretise(bar_mesh(), frame).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("their speed falls by half in 0.231 s"), std::string::npos) << notes[0]; // ln 2 / 3
 }
 
 TEST(Foundation, GivesStiffnessAndDampingOfItsTotalsToTranslations)
@@ -345,6 +357,20 @@ TEST(FreeMotions, EndWhereTheInterfaceIsHeld)
   held = {frame.interfaces[0].coordinate[fem::ux]};
   // Holding ux of the top leaves, besides the translations along y and z, turns that do not move it.
   EXPECT_EQ(fem::free_motions(frame, held).size(), 5u);
+}
+
+TEST(SparseSum, OfMatricesThatAreNotCompressedIsTheirSum)
+{
+  fem::SparseMatrix           A(Eigen::MatrixXd::Ones(3, 3).sparseView());
+  Eigen::SparseMatrix<double> S(3, 3);
+  S.reserve(Eigen::Vector3i(2, 2, 2)); // room beside the entries
+  S.insert(0, 0) = 1.;
+  S.insert(2, 1) = 2.;
+  S.insert(1, 2) = 3.;
+  ASSERT_FALSE(S.isCompressed());
+  const Eigen::MatrixXd sum = Eigen::MatrixXd(A) + Eigen::MatrixXd(S);
+  fem::add(A, S);
+  EXPECT_EQ(Eigen::MatrixXd(A), sum);
 }
 
 } // namespace
