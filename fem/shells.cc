@@ -1,13 +1,15 @@
 #include "fem/shells.h"
 
 #include "fem/cad_file.h"
+#include "fem/degenerate_edges.h"
 #include "fem/step_text.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
 
-#include <algorithm>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 namespace gestell::fem
 {
@@ -15,8 +17,8 @@ namespace gestell::fem
 namespace
 {
 
-/// Edges of these faces that only one of them has; a pole of a sphere and the tip of a cone are edges without length.
-std::vector<int> open_edges(const std::vector<int> &faces)
+/// Edges of these faces that only one of them has, but those which are a point (`degenerate`).
+std::vector<int> open_edges(const std::vector<int> &faces, const std::set<int> &degenerate)
 {
   gmsh::vectorpair entities, edges;
   for (const int face : faces)
@@ -24,12 +26,8 @@ std::vector<int> open_edges(const std::vector<int> &faces)
   gmsh::model::getBoundary(entities, edges, /* combined */ true, /* oriented */ false, /* recursive */ false);
   std::vector<int> open;
   for (const auto &[dim, tag] : edges)
-  {
-    double length = 0.;
-    gmsh::model::occ::getMass(1, tag, length);
-    if (length > 0.)
+    if (degenerate.count(tag) == 0)
       open.push_back(tag);
-  }
   return open;
 }
 
@@ -62,15 +60,16 @@ std::vector<int> loose_faces()
 std::string open_edges_of_faces(double unit)
 {
   const std::vector<int> loose = loose_faces();
-  const std::vector<int> open  = loose.empty() ? loose : open_edges(loose);
+  const std::vector<int> open  = loose.empty() ? loose : open_edges(loose, degenerate_edges());
   return open.empty() ? "" : " (" + told(open, unit) + ")";
 }
 
 void check_shells(CadModel &model, const CadSource &source)
 {
-  const std::string head = source.place + ": " + source.path;
+  const std::string   head       = source.place + ": " + source.path;
+  const std::set<int> degenerate = degenerate_edges();
   for (const Solid &solid : model.solids)
-    if (const std::vector<int> open = open_edges(solid.faces); !open.empty())
+    if (const std::vector<int> open = open_edges(solid.faces, degenerate); !open.empty())
       throw std::invalid_argument(head + ": the shell of solid \"" + solid.name + "\" is " + told(open, model.unit) +
                                   ", lengths in m; close it in the CAD program (sew or heal), and export it again.");
   const std::vector<int> loose = loose_faces();

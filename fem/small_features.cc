@@ -1,10 +1,12 @@
 #include "fem/small_features.h"
 
+#include "fem/degenerate_edges.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
 
 #include <limits>
+#include <set>
 
 namespace gestell::fem
 {
@@ -40,11 +42,14 @@ SmallFeatures small_features(const CadModel &model, double limit)
   result.shortest_edge = result.narrowest_face = infinite;
   gmsh::vectorpair edges;
   gmsh::model::getEntities(edges, 1);
+  const std::set<int> degenerate = degenerate_edges();
   for (const auto &[dim, tag] : edges)
   {
+    if (degenerate.count(tag) > 0)
+      continue;
     const double length = length_of(tag, model.unit);
-    result.n_short_edges += length > 0. && length < limit;
-    if (!(length > 0.) || length >= result.shortest_edge)
+    result.n_short_edges += length < limit;
+    if (length >= result.shortest_edge)
       continue;
     result.shortest_edge = length;
     Vector3 low, high;
