@@ -1,5 +1,7 @@
 #include "coupling/frame_cache.h"
 
+#include "coupling/whole_file.h"
+
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -16,8 +18,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t key_length = 64;   // digits of SHA-256
-constexpr int         writing    = 3600; // [s] that a file may take to be written
+constexpr std::size_t key_length = 64; // digits of SHA-256
 
 bool is_key(const std::string &text)
 {
@@ -131,7 +132,6 @@ std::vector<CacheEntry> cache_entries(CacheCheck check)
   for (fs::directory_iterator at(cache_folder(), error), end; !error && at != end; at.increment(error))
   {
     CacheEntry        entry;
-    const std::string name = at->path().filename().string();
     struct stat       status;
     entry.file = at->path().string();
     if (stat(entry.file.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
@@ -141,7 +141,7 @@ std::vector<CacheEntry> cache_entries(CacheCheck check)
     entry.key       = at->path().stem().string();
     if (is_key(entry.key) && at->path().extension() == ".h5")
       describe(entry);
-    else if (name.rfind(unfinished, 0) == 0 && entry.last_used < std::time(nullptr) - writing)
+    else if (abandoned(entry.file))
       entry.defect = "was never finished";
     else
       continue;

@@ -1,5 +1,7 @@
 #include "coupling/matrix_market.h"
 
+#include "coupling/whole_file.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -252,30 +254,24 @@ namespace
 class Output
 {
 public:
-  Output(const std::string &file, const char *kind, const std::string &remark) : name_(file), out_(file)
+  Output(const std::string &file, const char *kind, const std::string &remark) : file_(file)
   {
-    out_ << "%%MatrixMarket matrix " << kind << '\n';
+    stream() << "%%MatrixMarket matrix " << kind << '\n';
     std::istringstream lines(remark);
     for (std::string line; std::getline(lines, line);)
-      out_ << "% " << line << '\n';
+      stream() << "% " << line << '\n';
   }
-  std::ostream &stream() { return out_; }
+  std::ostream &stream() { return file_.stream(); }
   const char   *digits(double value)
   {
     std::snprintf(digits_, sizeof digits_, "%.17g", value);
     return digits_;
   }
-  void close()
-  {
-    out_.close();
-    if (!out_)
-      throw std::runtime_error(name_ + ": cannot be written; check the folder, its permissions and the space left");
-  }
+  void finish() { file_.finish(); }
 
 private:
-  std::string   name_;
-  std::ofstream out_;
-  char          digits_[40];
+  WholeFile file_;
+  char      digits_[40];
 };
 
 } // namespace
@@ -294,7 +290,7 @@ void write_matrix_market(const std::string &file, const Matrix &A, Symmetry symm
     for (Matrix::InnerIterator a(A, j); a; ++a)
       if (!lower || a.row() >= j)
         out.stream() << a.row() + 1 << ' ' << j + 1 << ' ' << out.digits(a.value()) << '\n';
-  out.close();
+  out.finish();
 }
 
 void write_matrix_market(const std::string &file, const Eigen::MatrixXd &A, const std::string &remark)
@@ -304,7 +300,7 @@ void write_matrix_market(const std::string &file, const Eigen::MatrixXd &A, cons
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     for (Eigen::Index i = 0; i < A.rows(); ++i)
       out.stream() << out.digits(A(i, j)) << '\n';
-  out.close();
+  out.finish();
 }
 
 } // namespace gestell::coupling

@@ -1,5 +1,7 @@
 #include "coupling/petsc_binary.h"
 
+#include "coupling/whole_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -155,7 +157,7 @@ Matrix read_sparse(Reader &reader, int rows, int columns, int entries, const std
 class Writer
 {
 public:
-  explicit Writer(const std::string &name) : name_(name), file_(name, std::ios::binary) {}
+  explicit Writer(const std::string &name) : file_(name) {}
   void integer(std::int64_t value) { put(std::uint32_t(std::int32_t(value))); }
   void real(double value)
   {
@@ -163,12 +165,7 @@ public:
     std::memcpy(&bits, &value, sizeof bits);
     put(bits);
   }
-  void close()
-  {
-    file_.close();
-    if (!file_)
-      throw std::runtime_error(name_ + ": cannot be written; check the folder, its permissions and the space left");
-  }
+  void finish() { file_.finish(); }
 
 private:
   template <typename Unsigned>
@@ -177,10 +174,10 @@ private:
     char bytes[sizeof value];
     for (std::size_t i = sizeof value; i > 0; --i, value = Unsigned(value >> 8))
       bytes[i - 1] = char(value & 0xff);
-    file_.write(bytes, sizeof bytes);
+    file_.stream().write(bytes, sizeof bytes);
   }
-  std::string   name_;
-  std::ofstream file_;
+
+  WholeFile file_;
 };
 
 } // namespace
@@ -213,7 +210,7 @@ void write_petsc_matrix(const std::string &file, const Matrix &A)
     out.integer(by_rows.innerIndexPtr()[k]);
   for (int k = 0; k < by_rows.nonZeros(); ++k)
     out.real(by_rows.valuePtr()[k]);
-  out.close();
+  out.finish();
 }
 
 void write_petsc_matrix(const std::string &file, const Eigen::MatrixXd &A)
@@ -224,7 +221,7 @@ void write_petsc_matrix(const std::string &file, const Eigen::MatrixXd &A)
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.cols(); ++j)
       out.real(A(i, j));
-  out.close();
+  out.finish();
 }
 
 bool is_petsc_file(const std::string &file)

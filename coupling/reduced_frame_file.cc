@@ -6,12 +6,9 @@
 
 #include <array>
 #include <filesystem>
-#include <random>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
-
-#include <unistd.h>
 
 namespace gestell::coupling
 {
@@ -263,45 +260,25 @@ FrameOrigin read_origin(const Hdf5File &file)
   return {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source")};
 }
 
-/// A name beside `file` that no other process uses, here or on another machine.
-std::string name_beside(const std::string &file)
-{
-  std::random_device random;
-  const fs::path     path(file);
-  return (path.parent_path() / (unfinished + std::to_string(getpid()) + "-" + std::to_string(random()))).string();
-}
-
 } // namespace
-
-const char *const unfinished = "unfinished-";
 
 void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const FrameOrigin &origin)
 {
   if (!frame.modal)
     throw std::invalid_argument(name + ": a frame in physical coordinates is not reduced; files hold reduced frames");
-  const fs::path    path(name);
-  const std::string beside = name_beside(name);
-  std::error_code   error;
+  const fs::path  path(name);
+  std::error_code error;
   if (path.has_parent_path())
     fs::create_directories(path.parent_path(), error);
   if (error)
     throw std::runtime_error(name + ": its folder cannot be made: " + error.message());
-  try
-  {
-    Hdf5File file;
-    file.write("made_from", text_of(origin.recipe));
-    file.write("scene", origin.scene);
-    file.write("source", origin.source);
-    each_part(frame, Writer(file));
-    write_stress(file, frame.stress);
-    write_sealed(beside, title, file.image());
-    fs::rename(beside, path);
-  }
-  catch (const std::exception &failure)
-  {
-    fs::remove(beside, error);
-    throw std::runtime_error(name + ": cannot be written: " + failure.what());
-  }
+  Hdf5File file;
+  file.write("made_from", text_of(origin.recipe));
+  file.write("scene", origin.scene);
+  file.write("source", origin.source);
+  each_part(frame, Writer(file));
+  write_stress(file, frame.stress);
+  write_sealed(name, title, file.image());
 }
 
 FrameSummary read_frame_summary(const std::string &name)

@@ -53,7 +53,4 @@ struct FrameSummary
 /// @throws std::runtime_error with what is wrong with the file.
 FrameSummary read_frame_summary(const std::string &file);
 
-/// Beginning of the names of files that are being written, or were when their process ended.
-extern const char *const unfinished;
-
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
 #include "coupling/sealed_file.h"
 
 #include "coupling/sha256.h"
+#include "coupling/whole_file.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -53,12 +54,10 @@ std::string defect_of(const std::string &head, const std::string &title)
 void write_sealed(const std::string &file, const std::string &title, const std::string &content)
 {
   const std::string head = head_of(title, Sha256().update(content).hexadecimal());
-  std::ofstream     out(file, std::ios::binary);
-  out.write(head.data(), std::streamsize(head.size()));
-  out.write(content.data(), std::streamsize(content.size()));
-  out.close();
-  if (!out)
-    throw std::runtime_error("the folder cannot be written to, or the disk is full");
+  WholeFile         out(file);
+  out.stream().write(head.data(), std::streamsize(head.size()));
+  out.stream().write(content.data(), std::streamsize(content.size()));
+  out.finish();
 }
 
 std::string head_defect(const std::string &file, const std::string &title)

@@ -322,6 +322,9 @@ int chart_command(const CommonOptions &options, const ChartCommandOptions &chart
   chart.version     = version;
   chart.peers       = chart_options.peers ? peers::peer_version() : "";
   chart.targets     = ladder("--error", chart_options.errors, kind::number, {1e-2, 1e-3, 1e-5, 1e-7});
+  if (const auto beside = std::filesystem::path(chart_options.reference).parent_path();
+      request.file && incomplete(beside))
+    chart.notes.push_back("--reference: " + incomplete_words(beside));
   if (chart_options.peers && !peers::peers_available())
     chart.notes.push_back("this build has no SUNDIALS: general-purpose integrators are missing");
 

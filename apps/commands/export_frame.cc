@@ -3,10 +3,10 @@
 #include "coupling/dense_frame.h"
 #include "coupling/matrix_market.h"
 #include "coupling/petsc_binary.h"
+#include "coupling/whole_file.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -61,14 +61,13 @@ public:
 
   void text(const std::string &file, const std::string &content)
   {
-    std::ofstream out(path(file));
-    out << content;
-    out.close();
-    if (!out)
-      throw std::runtime_error(path(file) +
-                               ": cannot be written; check the folder, its permissions and the space left");
+    coupling::WholeFile out(path(file));
+    out.stream() << content;
+    out.finish();
     files_.push_back(path(file));
   }
+
+  void remove(const std::string &file) const { std::filesystem::remove(path(file)); }
 
   const std::vector<std::string> &files() const { return files_; }
 
@@ -159,7 +158,9 @@ MatrixFormat matrix_format(const std::string &name)
 std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
                                       MatrixFormat format, const std::string &remark)
 {
-  Export      files(folder, format, remark);
+  const char *const whole = "frame.toml"; // written last: without it the export is incomplete
+  Export            files(folder, format, remark);
+  files.remove(whole);
   std::string scene = "# " + remark + "\n# Paths are relative to the scene that takes this table.\n[frame]\n";
   const auto  add   = [&](const std::string &key, const Eigen::MatrixXd &A, bool symmetric = false)
   { scene += key + " = " + quoted(files.matrix(key, A, symmetric)) + '\n'; };
@@ -179,7 +180,7 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   }
   for (const auto &output : frame.outputs)
     scene += output_table(output);
-  files.text("frame.toml", scene);
+  files.text(whole, scene);
   return files.files();
 }
 

@@ -87,6 +87,8 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   progress.done();
   result.wall_s           = progress.wall_seconds();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  if (beside_a_run && incomplete(folder))
+    result.warnings.push_back(incomplete_words(folder));
   if (beside_a_run)
     write_modes(folder, result);
   else

@@ -91,15 +91,15 @@ struct Surface
   {
     displacement->Modified();
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(path.c_str());
+    writer->WriteToOutputStringOn(); // VTK leaves half a file where the disk is full, and does not always say so
     writer->SetInputData(poly);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     // Half the size of plain numbers at no cost in time; zlib would halve it again and take ten times as long.
     writer->SetCompressorTypeToLZ4();
     if (writer->Write() == 0)
-      throw std::runtime_error("cannot write " + path.string() +
-                               "; free some space or name another folder with -o DIR.");
+      throw std::runtime_error(path.string() + ": VTK cannot make this file");
+    write_file(path, writer->GetOutputString());
   }
 };
 
@@ -217,7 +217,6 @@ void write_frame_modes(const fs::path &folder, const Result &result, std::vector
   if (frame.empty() || result.frame_modes.empty())
     return;
 
-  fs::create_directories(folder / "frame_modes");
   Collection collection;
   for (std::size_t j = 0; j < result.frame_modes.size(); ++j)
   {
@@ -242,7 +241,6 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
   const coupling::RunResult &run = *result.run;
   FrameSurface               frame(result.scenery);
 
-  fs::create_directories(folder / "motion");
   Collection collection;
   for (std::size_t k = 0; k < run.picture_states.size(); ++k)
   {
@@ -266,7 +264,6 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
 
 void write_stress(const fs::path &folder, const StressResult &stress, std::vector<std::string> &names)
 {
-  fs::create_directories(folder / "stress");
   Collection collection;
   for (std::size_t k = 0; k < stress.instants.size(); ++k)
   {

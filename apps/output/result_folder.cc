@@ -4,10 +4,13 @@
 #include "apps/output/paraview.h"
 #include "apps/output/report.h"
 #include "apps/output/tables.h"
+#include "coupling/whole_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -23,25 +26,33 @@ namespace
 }
 
 /// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
-const char *const own_files[] = {"summary.json", "history.csv",         "modes.csv",       "frame_modes.pvd",
-                                 "motion.pvd",   "report.html",         "modes_along.csv", "modes_along_shapes.csv",
-                                 "stress.pvd",   "mesh_convergence.csv"};
+const char *const complete    = "summary.json"; ///< the first to be removed and the last to be written
+const char *const own_files[] = {complete,     "history.csv",         "modes.csv",       "frame_modes.pvd",
+                                 "motion.pvd", "report.html",         "modes_along.csv", "modes_along_shapes.csv",
+                                 "stress.pvd", "mesh_convergence.csv"};
 const std::pair<const char *, const char *> own_folders[] = {
     {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}, {"stress", ".vtp"}};
+
+template <typename Chosen>
+void remove_files(const fs::path &folder, const Chosen &chosen)
+{
+  std::vector<fs::path> old;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder))
+    if (chosen(entry.path()) || coupling::abandoned(entry.path().string()))
+      old.push_back(entry.path());
+  for (const fs::path &path : old)
+    fs::remove(path);
+}
 
 void remove_earlier_results(const fs::path &folder)
 {
   for (const char *name : own_files)
     fs::remove(folder / name);
+  remove_files(folder, [](const fs::path &) { return false; });
   for (const auto &[name, ending] : own_folders)
     if (fs::is_directory(folder / name))
     {
-      std::vector<fs::path> old;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder / name))
-        if (entry.path().extension() == ending)
-          old.push_back(entry.path());
-      for (const fs::path &path : old)
-        fs::remove(path);
+      remove_files(folder / name, [&, ending = ending](const fs::path &path) { return path.extension() == ending; });
       if (fs::is_empty(folder / name))
         fs::remove(folder / name);
     }
@@ -71,14 +82,22 @@ void write_along_tables(const Write &write, const Result &result)
 void write_file(const fs::path &path, const std::string &content)
 {
   fs::create_directories(path.parent_path());
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (!file)
-    throw std::runtime_error("cannot write " + path.string() + ": " +
-                             (errno != 0 ? std::strerror(errno) : "unknown reason") +
-                             "; free some space or name another folder with -o DIR.");
+  coupling::WholeFile file(path.string());
+  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.finish();
+}
+
+bool incomplete(const fs::path &folder)
+{
+  return !fs::exists(folder / complete) && std::any_of(std::begin(own_files), std::end(own_files),
+                                                       [&](const char *name) { return fs::exists(folder / name); });
+}
+
+std::string incomplete_words(const fs::path &folder)
+{
+  return folder.string() + " holds no " + complete +
+         ": a run ended before its results were whole; files that are there are whole, others are missing. Run it "
+         "again";
 }
 
 void require_writable(const fs::path &folder)
@@ -128,21 +147,20 @@ std::vector<std::string> write_results(const fs::path &folder, const Result &res
     names.push_back(name);
   };
 
-  Result told = result;
-  for (const std::string &warning : write_paraview(folder, result, names))
-    told.warnings.push_back(warning);
-
   if (result.run && !result.run->columns.empty())
     write("history.csv", history_csv(*result.run));
   if (!result.frame_modes.empty() || !result.coupled_modes.empty())
     write("modes.csv", modes_csv(result));
   if (result.along)
     write_along_tables(write, result);
+  Result told = result;
+  for (const std::string &warning : write_paraview(folder, result, names))
+    told.warnings.push_back(warning);
   const Report report = make_report(told);
   for (const auto &[name, svg] : report.charts)
     write("charts/" + name + ".svg", svg);
-  write("summary.json", summary_json(told));
   write("report.html", report.html);
+  write(complete, summary_json(told));
   return names;
 }
 

@@ -22,10 +22,10 @@ void require_writable(const std::filesystem::path &folder);
 void prepare_folder(const std::filesystem::path &folder);
 
 /**
- * Writes every file of docs/results.md that `result` has the values for.  The ParaView files are written before the
- * report, which tells what they could not show.
+ * Writes every file of docs/results.md that `result` has the values for: tables first, then the ParaView files, the
+ * report, which tells what they could not show, and summary.json, whose presence says that the folder is complete.
  *
- * @return names of the files written, relative to the folder; report.html last.
+ * @return names of the files written, relative to the folder; summary.json last.
  * @throws std::runtime_error if a file cannot be written to its end (disk full).
  */
 std::vector<std::string> write_results(const std::filesystem::path &folder, const Result &result);
@@ -34,7 +34,12 @@ std::vector<std::string> write_results(const std::filesystem::path &folder, cons
 /// @throws std::runtime_error as write_results().
 void write_modes(const std::filesystem::path &folder, const Result &result);
 
-/// Writes a whole file.  @throws std::runtime_error with path and reason.
+/// Whether a run ended before all of its results were in `folder`: there are files of a run, but no summary.json.
+bool incomplete(const std::filesystem::path &folder);
+
+std::string incomplete_words(const std::filesystem::path &folder); ///< a warning of such a folder
+
+/// Makes a file that is whole or not there.  @throws std::runtime_error with path and reason.
 void write_file(const std::filesystem::path &path, const std::string &content);
 
 } // namespace gestell::apps

@@ -6,6 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -209,6 +215,48 @@ TEST_F(ResultFolder, HoldsEveryFileOfTheContractAfterARun)
   for (const char *name : {"summary.json", "history.csv", "modes.csv", "report.html"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   EXPECT_FALSE(fs::is_empty(folder / "charts"));
+}
+
+/// Wherever the disk becomes full, files are whole or missing, and the folder says that it is incomplete.
+TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndIsIncomplete)
+{
+  const fs::path all = folder / "all", cut = folder / "cut";
+  prepare_folder(all);
+  rlim_t largest = 0;
+  for (const std::string &name : write_results(all, example_result()))
+    largest = std::max<rlim_t>(largest, fs::file_size(all / name));
+  EXPECT_FALSE(incomplete(all));
+
+  for (const rlim_t most : {largest / 100, largest / 10, largest / 3, largest - 1})
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{most, most};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      bool told = false;
+      try
+      {
+        prepare_folder(cut);
+        write_results(cut, example_result());
+      }
+      catch (const std::runtime_error &)
+      {
+        told = true;
+      }
+      _exit(told ? 0 : 1);
+    }
+    int status = 1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << most;
+    EXPECT_FALSE(fs::exists(cut / "summary.json"));
+    for (const auto &entry : fs::recursive_directory_iterator(cut))
+      if (entry.is_regular_file())
+        EXPECT_EQ(entry.file_size(), fs::file_size(all / fs::relative(entry.path(), cut))) << entry.path();
+  }
+  std::ofstream(cut / "history.csv") << "t [s]\n";
+  EXPECT_TRUE(incomplete(cut));
 }
 
 TEST_F(ResultFolder, ReportsAFileThatCannotBeWritten)
