@@ -2,7 +2,6 @@
 
 #include "coupling/dense_matrices.h"
 #include "coupling/joint_rank.h"
-#include "mechanism/joints/compliant_joint.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -37,26 +36,6 @@ std::vector<Demand> demands_of(const std::vector<std::pair<std::string, double>>
   for (const KnownSpin &spin : spins)
     demands.push_back({"the angular velocity \"" + spin.body + ".w" + "xyz"[spin.axis] + "\"", spin.value, "", &spin});
   return demands;
-}
-
-/// A compliant joint and where its measures begin.
-struct Yielding
-{
-  const mechanism::CompliantJoint *joint;
-  int                              first_measure;
-};
-
-std::vector<Yielding> compliant_joints(const Machine &machine)
-{
-  std::vector<Yielding> found;
-  int                   first = 0;
-  for (const ElementPlacement &placement : machine.elements())
-  {
-    if (const auto *joint = dynamic_cast<const mechanism::CompliantJoint *>(placement.element.get()))
-      found.push_back({joint, first});
-    first += placement.element->n_measures();
-  }
-  return found;
 }
 
 class Assembly
@@ -104,7 +83,7 @@ private:
     for (const auto &[row, shift] : known_.shifts)
       g_[row] -= shift;
     Eigen::Index n_yielding = 0;
-    for (const Yielding &own : yielding_)
+    for (const CompliantPlace &own : yielding_)
       n_yielding += own.joint->n_equations();
     residual.resize(n_c_ + Eigen::Index(demands.size()) + n_yielding);
     rows.resize(residual.size(), machine_.size());
@@ -122,7 +101,10 @@ private:
       const Demand &demand = demands[i];
       double        value  = 0.;
       if (demand.spin)
-        value = spin(*demand.spin, gradient);
+      {
+        gradient = spin_gradient(machine_, *demand.spin, state_.q);
+        value    = gradient.dot(state_.v);
+      }
       else
       {
         const auto measured = machine_.measure(demand.measure).evaluate(state_.q, state_.v, &gradient);
@@ -137,7 +119,7 @@ private:
   void add_yielding(Eigen::Index row, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates) const
   {
     double gradient[mechanism::PlacedMeasure::max_measures];
-    for (const Yielding &own : yielding_)
+    for (const CompliantPlace &own : yielding_)
       for (int i = 0; i < own.joint->n_equations(); ++i, ++row)
       {
         const auto opening =
@@ -147,17 +129,6 @@ private:
         const auto W  = machine_.directions().middleCols(own.first_measure, k);
         rows.row(row) = (W * Eigen::Map<const Eigen::VectorXd>(gradient, k)).transpose();
       }
-  }
-
-  /// e . omega = 1/2 sum d_i' . (e x d_i)
-  double spin(const KnownSpin &known, Eigen::VectorXd &gradient) const
-  {
-    const int       first = machine_.body(known.body).coordinate + 3;
-    Eigen::Vector3d e     = Eigen::Vector3d::Unit(known.axis);
-    gradient.setZero(machine_.size());
-    for (int i = 0; i < 3; ++i)
-      gradient.segment<3>(first + 3 * i) = 0.5 * e.cross(Eigen::Vector3d::Unit(i) + state_.q.segment<3>(first + 3 * i));
-    return gradient.dot(state_.v);
   }
 
   /// Bodies begin with the rotation they are given.
@@ -294,7 +265,7 @@ private:
   ConstraintJacobian    G_;
   Eigen::VectorXd       g_, rate_, bias_;
   int                   n_c_;
-  std::vector<Yielding> yielding_; ///< compliant joints that are to close
+  std::vector<CompliantPlace> yielding_; ///< compliant joints that are to close
 };
 
 } // namespace
@@ -302,6 +273,30 @@ private:
 InitialState assemble(Machine &machine, const KnownStart &known)
 {
   return Assembly(machine, known).assembled();
+}
+
+/// e . omega = 1/2 sum d_i' . (e x d_i)
+Eigen::VectorXd spin_gradient(const Machine &machine, const KnownSpin &spin, const Eigen::VectorXd &q)
+{
+  const int             first    = machine.body(spin.body).coordinate + 3;
+  const Eigen::Vector3d e        = Eigen::Vector3d::Unit(spin.axis);
+  Eigen::VectorXd       gradient = Eigen::VectorXd::Zero(machine.size());
+  for (int i = 0; i < 3; ++i)
+    gradient.segment<3>(first + 3 * i) = 0.5 * e.cross(Eigen::Vector3d::Unit(i) + q.segment<3>(first + 3 * i));
+  return gradient;
+}
+
+std::vector<CompliantPlace> compliant_joints(const Machine &machine)
+{
+  std::vector<CompliantPlace> found;
+  int                         first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    if (const auto *joint = dynamic_cast<const mechanism::CompliantJoint *>(placement.element.get()))
+      found.push_back({joint, first});
+    first += placement.element->n_measures();
+  }
+  return found;
 }
 
 bool has_joints(const Machine &machine)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/steady_start.h"
+#include "mechanism/joints/compliant_joint.h"
 
 #include <string>
 #include <utility>
@@ -37,6 +38,17 @@ struct KnownStart
  * of joints depend on each other there: the one that does
  */
 InitialState assemble(Machine &machine, const KnownStart &known);
+
+/// e . omega = s . q' of a rigid body turning about the global axis e, s [n] at q.
+Eigen::VectorXd spin_gradient(const Machine &machine, const KnownSpin &spin, const Eigen::VectorXd &q);
+
+/// A compliant joint and where its measures begin.
+struct CompliantPlace
+{
+  const mechanism::CompliantJoint *joint;
+  int                              first_measure;
+};
+std::vector<CompliantPlace> compliant_joints(const Machine &machine);
 
 /// Whether there are joints to close, ideal or compliant ones.
 bool has_joints(const Machine &machine);

@@ -10,14 +10,16 @@ namespace gestell::coupling
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held)
-    : machine_(machine), held_(held), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t),
-      zero_(VectorXd::Zero(n_)), G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
+StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held,
+                             const SteadyMotion *motion)
+    : machine_(machine), held_(held), moves_(motion), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t),
+      zero_(VectorXd::Zero(n_)), v_(motion ? motion->v : zero_), a_(motion ? motion->a : zero_),
+      G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
 {
   local_.resize(machine);
-  machine.gather(t_, from.q, zero_, zero_, local_);
+  machine.gather(t_, from.q, v_, a_, local_);
   machine.start(local_);
-  acts_ = acting_measures(machine, local_.u, held ? Acting::structure : Acting::everything);
+  acts_ = acting_measures(machine, local_.u, held && !motion ? Acting::structure : Acting::everything);
   if (held)
     load_ = machine.excitation().constant();
   else
@@ -25,7 +27,13 @@ StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const K
   for (int i = machine.n_frame(); held && i < n_; ++i)
     if (held->q_given[i])
       given_.push_back(i);
-  n_g_ = held ? int(given_.size() + held->measures.size()) : 0;
+  n_g_ = held ? int(given_.size() + held->measures.size() + held->spins.size()) : 0;
+  if (!motion)
+    return;
+  const MatrixXd M = dense_mass(machine);
+  load_ -= M * a_ + dense_damping(machine) * v_;
+  S_  = motion->S;
+  MS_ = M * S_;
 }
 
 VectorXd StaticBalance::multipliers(const VectorXd &q, double share)
@@ -43,7 +51,7 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
                              VectorXd &residual)
 {
   const auto &W = machine_.directions();
-  machine_.gather(t_, q, zero_, zero_, local_);
+  machine_.gather(t_, q, v_, moves_ ? VectorXd(a_ + S_ * lambda.tail(n_g_)) : a_, local_);
   local_.lambda = lambda.head(n_c_);
   VectorXd g(n_c_);
   machine_.constraints(local_, g, G_);
@@ -66,14 +74,18 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
   if (held_)
     hold(q, A, open);
   saddle.setZero(n_ + n_l, n_ + n_l);
-  saddle.topLeftCorner(n_, n_)     = C_ + W * (acts_.asDiagonal() * geometric - dp) * W.transpose();
-  saddle.topRightCorner(n_, n_l)   = -A.transpose();
+  saddle.topLeftCorner(n_, n_)   = C_ + W * (acts_.asDiagonal() * geometric - dp) * W.transpose();
+  saddle.topRightCorner(n_, n_l) = -A.transpose();
+  if (moves_)
+    saddle.topRightCorner(n_, n_g_) = MS_;
   saddle.bottomLeftCorner(n_l, n_) = A;
   const VectorXd elastic           = C_ * q;
   residual.resize(n_ + n_l);
-  residual.head(n_)  = elastic - share * load_ - W * local_.p - A.bottomRows(n_g_).transpose() * lambda.tail(n_g_);
+  residual.head(n_)  = elastic - share * load_ - W * local_.p + saddle.topRightCorner(n_, n_g_) * lambda.tail(n_g_);
   residual.tail(n_l) = open;
   forces_            = elastic.lpNorm<1>() + load_.lpNorm<1>() + (W.cwiseAbs() * local_.p.cwiseAbs()).sum();
+  if (moves_)
+    return;
   for (const int i : machine_.virtual_coordinates()) // states of laws keep the value they start with
   {
     saddle.row(i).setZero();
@@ -97,6 +109,12 @@ void StaticBalance::hold(const VectorXd &q, MatrixXd &A, VectorXd &open)
   for (const auto &[name, value] : held_->measures)
   {
     open[row]    = machine_.measure(name).evaluate(q, zero_, &gradient).s - value;
+    A.row(row++) = gradient.transpose();
+  }
+  for (const KnownSpin &spin : held_->spins)
+  {
+    gradient     = spin_gradient(machine_, spin, held_->state.q);
+    open[row]    = gradient.dot(q - held_->state.q);
     A.row(row++) = gradient.transpose();
   }
 }

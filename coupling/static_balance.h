@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/assembly.h"
+#include "coupling/steady_motion.h"
 
 #include <string>
 #include <vector>
@@ -16,12 +17,17 @@ namespace gestell::coupling
  *
  * with the share s of the loads; p holds the joints' forces, K the geometric stiffness.  Rows of virtual coordinates
  * keep them as they are.  Laws that depend on u' act as at rest; what sticks carries no force.
+ *
+ * In motion r has M (a + S alpha) + B v besides, alpha in place of the multipliers of what is held; laws act as at v and
+ * a + S alpha, and virtual coordinates take their stationary values.
  */
 class StaticBalance
 {
 public:
-  /// @param held  what is kept where it is, or null; see held_equilibrium()
-  StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held);
+  /// @param held    what is kept where it is, or null; see held_equilibrium()
+  /// @param motion  of a machine that moves, or null
+  StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held,
+                const SteadyMotion *motion = nullptr);
 
   int             n() const { return n_; }               ///< coordinates
   int             n_joints() const { return n_c_; }      ///< equations of joints
@@ -42,10 +48,12 @@ private:
 
   Machine           &machine_;
   const KnownStart  *held_;
+  bool               moves_;
   int                n_, n_c_, n_g_ = 0;
   std::vector<int>   given_; ///< held coordinates
   double             t_, forces_ = 0.;
-  Eigen::VectorXd    zero_;
+  Eigen::VectorXd    zero_, v_, a_; ///< [n]
+  Eigen::MatrixXd    S_, MS_;       ///< [n x n_g] of a machine that moves
   ConstraintJacobian G_;
   Eigen::MatrixXd    C_;
   Eigen::VectorXd    load_, acts_;

@@ -53,8 +53,9 @@ struct Growth
 class Equilibrium
 {
 public:
-  Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr)
-      : machine_(machine), balance_(machine, from, held), n_(machine.size()), q_(from.q),
+  Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr,
+              const SteadyMotion *motion = nullptr)
+      : machine_(machine), balance_(machine, from, held, motion), n_(machine.size()), q_(from.q),
         lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine)), floating_(n_, 0), inertia_(n_, 0)
   {
   }
@@ -437,6 +438,14 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
 HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position)
 {
   Equilibrium equilibrium(machine, position.state, &position);
+  equilibrium.solve();
+  return {equilibrium.q(), equilibrium.multipliers()};
+}
+
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const InitialState &from,
+                                 const SteadyMotion &motion)
+{
+  Equilibrium equilibrium(machine, from, &position, &motion);
   equilibrium.solve();
   return {equilibrium.q(), equilibrium.multipliers()};
 }

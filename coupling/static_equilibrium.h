@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/assembly.h"
+#include "coupling/steady_motion.h"
 
 namespace gestell::coupling
 {
@@ -55,5 +56,14 @@ struct HeldEquilibrium
  * @throws std::invalid_argument as static_equilibrium()
  */
 HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position);
+
+/**
+ * The same of a machine in motion: everything acts, what is held goes on with an acceleration that no force holds it to, and
+ * loads have the inertia and the damping of the motion beside them, docs/theory/start.md (15).
+ *
+ * @param from  where the search begins
+ */
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const InitialState &from,
+                                 const SteadyMotion &motion);
 
 } // namespace gestell::coupling

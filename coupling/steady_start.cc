@@ -191,8 +191,8 @@ private:
 InitialState steady_start(Machine &machine, const SteadyStart &start)
 {
   if (has_joints(machine))
-    throw std::invalid_argument(
-        "a steady start does not close ideal joints or compliant ones; use rule = \"given\" or \"static\"");
+    throw std::invalid_argument("angles, speeds and driver do not close joints; give a steady start the position and the "
+                                "speed of what drives as q and v instead, and the joints make the rest");
   const Kinematics kinematics = kinematics_of(machine, start);
   InitialState     state      = kinematics.state;
   Equilibrium      equilibrium(machine, kinematics);

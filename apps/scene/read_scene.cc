@@ -106,7 +106,8 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   start.place            = table->place();
   const std::string rule = table->choice("rule", {"given", "static", "steady"}, "given");
   start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
-  if (start.rule != StartRule::steady)
+  const bool rotors = table->has("angles") || table->has("speeds") || table->has("driver");
+  if (start.rule != StartRule::steady || !rotors)
   {
     if (start.rule == StartRule::rest)
     {

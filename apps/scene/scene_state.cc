@@ -3,6 +3,7 @@
 #include "coupling/assembly.h"
 #include "coupling/closed_chains.h"
 #include "coupling/static_equilibrium.h"
+#include "coupling/steady_motion.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
 #include <Eigen/Core>
@@ -126,42 +127,46 @@ coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine,
   }
 }
 
+/// A steady start is told by rotors, or by q and v.
+bool by_rotors(const StartRequest &start)
+{
+  return start.rule == StartRule::steady && start.q.empty() && start.v.empty();
+}
+
 } // namespace
 
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine)
 {
-  coupling::InitialState state;
-  if (scene.start.rule == StartRule::steady)
+  const StartRequest        &start = scene.start;
+  const coupling::KnownStart known = known_start(scene, machine, start.q, start.v);
+  const auto                 found = [&]() -> coupling::InitialState
   {
-    try
+    if (by_rotors(start))
     {
-      coupling::SteadyStart steady = scene.start.steady;
+      coupling::SteadyStart steady = start.steady;
       steady.t                     = scene.run.options.begin;
-      state                        = coupling::steady_start(machine, steady);
+      return coupling::steady_start(machine, steady);
     }
-    catch (const std::invalid_argument &e)
-    {
-      throw headed(scene, e.what());
-    }
-  }
-  else
+    if (start.rule == StartRule::steady)
+      return coupling::steady_start(machine, known);
+    const coupling::InitialState state = coupling::assemble(machine, known);
+    if (start.rule == StartRule::given)
+      return state;
+    return coupling::static_equilibrium(
+        machine, state, start.drift ? coupling::Drift::quasistatic : coupling::Drift::none,
+        start.inertia_relief ? coupling::Floating::relieved : coupling::Floating::refused);
+  };
+  try
   {
-    state = assembled(scene, machine, known_start(scene, machine, scene.start.q, scene.start.v));
-    try
-    {
-      if (scene.start.rule == StartRule::rest)
-        state = coupling::static_equilibrium(
-            machine, state, scene.start.drift ? coupling::Drift::quasistatic : coupling::Drift::none,
-            scene.start.inertia_relief ? coupling::Floating::relieved : coupling::Floating::refused);
-    }
-    catch (const std::invalid_argument &e)
-    {
-      throw headed(scene, e.what());
-    }
+    coupling::InitialState state = found();
+    state.t                      = scene.run.options.begin;
+    state.settled                = start.rule != StartRule::given;
+    return state;
   }
-  state.t       = scene.run.options.begin;
-  state.settled = scene.start.rule != StartRule::given;
-  return state;
+  catch (const std::invalid_argument &e)
+  {
+    throw headed(scene, e.what());
+  }
 }
 
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
