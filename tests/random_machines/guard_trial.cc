@@ -1,0 +1,140 @@
+#include "tests/random_machines/guard_trial.h"
+
+#include "tests/random_machines/dice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::tests
+{
+
+namespace
+{
+
+using coupling::Method;
+
+constexpr int most_steps = 20000, few_steps = 2000;
+/// Energy of a stable method swings by 1/(1 - (omega h/2)^2) at most, except just below its limit.
+constexpr double growth = 100.;
+
+coupling::MethodOptions random_method(Dice &dice, bool jointed)
+{
+  static const Method free[] = {Method::bdf,
+                                Method::bdf,
+                                Method::newmark,
+                                Method::wilson,
+                                Method::hht,
+                                Method::generalised_alpha,
+                                Method::central_difference};
+  static const Method held[] = {Method::bdf, Method::bdf, Method::hht, Method::generalised_alpha};
+
+  coupling::MethodOptions options;
+  options.method  = jointed ? held[dice.whole(4)] : free[dice.whole(7)];
+  options.order   = 1 + dice.whole(6);
+  options.beta    = dice.between(0., 0.4);
+  options.gamma   = dice.chance(0.6) ? 0.5 : dice.between(0.5, 0.8);
+  options.theta   = dice.between(1., 2.);
+  options.alpha   = dice.between(-1. / 3., jointed ? -0.01 : 0.);
+  options.rho_inf = dice.between(0., jointed ? 0.99 : 1.);
+  return options;
+}
+
+/// How much the largest energy of the last third exceeds that of the first.
+double energy_growth(const Told &told)
+{
+  const int column = told.column("energy stored"), n = told.n_rows();
+  double    early = 0., late = 0.;
+  for (int i = 0; i < n; ++i)
+    if (const double now = std::abs(told.at(i, column)); 3 * i < n)
+      early = std::max(early, now);
+    else if (3 * i > 2 * n)
+      late = std::max(late, now);
+  return early > 0. ? late / early : 1.;
+}
+
+class GuardTrial
+{
+public:
+  GuardTrial(const RandomMachine &machine, const Trial &trial, double &cpu_s) : trial_(trial), cpu_s_(cpu_s)
+  {
+    Dice dice(machine.seed ^ 0x5eedu);
+    options_      = random_method(dice, machine.jointed);
+    options_.step = dice.log_between(0.05, 5.) / trial.fastest();
+  }
+
+  std::vector<Finding> findings()
+  {
+    coupling::Machine model = apps::build_machine(trial_.scene());
+    modes_                  = coupling::mode_accuracy(model, trial_.initial(), options_);
+    double radius           = 0.;
+    for (const coupling::ModeAccuracy &mode : modes_)
+      if (mode.unstable)
+        radius = std::max(radius, mode.spectral_radius);
+    if (radius > 0.)
+      refused(radius);
+    else
+      let_pass(options_, "guard let pass what grows");
+    return findings_;
+  }
+
+private:
+  Told forced(coupling::MethodOptions options, double steps)
+  {
+    const Told told = trial_.forced(options, steps);
+    cpu_s_ += told.cpu_s;
+    return told;
+  }
+
+  void find(const std::string &kind, const coupling::MethodOptions &options, double value, double bound)
+  {
+    char step[64];
+    std::snprintf(step, sizeof step, "step = %.12g, fastest omega h = %.4g", options.step,
+                  options.step * trial_.fastest());
+    findings_.push_back({kind, coupling::method_name(options), step, value, bound});
+  }
+
+  static bool grew(const Told &told, double factor)
+  {
+    return !told.run.failure.empty() || !(energy_growth(told) < factor);
+  }
+
+  void refused(double radius)
+  {
+    // The mode may begin with a millionth of the motion.
+    const double steps = 3. * std::log(1e6 * growth) / std::log(radius);
+    if (steps < most_steps && !grew(forced(options_, std::max(100., steps)), growth))
+      find("guard refused what does not grow", options_, radius, 1.);
+    coupling::MethodOptions offered = options_;
+    offered.step                    = coupling::largest_stable_step(modes_, options_);
+    if (!(offered.step > 0.))
+      return;
+    const Told told = trial_.run(offered, 1, offered.step * 50.);
+    if (!told.refused.empty())
+      find("guard refuses the step it offers: " + told.refused, offered, offered.step, 0.);
+    let_pass(offered, "guard offers a step that grows");
+  }
+
+  void let_pass(const coupling::MethodOptions &options, const std::string &kind)
+  {
+    const Told told = forced(options, few_steps);
+    if (!grew(told, growth))
+      return;
+    const Told longer = forced(options, most_steps);
+    find(kind, options, energy_growth(longer), growth);
+  }
+
+  const Trial                        &trial_;
+  double                             &cpu_s_;
+  coupling::MethodOptions             options_;
+  std::vector<coupling::ModeAccuracy> modes_;
+  std::vector<Finding>                findings_;
+};
+
+} // namespace
+
+std::vector<Finding> guard_findings(const RandomMachine &machine, const Trial &trial, double &cpu_s)
+{
+  return GuardTrial(machine, trial, cpu_s).findings();
+}
+
+} // namespace gestell::tests

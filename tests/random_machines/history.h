@@ -1,0 +1,37 @@
+#pragma once
+
+#include "tests/random_machines/judge.h"
+#include "tests/random_machines/trial.h"
+
+namespace gestell::tests
+{
+
+/// What is judged of one motion by itself: signals, extremes, friction, contacts, joints, energy.
+class History
+{
+public:
+  /// @param dense    with many rows
+  /// @param summary  of the same run with few rows, whose extremes are judged
+  History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary);
+
+  std::vector<Finding> judge(bool accurate);
+
+private:
+  void   find(const std::string &kind, const std::string &what, double value, double bound);
+  void   finite();
+  void   extremes();
+  void   extreme(int column, double sign, double told);
+  void   frictions();
+  void   contacts();
+  void   joints(bool accurate);
+  void   energy(bool accurate);
+  double range(int column) const;
+  bool   held(const std::string &signal) const;
+
+  const RandomMachine &machine_;
+  std::string          way_;
+  const Told          &dense_, &summary_;
+  std::vector<Finding> findings_;
+};
+
+} // namespace gestell::tests

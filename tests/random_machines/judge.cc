@@ -1,0 +1,236 @@
+#include "tests/random_machines/judge.h"
+
+#include "tests/random_machines/guard_trial.h"
+#include "tests/random_machines/history.h"
+#include "tests/random_machines/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gestell::tests
+{
+
+namespace
+{
+
+constexpr double at_rest    = 1e-4; ///< of the size that motions have: what is smaller is rest
+constexpr int    dense_rows = 20000, few_rows = 400;
+
+coupling::MethodOptions controlled(coupling::Method method, int order, double tolerance)
+{
+  coupling::MethodOptions options;
+  options.method    = method;
+  options.order     = order;
+  options.tolerance = tolerance;
+  return options;
+}
+
+coupling::MethodOptions fixed(coupling::Method method, int order)
+{
+  coupling::MethodOptions options;
+  options.method = method;
+  options.order  = order;
+  return options;
+}
+
+/// The largest of the mean differences of all signals, each relative to the largest value of its kind; a signal that
+/// jumps is so compared by area, and the instant of the jump counts by its error.
+struct Distance
+{
+  double      value = 0.;
+  std::string signal;
+};
+
+Distance distance(const RandomMachine &machine, const Told &a, const Told &b)
+{
+  Distance  largest;
+  const int rows = std::min(a.n_rows(), b.n_rows());
+  for (const coupling::SignalSummary &signal : a.run.signals)
+  {
+    const int i = a.column(signal.name), j = b.column(signal.name);
+    double    sum = 0., size = at_rest * size_of(machine, signal.name);
+    for (int row = 0; row < rows; ++row)
+    {
+      sum += std::abs(a.at(row, i) - b.at(row, j));
+      size = std::max(size, std::abs(a.at(row, i)));
+    }
+    const double value = size > 0. ? sum / (rows * size) : 0.;
+    if (!(value <= largest.value))
+      largest = {value, signal.name};
+  }
+  return largest;
+}
+
+bool begins(const std::string &text, const std::string &words)
+{
+  return text.compare(0, words.size(), words) == 0;
+}
+
+/// The start lies inside the contact that is named; of fixed steps the balance is open, or Newton failed.
+bool has_cause(const std::string &warning, const Told &told, bool accurate)
+{
+  if (!accurate && begins(warning, "the energy balance is open"))
+    return told.run.energy.residual > 0.01 * told.run.energy.exchanged;
+  if (!accurate && begins(warning, "Newton failed"))
+    return told.run.work.rejected > 0;
+  const std::string words = "the start lies inside the contact of \"";
+  if (!begins(warning, words))
+    return false;
+  const int force =
+      told.column(warning.substr(words.size(), warning.find('"', words.size()) - words.size()) + ".force");
+  return force >= 0 && told.at(0, force) != 0.;
+}
+
+class Judge
+{
+public:
+  Judge(const RandomMachine &machine, const std::filesystem::path &folder) : machine_(machine), trial_(machine, folder)
+  {
+  }
+
+  Verdict verdict()
+  {
+    const Way reference = {"bdf 1e-8", controlled(coupling::Method::bdf, 5, 1e-8)},
+              exact     = {"exact 1e-8", controlled(coupling::Method::exact, 4, 1e-8)},
+              low_order = {"bdf to order 2, 1e-7", controlled(coupling::Method::bdf, 2, 1e-7)};
+    const Motion bdf    = computed(reference, true);
+    fixed_steps(bdf, reference, "bdf 2 fixed", fixed(coupling::Method::bdf, 2));
+    if (machine_.bdf_only)
+      compare(bdf, reference, computed(low_order, true), low_order);
+    else if (machine_.jointed)
+      fixed_steps(bdf, reference, "generalised alpha fixed", fixed(coupling::Method::generalised_alpha, 2));
+    else
+      compare(bdf, reference, computed(exact, true), exact);
+    if (machine_.linear && machine_.loadless)
+      for (const Finding &finding : guard_findings(machine_, trial_, verdict_.cpu_s))
+        find(finding);
+    return verdict_;
+  }
+
+private:
+  using Motion = std::optional<Told>;
+
+  void find(const Finding &finding) { verdict_.findings.push_back(finding); }
+
+  Told run(const coupling::MethodOptions &method, int rows)
+  {
+    Told told = trial_.run(method, rows);
+    verdict_.cpu_s += told.cpu_s;
+    return told;
+  }
+
+  /// A run, judged by itself.  Empty if it failed.
+  Motion computed(const Way &way, bool accurate)
+  {
+    const Told dense = run(way.method, dense_rows);
+    if (!dense.refused.empty())
+      find({"refused", way.name, dense.refused});
+    if (dense.slow)
+      find({"slow", way.name, "at t", dense.run.rows[(dense.n_rows() - 1) * dense.run.columns.size()], machine_.end});
+    if (!dense.run.failure.empty())
+      find({"failed", way.name, dense.run.failure});
+    if (!dense.complete())
+      return {};
+    for (const std::string &warning : dense.run.warnings)
+      if (!has_cause(warning, dense, accurate))
+        find({"warning", way.name, warning});
+    const Told summary = run(way.method, 1);
+    for (const Finding &finding : History(machine_, way.name, dense, summary).judge(accurate))
+      find(finding);
+    return dense;
+  }
+
+  /// Histories must agree as well as either agrees with itself at a tenth of its tolerance, and as well as the machine
+  /// itself is known: to what a change of ten tolerances in its masses and its start makes.
+  void compare(const Motion &a, const Way &way_a, const Motion &b, const Way &way_b)
+  {
+    if (!a || !b)
+      return;
+    const Distance apart = distance(machine_, *a, *b);
+    if (apart.value < 1e-5)
+      return;
+    const double own   = self_distance(*a, way_a) + self_distance(*b, way_b);
+    const double bound = 10. * own + 3. * sensitivity(*a, way_a) + 1e-5;
+    if (apart.value > bound && !verdict_.sensitive)
+      find({"histories differ", way_a.name + " / " + way_b.name, apart.signal, apart.value, bound});
+  }
+
+  /// What a change of ten tolerances makes of the motion.
+  double sensitivity(const Told &told, const Way &way)
+  {
+    if (sensitivity_)
+      return *sensitivity_;
+    double largest = 0.;
+    for (std::uint64_t draw = 1; draw <= 2; ++draw)
+    {
+      const Told other = trial_.perturbed(10. * way.method.tolerance, machine_.seed + draw).run(way.method, dense_rows);
+      verdict_.cpu_s += other.cpu_s;
+      if (other.complete())
+        largest = std::max(largest, distance(machine_, told, other).value);
+    }
+    verdict_.sensitive = largest > 0.01;
+    sensitivity_       = largest;
+    return largest;
+  }
+
+  double self_distance(const Told &told, Way way)
+  {
+    way.method.tolerance /= 10.;
+    const Told finer = run(way.method, dense_rows);
+    return finer.complete() ? distance(machine_, told, finer).value : 0.;
+  }
+
+  /// A method with fixed steps, which are halved until the motion is that of the reference.
+  void fixed_steps(const Motion &reference, const Way &way, const std::string &name, coupling::MethodOptions method)
+  {
+    const double fastest = std::max(trial_.fastest(), 2. * M_PI / machine_.period);
+    const double steps   = std::clamp(machine_.end * fastest * 50. / (2. * M_PI), 2000., 20000.);
+    method.step          = machine_.end / std::ceil(steps);
+    Motion motion        = computed({name, method}, false);
+    if (!motion || !reference)
+      return;
+    constexpr double close  = 1e-3;
+    Distance         apart  = distance(machine_, *motion, *reference);
+    double           change = 0.;
+    for (int halvings = 0; halvings < 4 && apart.value > close; ++halvings)
+    {
+      method.step /= 2.;
+      Told finer = run(method, dense_rows);
+      if (!finer.complete())
+      {
+        find({"failed", name, finer.run.failure + finer.refused});
+        return;
+      }
+      change = distance(machine_, finer, *motion).value;
+      apart  = distance(machine_, finer, *reference);
+      motion = std::move(finer);
+    }
+    if (apart.value < close)
+      return;
+    const double bound = 10. * change + 3. * sensitivity(*reference, way);
+    if (apart.value > bound && !verdict_.sensitive)
+      find({"histories differ", way.name + " / " + name, apart.signal, apart.value, bound});
+  }
+
+  const RandomMachine  &machine_;
+  Trial                 trial_;
+  Verdict               verdict_;
+  std::optional<double> sensitivity_; ///< once it is known
+};
+
+} // namespace
+
+Verdict judge(const RandomMachine &machine, const std::filesystem::path &folder)
+{
+  try
+  {
+    return Judge(machine, folder).verdict();
+  }
+  catch (const std::exception &refusal)
+  {
+    return {{{"refused", "scene", refusal.what()}}};
+  }
+}
+
+} // namespace gestell::tests

@@ -1,0 +1,43 @@
+#include "tests/random_machines/random_machine.h"
+
+#include "tests/random_machines/draft.h"
+
+namespace gestell::tests
+{
+
+double size_of(const RandomMachine &machine, const std::string &signal)
+{
+  if (const auto found = machine.sizes.find(signal); found != machine.sizes.end())
+    return found->second;
+  const std::string quantity = signal.substr(signal.rfind('.') + 1);
+  for (const char *speed : {"velocity", "speed", "rate", "ux_rate", "wanted_speed", "wx", "wy", "wz"})
+    if (quantity == speed)
+      return machine.speed;
+  for (const char *force : {"force", "torque"})
+    if (quantity == force)
+      return machine.force;
+  return machine.length;
+}
+
+RandomMachine random_machine(std::uint64_t seed)
+{
+  RandomMachine machine;
+  Dice          dice(seed);
+  Draft         draft(machine, dice);
+  machine.seed      = seed;
+  machine.scene     = "name = \"random_" + std::to_string(seed) + "\"\n";
+  const double kind = dice.share();
+  if (kind < 0.45)
+    write_train(draft);
+  else if (kind < 0.65)
+    write_framed(draft);
+  else if (kind < 0.8)
+    write_linkage(draft);
+  else if (kind < 0.86)
+    write_spatial(draft);
+  else
+    write_gears(draft);
+  return machine;
+}
+
+} // namespace gestell::tests
