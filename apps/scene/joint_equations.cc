@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -23,6 +24,8 @@ using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
 constexpr double immobile = 1e-12; ///< gradient of an equation that no motion of the two bodies changes
+constexpr double parallel = 1e-12; ///< 1 - cosine: rounding of unit vectors, enlarged by bodies of some hundred metres
+constexpr double closed   = 1e-10; ///< [m] by which the assembly of a machine leaves its joints open
 
 std::string axis_name(const Vector3d &a, int number)
 {
@@ -35,6 +38,18 @@ std::string axis_name(const Vector3d &a, int number)
 std::vector<Vector3d> global_axes()
 {
   return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+}
+
+bool are_parallel(const Vector3d &a, const Vector3d &b)
+{
+  return std::abs(a.dot(b)) > 1. - parallel;
+}
+
+/// Motion k of three of no order: what does not change in any of them does not change in any motion.
+void sample_motion(int k, int n, double *u)
+{
+  for (int i = 0; i < n; ++i)
+    u[i] = 0.5 * std::sin(1. + 7.3 * i + 2.1 * k);
 }
 
 /// Unit vectors at right angles to the axis and to each other, at most so many, as near to `directions` as may be.
@@ -88,6 +103,7 @@ RelativeMeasure seen_from_first(const Vector3d &a)
 // --- Pair
 
 Pair::Pair(const coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+    : n_frame(machine.n_frame())
 {
   const auto a = placed(machine, from), b = placed(machine, to);
   first    = a.placement;
@@ -121,45 +137,70 @@ bool Pair::has_point() const
   return (on_first && on_first->kind == BodyKind::point) || (on_second && on_second->kind == BodyKind::point);
 }
 
-double Pair::at_start(const RelativeMeasure &measure, double &largest_gradient) const
+double Pair::at_start(const RelativeMeasure &measure) const
 {
   const double zero[PlacedMeasure::max_measures] = {};
   double       gradient[PlacedMeasure::max_measures];
-  const auto   value = PlacedMeasure{first, second, measure}.evaluate(zero, zero, gradient);
-  largest_gradient   = 0.;
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    largest_gradient = std::max(largest_gradient, std::abs(gradient[i]));
-  return value.s;
+  return PlacedMeasure{first, second, measure}.evaluate(zero, zero, gradient).s;
+}
+
+bool Pair::moves(const RelativeMeasure &measure, int from) const
+{
+  const auto counts = [from](const coupling::Measure &u)
+  { return std::any_of(u.begin(), u.end(), [from](const auto &term) { return term.first >= from; }); };
+  const double at_rest[PlacedMeasure::max_measures] = {};
+  double       u[PlacedMeasure::max_measures], gradient[PlacedMeasure::max_measures];
+  for (int sample = 0; sample < 3; ++sample)
+  {
+    sample_motion(sample, int(measures.size()), u);
+    PlacedMeasure{first, second, measure}.evaluate(u, at_rest, gradient);
+    for (std::size_t i = 0; i < measures.size(); ++i)
+      if (std::abs(gradient[i]) > immobile && counts(measures[i]))
+        return true;
+  }
+  return false;
+}
+
+std::vector<Vector3d> Pair::own_axes() const
+{
+  std::vector<Vector3d> axes;
+  for (const Body *body : {on_first, on_second})
+    if (body && (body->kind == BodyKind::rotor || body->kind == BodyKind::planar))
+      axes.push_back(vector(body->axis));
+  return axes;
 }
 
 // --- JointEquations
 
-/// In the plane of a planar body only its directions count, as the plane itself does not move.
+/// Three directions, those of a planar body's plane first.
 std::vector<Vector3d> JointEquations::directions() const
 {
   const Body *body = pair_.planar();
   if (!body || pair_.in_space())
     return global_axes();
-  std::vector<Vector3d> plane{vector(body->e_1), vector(body->e_2)};
-  if (partner_leaves_plane(*body))
-    plane.push_back(vector(body->axis));
-  return plane;
+  return {vector(body->e_1), vector(body->e_2), vector(body->axis)};
 }
 
+/// Of a planar body the axis itself, and that of a partner which turns about another one.
 std::vector<Vector3d> JointEquations::axes_of_rotation() const
 {
-  const Body *body = pair_.planar();
-  return body && !pair_.in_space() ? std::vector<Vector3d>{vector(body->axis)} : global_axes();
+  if (!pair_.planar() || pair_.in_space())
+    return global_axes();
+  const std::vector<Vector3d> own = pair_.own_axes();
+  std::vector<Vector3d>       axes{vector(pair_.planar()->axis)};
+  for (const Vector3d &a : own)
+    if (!are_parallel(a, axes[0]))
+      axes.push_back((a - a.dot(axes[0]) * axes[0]).normalized());
+  return axes;
 }
 
-/// A point, or a body of another plane, has to be held in this one too; a frame and what it carries does not, as the
-/// plane cannot yield.
-bool JointEquations::partner_leaves_plane(const Body &planar) const
+/// Across its plane a planar body cannot yield: there it holds what bodies of the mechanism would carry out of the
+/// plane, but not the motion of a frame.
+bool JointEquations::is_held(const RelativeMeasure &distance) const
 {
-  const Body *partner = pair_.on_first == &planar ? pair_.on_second : pair_.on_first;
-  return partner &&
-         (partner->kind == BodyKind::point ||
-          (partner->kind == BodyKind::planar && std::abs(vector(partner->axis).dot(vector(planar.axis))) < 1. - 1e-12));
+  const Body *planar = pair_.planar();
+  const bool  across = planar && !pair_.in_space() && are_parallel(distance.a, vector(planar->axis));
+  return pair_.moves(distance, across ? pair_.n_frame : 0);
 }
 
 void JointEquations::coincide()
@@ -171,15 +212,14 @@ void JointEquations::coincide()
 
 void JointEquations::on_line(const Vector3d &axis, std::optional<double> distance)
 {
-  const bool in_plane = pair_.planar() && !pair_.in_space();
-  int        number   = 0;
-  for (const Vector3d &a : across(axis, directions(), in_plane ? 1 : 2))
+  int number = 0;
+  for (const Vector3d &a : across(axis, directions(), 2))
     along(a, Carrier::first, "f" + axis_name(a, ++number), distance);
 }
 
 void JointEquations::in_plane(const Vector3d &axis)
 {
-  along(axis, Carrier::first, "force", std::nullopt);
+  add(distance_along(axis, Carrier::first, "force"), std::nullopt);
 }
 
 void JointEquations::no_rotation()
@@ -206,8 +246,11 @@ void JointEquations::one_axis(const Vector3d &axis)
 {
   if (pair_.has_point())
     return;
-  int number = 0;
-  for (const Vector3d &a : across(axis, global_axes(), 2))
+  int                   number    = 0;
+  std::vector<Vector3d> preferred = pair_.in_space() ? std::vector<Vector3d>{} : pair_.own_axes();
+  for (const Vector3d &a : global_axes())
+    preferred.push_back(a);
+  for (const Vector3d &a : across(axis, preferred, 2))
     hold_about(a, axis, "m" + axis_name(a, ++number));
 }
 
@@ -228,22 +271,42 @@ void JointEquations::at_right_angles(const Vector3d &a, const Vector3d &b, const
   add(equation, 0.);
 }
 
-void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value)
+IdealJoint::Equation JointEquations::distance_along(const Vector3d &a, Carrier carrier, const std::string &name)
 {
   IdealJoint::Equation equation;
   equation.name            = name;
   equation.measure.a       = a;
   equation.measure.carrier = carrier;
-  add(equation, value);
+  return equation;
+}
+
+/// The places keep their distance along a, which is as described or `value`.
+void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value)
+{
+  const IdealJoint::Equation equation = distance_along(a, carrier, name);
+  const bool                 held     = is_held(equation.measure);
+  if (value && !held)
+    require_closed(a, pair_.at_start(equation.measure) - *value);
+  if (held)
+    add(equation, value);
+}
+
+/// What no motion can close must be closed as described.
+void JointEquations::require_closed(const Vector3d &a, double gap) const
+{
+  if (std::abs(gap) <= closed * std::max(1., pair_.first.size() + pair_.second.size()))
+    return;
+  std::ostringstream message;
+  message << "stays open by " << std::abs(gap) << " m along [" << a[0] << ", " << a[1] << ", " << a[2]
+          << "], where neither body can move; let 'at_from' and 'at_to' be one point there, or give 'at' alone";
+  throw std::invalid_argument(message.str());
 }
 
 /// s stays as described, or is `value`; left out where neither body moves it.
 void JointEquations::add(IdealJoint::Equation equation, std::optional<double> value)
 {
-  double       gradient;
-  const double s  = pair_.at_start(equation.measure, gradient);
-  equation.offset = value ? *value : s;
-  if (gradient > immobile)
+  equation.offset = value ? *value : pair_.at_start(equation.measure);
+  if (pair_.moves(equation.measure))
     list.push_back(std::move(equation));
 }
 
@@ -263,10 +326,8 @@ void JointEquations::distance(const JointRequest &joint)
   IdealJoint::Equation equation;
   equation.name         = "force";
   equation.measure.form = Form::distance;
-  double       gradient;
-  const double s  = pair_.at_start(equation.measure, gradient);
-  equation.offset = joint.length ? *joint.length : s;
-  equation.driven = joint.law != nullptr;
+  equation.offset       = joint.length ? *joint.length : pair_.at_start(equation.measure);
+  equation.driven       = joint.law != nullptr;
   if (!(equation.offset > 0.))
     throw std::invalid_argument("the two places lie together, so that a distance has no direction; use a revolute or "
                                 "spherical joint, or give 'at_from' and 'at_to'");
@@ -309,10 +370,9 @@ void JointEquations::leave_out_idle(Pair &pair)
   std::vector<char> felt(n, 0);
   double            u[PlacedMeasure::max_measures], G[PlacedMeasure::max_measures];
   const double      at_rest[PlacedMeasure::max_measures] = {};
-  for (int sample = 0; sample < 3; ++sample) // in any position: what is zero in three of no order is zero everywhere
+  for (int sample = 0; sample < 3; ++sample)
   {
-    for (int i = 0; i < n; ++i)
-      u[i] = 0.5 * std::sin(1. + 7.3 * i + 2.1 * sample);
+    sample_motion(sample, n, u);
     for (const IdealJoint::Equation &equation : list)
     {
       PlacedMeasure{pair.first, pair.second, equation.measure}.evaluate(u, at_rest, G);

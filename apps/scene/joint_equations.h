@@ -18,12 +18,15 @@ struct Pair
   const coupling::Body *planar() const;    ///< one of the two, if it is
   bool                  in_space() const;  ///< one of the two turns freely
   bool                  has_point() const; ///< one of the two has no rotation to compare with
-  /// Value of the measure in the position described, and the largest entry of its gradient.
-  double at_start(const mechanism::RelativeMeasure &measure, double &largest_gradient) const;
+  double                at_start(const mechanism::RelativeMeasure &measure) const; ///< in the position described
+  /// Some motion of the two changes it; of coordinates of the machine from that one on.
+  bool                             moves(const mechanism::RelativeMeasure &measure, int from = 0) const;
+  std::vector<mechanism::Vector3d> own_axes() const; ///< about which rotors and planar bodies turn
 
   mechanism::Placement           first, second;
   std::vector<coupling::Measure> measures;
   const coupling::Body          *on_first = nullptr, *on_second = nullptr;
+  int                            n_frame; ///< coordinates of the frame, the first ones of the machine
 };
 
 /// Rotation of body 2 about a, less `factor` times that of body 1: of bodies that turn about one axis, or little.
@@ -35,7 +38,7 @@ mechanism::RelativeMeasure seen_from_first(const mechanism::Vector3d &a);
 
 /**
  * The equations of a joint between two places, one after the other.  Those that no motion of the two bodies changes are
- * left out, by their gradient in the position the scene describes.
+ * left out; a distance that they would have to close must be closed as described.
  *
  * Source: docs/theory/joints.md (3), (10).
  */
@@ -77,12 +80,15 @@ public:
 private:
   using Carrier = mechanism::RelativeMeasure::Carrier;
 
-  std::vector<mechanism::Vector3d> directions() const;
-  std::vector<mechanism::Vector3d> axes_of_rotation() const;
-  bool                             partner_leaves_plane(const coupling::Body &planar) const;
+  std::vector<mechanism::Vector3d>       directions() const;
+  std::vector<mechanism::Vector3d>       axes_of_rotation() const;
+  bool                                   is_held(const mechanism::RelativeMeasure &distance) const;
+  static mechanism::IdealJoint::Equation distance_along(const mechanism::Vector3d &a, Carrier carrier,
+                                                        const std::string &name);
   void along(const mechanism::Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value);
   void ratio(mechanism::IdealJoint::Equation equation, const mechanism::Vector3d &a, double factor);
   void hold_about(const mechanism::Vector3d &axis, const mechanism::Vector3d &across, const std::string &name);
+  void require_closed(const mechanism::Vector3d &a, double gap) const; ///< @throws std::invalid_argument
   void add(mechanism::IdealJoint::Equation equation, std::optional<double> value);
 
   const Pair &pair_;

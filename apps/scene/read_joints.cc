@@ -8,7 +8,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::apps
 {
@@ -181,6 +183,24 @@ void check_own_axis(const SceneTable &table, const Names &names, const JointRequ
   }
 }
 
+/// Of two bodies that turn about their own axis only.
+void check_one_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
+{
+  const BodyRequest *first = names.find_body(joint.from.marker), *second = names.find_body(joint.to.marker);
+  const auto         turns = [](const BodyRequest *body)
+  { return body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar); };
+  if (!turns(first) || !turns(second))
+    return;
+  const double cosine = std::abs(dot(first->axis, second->axis));
+  if (cosine > 1. - 1e-12) // rounding of unit vectors
+    return;
+  std::ostringstream text;
+  text << "'" << first->name << "' and '" << second->name << "' turn about axes that lie "
+       << std::acos(std::min(1., cosine)) * 180. / M_PI
+       << " deg apart, but a revolute joint has one; use \"spherical\" where they only meet in a point";
+  throw table.error("type", text.str());
+}
+
 /// The axes of a joint that turns about some.
 void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
 {
@@ -204,8 +224,12 @@ void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
   else if (turning || joint.type == JointType::cylindrical || joint.type == JointType::prismatic ||
            joint.type == JointType::in_plane)
     joint.axis = table.direction("axis");
-  else if (joint.type == JointType::revolute && table.has("axis"))
-    check_own_axis(table, names, joint);
+  else if (joint.type == JointType::revolute)
+  {
+    if (table.has("axis"))
+      check_own_axis(table, names, joint);
+    check_one_axis(table, names, joint);
+  }
 }
 
 /// Joints of one equation on a scalar of the motion, by their names.
@@ -246,6 +270,17 @@ void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
 }
 
+/// A body that turns about its own axis turns about one askew to it by no angle.
+void check_no_skew_axis(const SceneTable &table, const Names &names, const std::string &marker, const Vector3 &axis)
+{
+  const BodyRequest *body = names.find_body(marker);
+  if (!body || (body->kind != coupling::BodyKind::rotor && body->kind != coupling::BodyKind::planar))
+    return;
+  const double cosine = std::abs(dot(axis, body->axis));
+  if (cosine > 1e-9 && cosine < 1. - 1e-9)
+    throw table.error("axis", "lies askew to the axis of '" + marker + "', about which alone it turns; give that one");
+}
+
 void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   joint.from = names.place(table, "from", "at_from");
@@ -253,8 +288,10 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
   check_two_places(table, joint.from, joint.to);
   refuse_in_space(table, "from", joint.from.marker, names);
   refuse_in_space(table, "to", joint.to.marker, names);
-  const Vector3 axis  = table.direction("axis");
-  const double  pitch = table.number("pitch", kind::length);
+  const Vector3 axis = table.direction("axis");
+  for (const PlaceRequest *place : {&joint.from, &joint.to})
+    check_no_skew_axis(table, names, place->marker, axis);
+  const double pitch = table.number("pitch", kind::length);
   if (pitch == 0.)
     throw table.error("pitch", "is zero; give the way of one turn, negative for a left-handed thread");
   join_path_and_angle(joint, joint.from, joint.to, axis, Carrier::first, pitch / (2. * M_PI),
