@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #ifdef __SSE2__
 #include <xmmintrin.h>
@@ -238,6 +239,23 @@ private:
   double            from_;
 };
 
+EventDriver event_driver(Machine &machine, TimeIntegrator &integrator, const RunOptions &options)
+{
+  EventOptions events;
+  events.locate = options.events;
+  events.end    = options.end;
+  return {machine, integrator, events};
+}
+
+/// Of a run that did not get to its first instant nothing is known.
+void fail_at_start(const ConvergenceFailure &failure, RunResult &result)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  result.failure        = std::string("the machine does not start: ") + failure.what();
+  for (SignalSummary &signal : result.signals)
+    signal.min = signal.t_min = signal.max = signal.t_max = signal.final = none;
+}
+
 /// What may lie behind a step that was not solved.
 std::string advice(const Machine &machine, const MethodOptions &method, const Instant &last)
 {
@@ -288,6 +306,12 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
   check_size(machine, options, n_signals);
 }
 
+void try_start(Machine &machine, const InitialState &initial, const RunOptions &options)
+{
+  const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, with_largest_step(machine, options));
+  event_driver(machine, *integrator, options).begin(options.begin, initial.q, initial.v);
+}
+
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop)
@@ -306,12 +330,17 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     warn_of_closed_contacts(machine, initial, result);
 
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
-  EventOptions                          event_options;
-  event_options.locate = options.events;
-  event_options.end    = options.end;
-  EventDriver driver(machine, *integrator, event_options);
-  Recorder    recorder(machine, *integrator, options, signals, samples_per_step(machine, method), result);
-  driver.begin(options.begin, initial.q, initial.v);
+  EventDriver                           driver     = event_driver(machine, *integrator, options);
+  Recorder recorder(machine, *integrator, options, signals, samples_per_step(machine, method), result);
+  try
+  {
+    driver.begin(options.begin, initial.q, initial.v);
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    fail_at_start(failure, result);
+    return result;
+  }
   CylinderWatch cylinders(machine, *integrator);
   driver.on_step(
       [&]

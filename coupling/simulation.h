@@ -77,10 +77,14 @@ struct RunResult
   bool                         interrupted = false;
 };
 
-/// Integrates from `initial` to options.end.  A ConvergenceFailure on the way is told in `failure`, with all that was
-/// computed up to then.  `progress` is called now and then with the time reached; `stop` ends the run early.
+/// Finds the forces and accelerations of the start, and nothing more.
+/// @throws ConvergenceFailure if there are none; std::invalid_argument if the method cannot treat the machine
+void try_start(Machine &machine, const InitialState &initial, const RunOptions &options);
+
+/// Integrates from `initial` to options.end.  A ConvergenceFailure is told in `failure`, with all that was computed up
+/// to then; of a machine that does not start, nothing.  `progress` is called now and then with the time reached; `stop`
+/// ends the run early.
 /// @throws std::invalid_argument as check_run() and check_stability(), and if the method cannot treat the machine.
-/// @throws ConvergenceFailure if the forces of the initial state cannot be found: nothing is computed then
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress = {},
                    const std::atomic<bool> *stop = nullptr);

@@ -48,6 +48,7 @@ int check_command(const CommonOptions &options)
 {
   const Scene scene = read_scene(options.input, options.overrides);
   check_scene(scene);
+  check_start(scene);
   std::vector<std::string> warnings = scene.warnings;
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)

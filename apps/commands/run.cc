@@ -45,6 +45,30 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
     state = prepared.project(state);
 }
 
+/// The state at the begin of the run, or why there is none.
+coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, std::string &failure)
+{
+  try
+  {
+    coupling::InitialState initial = prepare_start(scene, prepared);
+    require_free_motion(scene, prepared.machine, initial);
+    return initial;
+  }
+  catch (const coupling::ConvergenceFailure &none)
+  {
+    failure = none.what();
+    return {};
+  }
+}
+
+coupling::RunResult not_started(const coupling::RunOptions &run, const std::string &failure)
+{
+  coupling::RunResult result;
+  result.method  = coupling::method_name(run.method);
+  result.failure = "the machine does not start: " + failure;
+  return result;
+}
+
 void print_answer(const coupling::RunResult &run)
 {
   std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)
@@ -76,7 +100,8 @@ int run_command(const CommonOptions &options)
   require_stress(scene, prepared.machine.reduced_frame());
   const auto signals = scene_signals(scene, prepared.machine);
   progress.show("start");
-  const coupling::InitialState initial = prepare_start(scene, prepared);
+  std::string                  failure;
+  const coupling::InitialState initial = found_start(scene, prepared, failure);
   progress.show("modes");
   Result result   = begin_result(scene, "run", prepared);
   result.settings = settings_text(scene);
@@ -84,17 +109,20 @@ int run_command(const CommonOptions &options)
   const coupling::RunOptions &run = scene.run.options;
   progress.show("integration", 0.);
   const auto tell = [&](double t) { progress.show("integration", (t - run.begin) / (run.end - run.begin)); };
-  try
-  {
-    result.run = coupling::simulate(prepared.machine, initial, run, signals, tell, &interruption());
-  }
-  catch (const std::invalid_argument &error)
-  {
-    throw std::invalid_argument(scene.run.place + ": " + error.what());
-  }
+  if (failure.empty())
+    try
+    {
+      result.run = coupling::simulate(prepared.machine, initial, run, signals, tell, &interruption());
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument(scene.run.place + ": " + error.what());
+    }
+  else
+    result.run = not_started(run, failure);
   progress.show("results");
   states_for_pictures(prepared, *result.run);
-  if (scene.stress.given)
+  if (scene.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene, *prepared.machine.reduced_frame(), *result.run, result.warnings);
   prepare_folder(folder);
   progress.done();

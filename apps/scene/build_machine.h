@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,15 @@ Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machi
 /// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
 /// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.
 void check_scene(const Scene &scene);
+
+/// What is said against a start, headed with the place of the joint or element it names, or else that of [start].
+std::invalid_argument against_start(const Scene &scene, const std::string &message);
+
+/// Whether the machine gets moving from its start, as far as that is known without its frame.
+/// @throws std::invalid_argument with the place of the element or joint that is to be changed
+void check_start(const Scene &scene);
+/// The same of a machine at its start: elements that stick to what is held already.
+void require_free_motion(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial);
 
 /// Refuses a scene without what `gestell run` needs.
 void require_run(const Scene &scene);

@@ -1,6 +1,7 @@
 #include "apps/scene/build_machine.h"
 #include "coupling/assembly.h"
 #include "coupling/reduced_frame_file.h"
+#include "coupling/sticking_conflict.h"
 
 #include <utility>
 
@@ -88,6 +89,48 @@ void check_scene(const Scene &scene)
   catch (const std::invalid_argument &error)
   {
     throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
+}
+
+void require_free_motion(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial)
+{
+  const coupling::StickingConflict conflict = coupling::sticking_conflict(machine, initial);
+  if (!conflict.element.empty())
+    throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
+}
+
+namespace
+{
+void try_start(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial)
+{
+  try
+  {
+    coupling::try_start(machine, initial, scene.run.options);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
+}
+} // namespace
+
+void check_start(const Scene &scene)
+{
+  const FramePath path  = frame_path(scene);
+  const bool      known = path == FramePath::none || path == FramePath::dense || path == FramePath::from_file;
+  if (!scene.run.given || (!known && scene.start.rule != StartRule::given))
+    return;
+  auto machine = machine_to_check(scene);
+  try
+  {
+    const coupling::InitialState initial = initial_state(scene, machine);
+    require_free_motion(scene, machine, initial);
+    if (known)
+      try_start(scene, machine, initial);
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    throw against_start(scene, std::string("the machine does not start: ") + failure.what());
   }
 }
 

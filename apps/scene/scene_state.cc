@@ -106,15 +106,6 @@ coupling::KnownStart known_start(const Scene &scene, const coupling::Machine &ma
   return known;
 }
 
-/// What is said against a start, headed with the place of the joint it names, or else that of [start].
-std::invalid_argument headed(const Scene &scene, const std::string &message)
-{
-  for (const JointRequest &joint : scene.joints)
-    if (message.find("\"" + joint.name + "\"") != std::string::npos)
-      return std::invalid_argument(joint.place + ": " + message);
-  return std::invalid_argument(scene.start.place + ": " + message);
-}
-
 coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine, const coupling::KnownStart &known)
 {
   try
@@ -123,7 +114,7 @@ coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine,
   }
   catch (const std::invalid_argument &e)
   {
-    throw headed(scene, e.what());
+    throw against_start(scene, e.what());
   }
 }
 
@@ -134,6 +125,14 @@ bool by_rotors(const StartRequest &start)
 }
 
 } // namespace
+
+std::invalid_argument against_start(const Scene &scene, const std::string &message)
+{
+  for (const auto &[name, place] : scene.element_places)
+    if (message.find("\"" + name + "\"") != std::string::npos)
+      return std::invalid_argument(place + ": " + message);
+  return std::invalid_argument(scene.start.place + ": " + message);
+}
 
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine)
 {
@@ -165,7 +164,7 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   }
   catch (const std::invalid_argument &e)
   {
-    throw headed(scene, e.what());
+    throw against_start(scene, e.what());
   }
 }
 

@@ -247,6 +247,12 @@ void ConsistentStart::fail_unconverged(double t) const
   std::ostringstream message;
   message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << most_iterations()
           << " iterations; the last correction was " << correction_.cwiseAbs().maxCoeff() << " m/s^2 (or rad/s^2)";
+  int worst = 0;
+  if (g_.size() > 0)
+  {
+    g_.cwiseAbs().maxCoeff(&worst);
+    message << ", and most of all the force of " << system_.constraint_name(worst) << " goes on changing";
+  }
   if (system_.forces_need_multipliers())
     message << "; friction in a joint may make the force that causes it, so that the joint jams: lengthen the guide or "
                "lower the coefficient";

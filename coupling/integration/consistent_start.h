@@ -50,7 +50,7 @@ private:
   static constexpr int    most_by_friction = 8 * max_iterations; ///< where they converge linearly
 
   int               most_iterations() const;
-  [[noreturn]] void fail_unconverged(double t) const;
+  [[noreturn]] void fail_unconverged(double t) const; ///< g_ tells by what the multipliers changed last
   void              factorise(double t);
   void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   bool              is_small(const Eigen::VectorXd &p);

@@ -86,7 +86,8 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     saddle_->solve_in_place(y_);
     ++work.solves;
     a += y_.head(n);
-    local.lambda += y_.segment(n, n_c);
+    g_ = y_.segment(n, n_c);
+    local.lambda += g_;
     for (std::size_t h = 0; h < held.size(); ++h)
       local.p[held[h].measure] += y_[n + n_c + Eigen::Index(h)];
     correction_.noalias() = W.transpose() * y_.head(n);

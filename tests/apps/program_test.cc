@@ -252,6 +252,46 @@ x = "block.displacement"
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 
+// The friction of the guide makes 1.5 times the force that causes it: none is right.
+TEST(Program, WhatDoesNotStartIsFoundByCheckAndLeavesASummary)
+{
+  const Folder      folder("jammed");
+  const std::string jammed = folder.file("jammed.toml", R"(name = "jammed"
+[body.carriage]
+type     = "planar"
+normal   = [0, 1, 0]
+mass     = "3 kg"
+inertia  = "1 kg m^2"
+position = [0, 0, 0]
+[joint.rail]
+type     = "prismatic"
+from     = "ground"
+to       = "carriage"
+at       = [0, 0, "-0.6 m"]
+axis     = [1, 0, 0]
+friction = { coefficient = 0.25, length = "0.2 m" }
+[element.moment]
+type     = "force"
+from     = "carriage"
+about    = [0, 1, 0]
+constant = "2 N m"
+[start]
+v = { "carriage.ux" = 1 }
+[run]
+step = "1 ms"
+end  = "0.1 s"
+[output.signals]
+v = "carriage.vx"
+)");
+  const Answer      check  = gestell("check " + jammed);
+  EXPECT_EQ(check.exit_code, 2) << check.text;
+  EXPECT_TRUE(check.says("the machine does not start")) << check.text;
+  const Answer run = gestell("run " + jammed + folder.option());
+  EXPECT_EQ(run.exit_code, 3) << run.text;
+  EXPECT_TRUE(run.says("\"rail\"")) << run.text;
+  EXPECT_NE(read(folder.results() / "summary.json").find("the machine does not start"), std::string::npos);
+}
+
 TEST(Program, FailedNewtonKeepsWhatWasComputedAndSaysWhere)
 {
   // A cubic spring that softens without bound has no solution beyond a displacement: the crown falls through.
