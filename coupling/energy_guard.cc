@@ -49,19 +49,17 @@ EnergyGuard::Verdict EnergyGuard::verdict() const
                                                                                             : Verdict::open;
 }
 
-std::string EnergyGuard::words() const
+std::string EnergyGuard::words(const std::string &method) const
 {
   const Verdict verdict = this->verdict();
   if (verdict == Verdict::closed)
     return "";
   std::ostringstream text;
-  text << std::setprecision(2) << "the energy balance is open by " << residual() << " J, ";
+  text << std::setprecision(3) << "the energy balance is open by " << residual() << " J, ";
   if (exchanged() > 0.)
     text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J that the motion exchanges, ";
-  text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ");
-  text << (verdict == Verdict::open ? "the step is too large for this motion"
-                                    : "this is no motion of the machine; take a smaller step or a method with a "
-                                      "tolerance");
+  text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ") << method;
+  text << (verdict == Verdict::open ? " is too coarse for this motion" : " does not give a motion of the machine");
   return text.str();
 }
 

@@ -37,10 +37,12 @@ public:
   /// @throws ConvergenceFailure if the energy is no finite number
   void step(const EnergyState &state, double size);
 
-  double      exchanged() const; ///< E [J]
-  double      residual() const;  ///< largest |residual| so far [J]
-  Verdict     verdict() const;
-  std::string words() const; ///< what is open, empty if closed
+  double  exchanged() const; ///< E [J]
+  double  residual() const;  ///< largest |residual| so far [J]
+  Verdict verdict() const;
+  /// What is open and by what, empty if closed.
+  /// @param method  with its step, for messages: "BDF 2 with a step of 0.001 s"
+  std::string words(const std::string &method) const;
 
 private:
   /// Of a quantity that begins with zero.

@@ -418,14 +418,21 @@ double Machine::local_stored_energy(const LocalState &state) const
   return energy;
 }
 
-void Machine::local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const
+void Machine::local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &dissipated) const
 {
-  input = other = 0.;
+  input = dissipated = 0.;
   for (const auto &part : parts_->placed)
   {
-    const double power =
-        p.segment(part.first_measure, part.n_motions).dot(state.v.segment(part.first_measure, part.n_motions));
-    (part.element->work() == mechanism::Work::input ? input : other) += power;
+    const bool drives = part.element->work() == mechanism::Work::input;
+    if (part.first_constraint >= 0)
+      input += drives ? parts_->prescribed_power(part, state) : 0.;
+    else if (part.holds)
+      (drives ? input : dissipated) +=
+          (drives ? 1. : -1.) * p[part.first_measure] * parts_->held_rate(part.first_measure);
+    else if (drives)
+      input += p.segment(part.first_measure, part.n_motions).dot(state.v.segment(part.first_measure, part.n_motions));
+    else
+      dissipated += parts_->taken_power(part, state);
   }
 }
 

@@ -336,7 +336,7 @@ public:
   void                    transition(int i, const LocalState &state) override;
   const std::vector<int> &virtual_coordinates() const override;
   double                  local_stored_energy(const LocalState &state) const override;
-  void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const override;
+  void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &dissipated) const override;
   std::string coordinate_name(int i) const override;
 
 private:

@@ -91,6 +91,34 @@ const std::vector<HeldMeasure> &Machine::held() const
   return parts_->held;
 }
 
+double Machine::Parts::held_rate(int measure) const
+{
+  for (const HeldMeasure &h : held)
+    if (h.measure == measure)
+      return h.rate;
+  return 0.;
+}
+
+double Machine::Parts::prescribed_power(const PlacedElement &joint, const LocalState &state) const
+{
+  double rate[max_constraints], bias[max_constraints], power = 0.;
+  joint.element->constraint_rates(joint.motion(state, by_history), history_of(joint), rate, bias);
+  for (int i = 0; i < joint.element->n_constraints(); ++i)
+    power -= state.lambda[joint.first_constraint + i] * rate[i];
+  return power;
+}
+
+double Machine::Parts::taken_power(const PlacedElement &part, const LocalState &state) const
+{
+  const auto motion = part.motion(state, by_history);
+  double     p[max_measures];
+  part.element->force(motion, history_of(part), p);
+  double taken = -part.element->stored_power(motion, history_of(part));
+  for (int i = 0; i < part.n_motions; ++i)
+    taken -= p[i] * motion.v[i];
+  return taken;
+}
+
 const std::vector<ConstraintBlock> &Machine::constraint_blocks() const
 {
   return parts_->joint_blocks;

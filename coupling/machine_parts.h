@@ -15,6 +15,7 @@ struct Machine::Parts
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
   static constexpr int max_measures = ///< per element
       mechanism::CombinedMeasure::max_measures + mechanism::TransmittedElement::max_virtual;
+  static constexpr int max_constraints = 6; ///< per joint: what two bodies in space have to move against each other
 
   /// Spring, damper and constant force on one measure, part of the base system.
   struct LinearElement
@@ -161,14 +162,19 @@ struct Machine::Parts
   Vector3                position_of(const std::string &marker) const;
   bool                   moves_with_frame(const Marker &marker) const;
 
-  void          finish();
-  void          assemble_dense(int n);
-  void          assemble_sparse(int n);
-  void          assemble_mechanism(int n);
-  bool          has_joints() const;
-  void          place_elements(int n);
-  void          refresh_guards();
-  void          find_stopped(const LocalState &state);
+  void   finish();
+  void   assemble_dense(int n);
+  void   assemble_sparse(int n);
+  void   assemble_mechanism(int n);
+  bool   has_joints() const;
+  void   place_elements(int n);
+  void   refresh_guards();
+  void   find_stopped(const LocalState &state);
+  double held_rate(int measure) const; ///< of a measure that sticks
+  /// lambda . G u' with G u' = -rate, as the joint prescribes it: what drives it feeds.
+  double prescribed_power(const PlacedElement &joint, const LocalState &state) const;
+  /// -p . u' - dE/dt of its law; forces of the state carry what an iteration has left.
+  double        taken_power(const PlacedElement &part, const LocalState &state) const;
   bool          is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
   Signal        watched_signal(const Switch &request) const;
   void          add_watches();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -31,15 +32,28 @@ bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
   return top.t > a.t - margin && top.t < c.t + margin;
 }
 
+std::string method_and_step(const MethodOptions &method)
+{
+  std::ostringstream text;
+  text << method_name(method) << " with a ";
+  if (method.tolerance > 0.)
+    text << "tolerance of " << method.tolerance;
+  else
+    text << "step of " << method.step << " s";
+  return text.str();
+}
+
 /// What keeps more of the energy than the method does.
-std::string remedy(const MethodOptions &method)
+std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
 {
   if (method.tolerance > 0.)
     return "; take a smaller tolerance";
+  if (verdict == EnergyGuard::Verdict::no_motion)
+    return "; take a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
   return method.method == Method::bdf && method.order < 4
-             ? "; take a smaller one. Where bodies spin or swing many times, order = 4 with 60 steps or more per turn "
+             ? "; take a smaller step. Where bodies spin or swing many times, order = 4 with 60 steps or more per turn "
                "loses far less"
-             : "; take a smaller one";
+             : "; take a smaller step";
 }
 
 /// The balance must not err more than the integrator.
@@ -354,12 +368,11 @@ void Recorder::finish()
   const EnergyGuard::Verdict verdict = guard_.verdict();
   if (verdict == EnergyGuard::Verdict::closed)
     return;
-  if (verdict == EnergyGuard::Verdict::open)
-    result_.warnings.push_back(guard_.words() + remedy(options_.method));
-  else if (options_.force_unstable || !result_.failure.empty())
-    result_.warnings.push_back(guard_.words());
+  const std::string words = guard_.words(method_and_step(options_.method)) + remedy(options_.method, verdict);
+  if (verdict == EnergyGuard::Verdict::open || options_.force_unstable || !result_.failure.empty())
+    result_.warnings.push_back(words);
   else
-    result_.failure = guard_.words();
+    result_.failure = words;
 }
 
 } // namespace gestell::coupling

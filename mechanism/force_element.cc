@@ -35,6 +35,11 @@ double ForceElement::stored_energy(const LocalMotion &, const double *) const
   return 0.;
 }
 
+double ForceElement::stored_power(const LocalMotion &, const double *) const
+{
+  return 0.;
+}
+
 std::vector<Guard> ForceElement::guards(const double *) const
 {
   return {};

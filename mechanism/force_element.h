@@ -153,6 +153,8 @@ public:
 
   /// Energy [J] stored in the element; what it takes up beyond it is work() .
   virtual double stored_energy(const LocalMotion &, const double *history) const;
+  /// Its growth [W] with the motion inside a branch: d stored_energy/du . u'.
+  virtual double stored_power(const LocalMotion &, const double *history) const;
   virtual Work   work() const { return Work::dissipated; }
 
   /// How deep [m or rad] bodies that a contact keeps apart lie in each other; 0: they do not, or nothing keeps them.

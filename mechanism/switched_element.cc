@@ -125,6 +125,11 @@ double SwitchedElement::stored_energy(const LocalMotion &motion, const double *h
   return (is_on(history) ? law_->stored_energy(motion, history + n_slots) : 0.) - history[brought];
 }
 
+double SwitchedElement::stored_power(const LocalMotion &motion, const double *history) const
+{
+  return is_on(history) ? law_->stored_power(motion, history + n_slots) : 0.;
+}
+
 double SwitchedElement::penetration(const LocalMotion &motion) const
 {
   return begin_ == Begin::on ? law_->penetration(motion) : 0.;

@@ -51,6 +51,7 @@ public:
   void                     check_order(const Order &order) const override { law_->check_order(order); }
   void                     accept(const LocalMotion &motion, double *history) const override;
   double                   stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                   stored_power(const LocalMotion &motion, const double *history) const override;
   Work                     work() const override { return law_->work(); }
   double                   penetration(const LocalMotion &motion) const override;
 

@@ -184,6 +184,12 @@ double TransmittedElement::stored_energy(const LocalMotion &motion, const double
   return law_->stored_energy(seen.motion(motion), history);
 }
 
+double TransmittedElement::stored_power(const LocalMotion &motion, const double *history) const
+{
+  const Seen seen = see(motion, history);
+  return law_->stored_power(seen.motion(motion), history);
+}
+
 double TransmittedElement::penetration(const LocalMotion &motion) const
 {
   const Seen seen = see(motion, nullptr);

@@ -57,6 +57,7 @@ public:
 
   double size_of_terms() const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
   double penetration(const LocalMotion &motion) const override;
 

@@ -21,8 +21,7 @@ EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 
 EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double weight_b, const Power &b)
 {
-  return {weight_a * a.input + weight_b * b.input, weight_a * a.elements + weight_b * b.elements,
-          weight_a * a.damping + weight_b * b.damping};
+  return {weight_a * a.input + weight_b * b.input, weight_a * a.dissipated + weight_b * b.dissipated};
 }
 
 /// x . product_, the virtual coordinates left out.
@@ -36,9 +35,9 @@ double EnergyBalance::work_with_product(const Eigen::VectorXd &x)
 EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 {
   Power power;
-  system_.local_power(instant.local, instant.local.p, power.input, power.elements);
+  system_.local_power(instant.local, instant.local.p, power.input, power.dissipated);
   system_.damping_times(instant.v, product_);
-  power.damping = work_with_product(instant.v);
+  power.dissipated += work_with_product(instant.v);
   if (!system_.excitation().is_constant())
   {
     system_.excitation().at(instant.t, load_);
@@ -47,7 +46,7 @@ EnergyBalance::Power EnergyBalance::power(const Instant &instant)
   return power;
 }
 
-double EnergyBalance::stored(const Instant &instant)
+double EnergyBalance::stored(const Instant &instant, double in_elements)
 {
   system_.mass_times(instant.v, product_);
   kinetic_      = 0.5 * instant.v.cwiseProduct(product_);
@@ -57,7 +56,7 @@ double EnergyBalance::stored(const Instant &instant)
   forces_ = product_.lpNorm<1>() + load_.lpNorm<1>() + instant.local.p.lpNorm<1>();
   if (system_.excitation().is_constant())
     energy -= load_.dot(instant.q);
-  return energy + system_.local_stored_energy(instant.local);
+  return energy + in_elements;
 }
 
 void EnergyBalance::begin(const Instant &instant)
@@ -65,20 +64,29 @@ void EnergyBalance::begin(const Instant &instant)
   system_.excitation().at(instant.t, load_);
   t_begin_ = t_ = instant.t;
   work_begin_ = work_ = Power();
-  first_ = last_  = power(instant);
-  elements_begin_ = system_.local_stored_energy(instant.local);
-  stored_begin_   = stored(instant);
-  kinetic_begin_  = kinetic_;
+  first_ = last_ = power(instant);
+  in_elements_   = system_.local_stored_energy(instant.local);
+  stored_begin_  = stored(instant, in_elements_);
+  kinetic_begin_ = kinetic_;
+}
+
+void EnergyBalance::jump(const Instant &instant)
+{
+  const double before = in_elements_;
+  in_elements_        = system_.local_stored_energy(instant.local);
+  work_.dissipated += std::max(0., before - in_elements_);
+  last_ = power(instant);
 }
 
 void EnergyBalance::step(const Instant &instant)
 {
-  t_begin_    = t_;
-  first_      = last_;
-  work_begin_ = work_;
-  last_       = power(instant);
-  t_          = instant.t;
-  work_       = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
+  t_begin_     = t_;
+  first_       = last_;
+  work_begin_  = work_;
+  last_        = power(instant);
+  in_elements_ = system_.local_stored_energy(instant.local);
+  t_           = instant.t;
+  work_        = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
 }
 
 void EnergyBalance::step(const TimeIntegrator &integrator, PowerRule rule)
@@ -106,11 +114,10 @@ EnergyState EnergyBalance::state(const Instant &instant)
     work = sum(1., sum(r * r * (1. + 2. * s), work_begin_, s * s * (1. + 2. * r), work_), 1.,
                sum(h * s * r * r, first_, -h * s * s * r, last_));
   }
-  const double in_elements = system_.local_stored_energy(instant.local) - elements_begin_;
-  const double change      = stored(instant) - stored_begin_;
+  const double in_elements = instant.t < t_ ? system_.local_stored_energy(instant.local) : in_elements_;
+  const double change      = stored(instant, in_elements) - stored_begin_;
   const auto   exchange    = (kinetic_ - kinetic_begin_).array();
-  return {work.input, change, work.damping - work.elements - in_elements,
-          std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()), forces_};
+  return {work.input, change, work.dissipated, std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()), forces_};
 }
 
 } // namespace gestell::coupling

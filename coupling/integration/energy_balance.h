@@ -29,9 +29,13 @@ enum class PowerRule
  *
  *     input       integral of the drives' power (and of a load that varies in time)
  *     stored      change of q'^T M q'/2 + q^T C q/2 - f_t^T q (constant load) + energy in the elements
- *     dissipated  integral of q'^T B q' and of what the elements take up beyond their stored energy
+ *     dissipated  integral of q'^T B q' and of what the laws of the elements take beyond what they store
  *
- * Virtual coordinates have no part in it.
+ * Every law is asked for the power it takes in the motion at hand, never by what is missing from the store: the error
+ * of the method stands in the residual alone, and laws that only take make `dissipated` grow, as all weights are
+ * positive.  Virtual coordinates have no part in it.
+ *
+ * Source: docs/theory/integration.md (11a).
  */
 class EnergyBalance
 {
@@ -42,23 +46,23 @@ public:
   /// Once per accepted step.
   void step(const Instant &instant); ///< trapezoidal
   void step(const TimeIntegrator &integrator, PowerRule rule);
-  /// Forces have changed their branch at the instant of the last step.
-  void   jump(const Instant &instant) { last_ = power(instant); }
+  /// Forces have changed their branch at the instant of the last step: what elements have less in store is dissipated.
+  void   jump(const Instant &instant);
   double at_begin() const { return stored_begin_; } ///< [J], what stored counts from
   /// At an instant inside the last step (integrals by the cubic through both ends and their powers) or at its end.
   EnergyState state(const Instant &instant);
 
 private:
-  /// Powers [W], or their integrals [J]: of the drives, of all other elements, of the damping.
+  /// Powers [W], or their integrals [J].
   struct Power
   {
-    double input = 0., elements = 0., damping = 0.;
+    double input = 0., dissipated = 0.;
   };
   static Power sum(double weight_a, const Power &a, double weight_b, const Power &b);
 
   Power  power(const Instant &instant);
   double work_with_product(const Eigen::VectorXd &x);
-  double stored(const Instant &instant);
+  double stored(const Instant &instant, double in_elements);
 
   const SecondOrderSystem &system_;
   Eigen::VectorXd          product_, load_;
@@ -66,7 +70,7 @@ private:
   Power                    first_, last_;      // at both ends of the last step
   Power                    work_begin_, work_; // integrals, likewise
   double                   t_begin_ = 0., t_ = 0.;
-  double                   stored_begin_ = 0., elements_begin_ = 0., forces_ = 0.;
+  double                   stored_begin_ = 0., in_elements_ = 0., forces_ = 0.; // in_elements_ at the end of the step
   Eigen::VectorXd          kinetic_, kinetic_begin_; // of every coordinate, at the instant of the last call of stored()
 };
 

@@ -177,8 +177,11 @@ public:
   virtual const std::vector<int> &virtual_coordinates() const;
   /// Energy [J] stored in the elements.
   virtual double local_stored_energy(const LocalState &state) const = 0;
-  /// Power p . u' [W] of the elements that drive (input) and of all others.
-  virtual void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &other) const = 0;
+  /// Power [W] that drives feed, prescribed motions of joints among them, and power that all other laws take beyond
+  /// what they store; what an integrator does amiss is in neither: ideal joints do no work but that of prescribed
+  /// motion.
+  virtual void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input,
+                           double &dissipated) const = 0;
 
   /// Name of coordinate i, for messages.
   virtual std::string coordinate_name(int i) const = 0;

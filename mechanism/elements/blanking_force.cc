@@ -57,6 +57,19 @@ void BlankingForce::accept(const LocalMotion &motion, double *history) const
   history[0] = std::max(history[0], motion.u[0] - parameters_.contact_at);
 }
 
+double BlankingForce::stored_energy(const LocalMotion &motion, const double *history) const
+{
+  const double F = resistance(motion, history);
+  return 0.5 * F * F / parameters_.elastic_stiffness;
+}
+
+double BlankingForce::stored_power(const LocalMotion &motion, const double *history) const
+{
+  double p, dp;
+  tangent(motion, history, {1., 0., 0.}, &p, &dp);
+  return p * dp / parameters_.elastic_stiffness * motion.v[0];
+}
+
 int BlankingForce::n_guards(const double *history) const
 {
   const Branch branch = branch_of(history);

@@ -22,7 +22,8 @@ namespace gestell::mechanism
  *
  *     F = F_v(z) if z >= z_max, else max(0, F_v(z_max) - c_el (z_max - z));      0 for good once z reached h.
  *
- * Its work counts as dissipated.  Source: reference model of the crank press, section 3; docs/theory/elements.md.
+ * Stored is F^2/(2 c_el), what unloading gives back; the rest is dissipated.  Source: reference model of the crank
+ * press, section 3; docs/theory/elements.md.
  */
 class BlankingForce : public DifferentiableElement<BlankingForce, 1>
 {
@@ -61,6 +62,9 @@ public:
   int  n_history() const override { return 2; }
   void start(const LocalMotion &motion, double *history) const override;
   void accept(const LocalMotion &motion, double *history) const override;
+
+  double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
 
   int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;

@@ -60,6 +60,14 @@ double Clearance::stored_energy(const LocalMotion &motion, const double *history
   return n == 1. ? 0.5 * parameters_.stiffness * d * d : parameters_.stiffness / (n + 1.) * d * power(d);
 }
 
+double Clearance::stored_power(const LocalMotion &motion, const double *history) const
+{
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(motion.u[0], motion.v[0]);
+  if (branch == open)
+    return 0.;
+  return parameters_.stiffness * power(side(branch) * motion.u[0] - parameters_.gap) * side(branch) * motion.v[0];
+}
+
 double Clearance::penetration(const LocalMotion &motion) const
 {
   const Branch branch = branch_at(motion.u[0], motion.v[0]);

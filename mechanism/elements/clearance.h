@@ -77,6 +77,7 @@ public:
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                stored_power(const LocalMotion &motion, const double *history) const override;
   double                penetration(const LocalMotion &motion) const override;
   int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;

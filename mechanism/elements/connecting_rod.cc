@@ -58,11 +58,22 @@ bool ConnectingRod::closure(const double *u, const double *v, double &g, double 
 
 double ConnectingRod::stored_energy(const LocalMotion &motion, const double *history) const
 {
+  const double e = deflection(motion, history);
+  return 0.5 * parameters_.stiffness * e * e;
+}
+
+double ConnectingRod::stored_power(const LocalMotion &motion, const double *history) const
+{
+  return parameters_.stiffness * deflection(motion, history) * rate(motion);
+}
+
+/// Of the closed chain, compression positive.
+double ConnectingRod::deflection(const LocalMotion &motion, const double *history) const
+{
   double       gradient[3];
   const double delta  = compression(motion.u, gradient);
   const Branch branch = motion.by_history ? branch_of(history) : branch_at(delta);
-  const double e      = branch == compressed ? delta : branch == pulled ? delta + parameters_.clearance : 0.;
-  return 0.5 * parameters_.stiffness * e * e;
+  return branch == compressed ? delta : branch == pulled ? delta + parameters_.clearance : 0.;
 }
 
 int ConnectingRod::n_guards(const double *history) const

@@ -61,6 +61,7 @@ public:
   bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
   double size_of_terms() const override { return parameters_.crank_radius + parameters_.length; }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
 
   int                n_guards(const double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
@@ -129,6 +130,7 @@ private:
   }
 
   double rate(const LocalMotion &motion) const;
+  double deflection(const LocalMotion &motion, const double *history) const;
 
   Parameters parameters_;
 };

@@ -25,6 +25,12 @@ double CubicSpring::stored_energy(const LocalMotion &motion, const double *) con
   return (0.5 * parameters_.stiffness + 0.25 * parameters_.cubic * square) * square;
 }
 
+double CubicSpring::stored_power(const LocalMotion &motion, const double *) const
+{
+  const double u = motion.u[0];
+  return (parameters_.stiffness + parameters_.cubic * u * u) * u * motion.v[0];
+}
+
 std::vector<Quantity> CubicSpring::quantities() const
 {
   return {{"force", "N"}, {"displacement", "m"}};

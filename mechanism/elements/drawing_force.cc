@@ -47,6 +47,13 @@ double DrawingForce::stored_energy(const LocalMotion &motion, const double *hist
   return 0.5 * F * F / parameters_.stiffness;
 }
 
+double DrawingForce::stored_power(const LocalMotion &motion, const double *history) const
+{
+  const double d      = parameters_.stiffness * (path(motion) - history[0]);
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(d, history);
+  return branch == elastic ? d * motion.v[0] : 0.;
+}
+
 int DrawingForce::n_guards(const double *history) const
 {
   const Branch branch = branch_of(history);

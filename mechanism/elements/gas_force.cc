@@ -65,6 +65,11 @@ double GasForce::stored_energy(const LocalMotion &motion, const double *history)
   return (n > 1. ? K * std::pow(V, 1. - n) / (n - 1.) : -K * std::log(V)) + parameters_.back_pressure * V;
 }
 
+double GasForce::stored_power(const LocalMotion &motion, const double *history) const
+{
+  return parameters_.valves ? 0. : resistance(motion, history) * motion.v[0];
+}
+
 int GasForce::n_guards(const double *history) const
 {
   return !parameters_.valves ? 0 : branch_of(history) == closed ? 2 : 1;

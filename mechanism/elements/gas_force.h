@@ -67,6 +67,7 @@ public:
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                stored_power(const LocalMotion &motion, const double *history) const override;
   int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;

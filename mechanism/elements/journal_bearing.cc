@@ -55,6 +55,12 @@ double JournalBearing::stored_energy(const LocalMotion &motion, const double *hi
   return normal_.stored_energy(polar.motion(motion), history);
 }
 
+double JournalBearing::stored_power(const LocalMotion &motion, const double *history) const
+{
+  const Polar polar(motion);
+  return normal_.stored_power(polar.motion(motion), history);
+}
+
 double JournalBearing::penetration(const LocalMotion &motion) const
 {
   return std::max(0., Polar(motion).r - parameters_.clearance);

@@ -65,6 +65,7 @@ public:
   void engaged(const double *u, double *K, double *D) const override;
 
   double             stored_energy(const LocalMotion &motion, const double *history) const override;
+  double             stored_power(const LocalMotion &motion, const double *history) const override;
   double             penetration(const LocalMotion &motion) const override;
   int                n_guards(const double *history) const override { return normal_.n_guards(history); }
   std::vector<Guard> guards(const double *history) const override { return normal_.guards(history); }

@@ -40,6 +40,15 @@ double LuGreFriction::stored_energy(const LocalMotion &motion, const double *) c
   return parameters_.load ? 0. : 0.5 * motion.u[1] * motion.u[1] / parameters_.bristle_stiffness;
 }
 
+double LuGreFriction::stored_power(const LocalMotion &motion, const double *history) const
+{
+  if (parameters_.load)
+    return 0.;
+  double p[2];
+  force(motion, history, p);
+  return motion.u[1] / parameters_.bristle_stiffness * (p[1] - motion.u[1]) / lag();
+}
+
 std::vector<Guard> LuGreFriction::guards(const double *history) const
 {
   return {{"reversal", history[0] < 0. ? Crossing::rising : Crossing::falling}};

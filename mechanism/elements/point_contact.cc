@@ -27,6 +27,11 @@ double PointContact::stored_energy(const LocalMotion &motion, const double *hist
   return normal_.stored_energy(motion, history);
 }
 
+double PointContact::stored_power(const LocalMotion &motion, const double *history) const
+{
+  return normal_.stored_power(motion, history);
+}
+
 void PointContact::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   normal_.guard_values(motion, history, g);

@@ -34,6 +34,11 @@ double Rope::stored_energy(const LocalMotion &motion, const double *) const
   return 0.5 * parameters_.stiffness * d * d;
 }
 
+double Rope::stored_power(const LocalMotion &motion, const double *) const
+{
+  return parameters_.stiffness * std::max(0., motion.u[0] - parameters_.slack) * motion.v[0];
+}
+
 std::vector<Guard> Rope::guards(const double *history) const
 {
   if (history[0] != 0.)

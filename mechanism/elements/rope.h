@@ -42,6 +42,7 @@ public:
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                stored_power(const LocalMotion &motion, const double *history) const override;
   int                   n_guards(const double *) const override { return 1; }
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;

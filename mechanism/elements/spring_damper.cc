@@ -23,6 +23,11 @@ double SpringDamper::stored_energy(const LocalMotion &motion, const double *) co
   return (parameters_.preload + 0.5 * parameters_.stiffness * stretch) * stretch;
 }
 
+double SpringDamper::stored_power(const LocalMotion &motion, const double *) const
+{
+  return (parameters_.preload + parameters_.stiffness * (motion.u[0] - parameters_.rest)) * motion.v[0];
+}
+
 std::vector<Quantity> SpringDamper::quantities() const
 {
   return {{"force", "N"}, {"stretch", "m"}, {"rate", "m/s"}, {"displacement", "m"}};

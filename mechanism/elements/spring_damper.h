@@ -35,6 +35,7 @@ public:
 
   void                  engaged(const double *u, double *K, double *D) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                stored_power(const LocalMotion &motion, const double *history) const override;
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 

@@ -90,6 +90,11 @@ double TableForce::stored_energy(const LocalMotion &motion, const double *histor
   return s.energy - (s.force + 0.5 * s.slope * dx) * dx;
 }
 
+double TableForce::stored_power(const LocalMotion &motion, const double *history) const
+{
+  return against_ == Against::displacement ? resistance(motion, history) * motion.v[0] : 0.;
+}
+
 Work TableForce::work() const
 {
   return against_ == Against::displacement ? Work::dissipated : Work::input;

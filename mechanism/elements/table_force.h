@@ -58,6 +58,7 @@ public:
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
+  double                stored_power(const LocalMotion &motion, const double *history) const override;
   Work                  work() const override;
   int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;

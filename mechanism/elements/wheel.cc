@@ -24,10 +24,21 @@ void Wheel::engaged(const double *, double *K, double *D) const
   D[0] = parameters_.damping;
 }
 
-double Wheel::stored_energy(const LocalMotion &motion, const double *history) const
+double Wheel::stored_energy(const LocalMotion &motion, const double *) const
 {
-  const bool stands = parameters_.bilateral || (motion.by_history ? history[0] != 0. : motion.u[0] < 0.);
-  return stands ? 0.5 * parameters_.stiffness * motion.u[0] * motion.u[0] : 0.;
+  const double d = deflection(motion);
+  return 0.5 * parameters_.stiffness * d * d;
+}
+
+double Wheel::stored_power(const LocalMotion &motion, const double *) const
+{
+  return parameters_.stiffness * deflection(motion) * motion.v[0];
+}
+
+/// Of the tyre, which unloads by and by where it lifted off.
+double Wheel::deflection(const LocalMotion &motion) const
+{
+  return parameters_.bilateral ? motion.u[0] : std::min(0., motion.u[0]);
 }
 
 std::vector<Guard> Wheel::guards(const double *history) const

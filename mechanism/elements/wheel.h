@@ -12,7 +12,8 @@ namespace gestell::mechanism
  *     contact:  F = c u + d u'     until F falls to zero ("lift_off"): before the tyre is unloaded, as it cannot pull
  *     free:     F = 0              until u > 0 and c u + d u' > 0 again ("touch_down"), where F jumps to d u'
  *
- * p = F on s.  With `bilateral` it never leaves the ground.  The energy left in the tyre at lift-off is lost.
+ * p = F on s.  With `bilateral` it never leaves the ground.  The energy left in the tyre at lift-off is lost while it
+ * unloads.
  *
  * Source: reference model of the mobile crane, sections 3 and 4; docs/theory/elements.md.
  */
@@ -43,6 +44,7 @@ public:
   void   start(const LocalMotion &motion, double *history) const override;
   void   engaged(const double *u, double *K, double *D) const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
 
   int                n_guards(const double *) const override { return parameters_.bilateral ? 0 : 1; }
   std::vector<Guard> guards(const double *history) const override;
@@ -53,6 +55,7 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
+  double deflection(const LocalMotion &motion) const;
   double force_in_contact(const LocalMotion &motion) const
   {
     return -parameters_.stiffness * motion.u[0] - parameters_.damping * motion.v[0];

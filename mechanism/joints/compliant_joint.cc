@@ -39,6 +39,7 @@ void CompliantJoint::see(const double *u, const double *v, Seen &seen) const
     const Equation &equation = equations_[i];
     const auto value = equation.demand.measure.evaluate(first_, second_, x_1, x_2, u, v, seen.G + Eigen::Index(i) * k);
     seen.s[i]        = value.s - equation.demand.offset;
+    seen.rate[i]     = value.rate;
     seen.lambda[i]   = -equation.stiffness * seen.s[i] - equation.damping * value.rate;
   }
 }
@@ -117,6 +118,16 @@ double CompliantJoint::stored_energy(const LocalMotion &motion, const double *) 
   for (int i = 0; i < n_equations(); ++i)
     energy += 0.5 * equations_[i].stiffness * seen.s[i] * seen.s[i];
   return energy;
+}
+
+double CompliantJoint::stored_power(const LocalMotion &motion, const double *) const
+{
+  Seen seen;
+  see(motion.u, motion.v, seen);
+  double power = 0.;
+  for (int i = 0; i < n_equations(); ++i)
+    power += equations_[i].stiffness * seen.s[i] * seen.rate[i];
+  return power;
 }
 
 std::vector<Quantity> CompliantJoint::quantities() const

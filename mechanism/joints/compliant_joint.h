@@ -49,6 +49,7 @@ public:
 
   double size_of_terms() const override { return first_.size() + second_.size(); }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
 
   /// Signals as those of the ideal joint: every lambda by the name of its equation, then "resultant".
   std::vector<Quantity> quantities() const override;
@@ -62,7 +63,7 @@ private:
   /// lambda_i, G [k x n, column major] of all equations: the places are evaluated once.
   struct Seen
   {
-    double s[max_equations], lambda[max_equations];
+    double s[max_equations], rate[max_equations], lambda[max_equations];
     double G[max_equations * PlacedMeasure::max_measures];
   };
   void see(const double *u, const double *v, Seen &seen) const;

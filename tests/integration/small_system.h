@@ -115,10 +115,10 @@ public:
   void                  transition(int, const coupling::LocalState &) override { ++transitions; }
 
   double local_stored_energy(const coupling::LocalState &) const override { return 0.; }
-  void   local_power(const coupling::LocalState &state, const Vector &p, double &input, double &other) const override
+  void local_power(const coupling::LocalState &state, const Vector &p, double &input, double &dissipated) const override
   {
-    input = 0.;
-    other = p.dot(state.v);
+    input      = 0.;
+    dissipated = -p.dot(state.v);
   }
   std::string coordinate_name(int i) const override { return "q" + std::to_string(i); }
 
