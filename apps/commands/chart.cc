@@ -35,8 +35,9 @@ double option_value(const std::string &option, const std::string &text, Kind dim
   {
     char        *end   = nullptr;
     const double plain = std::strtod(text.c_str(), &end);
-    const double value =
-        *end == '\0' && !text.empty() ? plain : value_as(parse_quantity(text, no_parameter), dimension, text);
+    const double value = *end == '\0' && !text.empty()
+                             ? plain
+                             : value_as(parse_quantity(text, no_parameter, {}, &dimension), dimension, text);
     if (value > 0. && std::isfinite(value))
       return value;
   }

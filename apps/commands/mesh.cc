@@ -29,7 +29,7 @@ double option_of(const std::string &option, const std::string &text, const Kind 
   try
   {
     if (*end != '\0')
-      value = value_as(parse_quantity(text, no_parameter), kind, text);
+      value = value_as(parse_quantity(text, no_parameter, {}, &kind), kind, text);
     if (value > 0.)
       return value;
   }
