@@ -3,6 +3,7 @@
 #include "apps/scene/read_frame.h"
 #include "apps/scene/read_joints.h"
 #include "apps/scene/read_run.h"
+#include "apps/scene/read_share.h"
 #include "apps/scene/read_switches.h"
 #include "apps/scene/scene.h"
 #include "coupling/nearest_name.h"
@@ -33,7 +34,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
                                   ? ReductionMethod::none
                                   : ReductionMethod::craig_bampton;
-  request.options.tolerance = table->positive("tolerance", kind::number, request.options.tolerance);
+  request.options.tolerance = read_share(*table, "tolerance", request.options.tolerance);
   if (table->has("modes"))
   {
     request.options.n_modes = table->integer("modes", 0);

@@ -11,6 +11,23 @@ namespace gestell::tests
 namespace
 {
 
+// The crank turns about the middle of its bearing, which the CAD file tells.
+TEST(Portal, ClosesAtEveryAngleWhereItsInterfacesAre)
+{
+  for (int k = 0; k < 8; ++k)
+  {
+    const Answer answer = gestell("check " + scene("portal_slider_crank.toml") + " --set start.q.crank='\"" +
+                                  std::to_string(45 * k) + " deg\"'");
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    EXPECT_FALSE(answer.says("warning")) << answer.text;
+    EXPECT_FALSE(answer.says("closed when the frame is made")) << answer.text;
+  }
+  const Answer open =
+      gestell("check " + scene("portal_slider_crank.toml") + " --set parameters.l='\"60 mm\"'"); // below r
+  EXPECT_EQ(open.exit_code, 2) << open.text;
+  EXPECT_TRUE(open.says("stays open")) << open.text;
+}
+
 /// A block of 0.2 x 0.1 x 1 m with a mass of 8 kg on a spring above.
 std::string block(const std::string &more)
 {
@@ -79,6 +96,19 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
   EXPECT_EQ(count(answer.text, "   free motion: nothing elastic holds it\n"), 6) << answer.text;
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
+}
+
+TEST_F(FrameAnswers, AFrameThatNothingHoldsIsToldToFall)
+{
+  const Answer falls = ask("run", block(""));
+  ASSERT_EQ(falls.exit_code, 0) << falls.text;
+  EXPECT_EQ(count(falls.text, "scene.toml:3: frame: nothing holds the frame as a whole at the start, so that it falls"),
+            1)
+      << falls.text;
+  const std::string springs = "[element.z]\ntype = \"spring-damper\"\nfrom = \"frame.top\"\nto = \"ground\"\n"
+                              "direction = [0, 0, 1]\nstiffness = \"1 kN/mm\"\n";
+  EXPECT_TRUE(ask("run", block(springs)).says("nothing holds the frame as a whole")); // five ways are left
+  EXPECT_FALSE(ask("run", block(support)).says("nothing holds"));
 }
 
 TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
