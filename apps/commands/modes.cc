@@ -75,6 +75,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   const auto geometric =
       modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
   Result result = begin_result(scene, "modes", prepared, geometric);
+  result.asked  = {options.input, options.overrides, std::nullopt};
   if (!modes.along.empty())
   {
     result.along = modes_along_result(scene, prepared, modes, progress);

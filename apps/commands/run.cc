@@ -105,6 +105,7 @@ int run_command(const CommonOptions &options)
   progress.show("modes");
   Result result   = begin_result(scene, "run", prepared);
   result.settings = settings_text(scene);
+  result.asked    = {options.input, options.overrides, scene.run.options};
 
   const coupling::RunOptions &run = scene.run.options;
   progress.show("integration", 0.);

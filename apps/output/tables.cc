@@ -91,6 +91,60 @@ void write_model(JsonWriter &json, const ModelFacts &model)
   json.end_object();
 }
 
+void text_or_null(JsonWriter &json, const std::string &name, const std::string &text)
+{
+  if (text.empty())
+    json.null(name);
+  else
+    json.text(name, text);
+}
+
+/// Of numbers that are 0 where nothing was asked for.
+void number_or_null(JsonWriter &json, const std::string &name, double x)
+{
+  if (x == 0.)
+    json.null(name);
+  else
+    json.number(name, x);
+}
+
+void write_request(JsonWriter &json, const Request &asked)
+{
+  json.begin_object("asked");
+  json.text("file", asked.file);
+  json.begin_array("set");
+  for (const std::string &entry : asked.set)
+    json.text("", entry);
+  json.end_array();
+  if (asked.run)
+  {
+    const coupling::MethodOptions &method = asked.run->method;
+    json.text("method", coupling::method_name(method));
+    number_or_null(json, "tolerance", method.tolerance);
+    number_or_null(json, "step", method.step);
+    json.number("begin", asked.run->begin);
+    json.number("end", asked.run->end);
+    json.boolean("events", asked.run->events);
+  }
+  json.end_object();
+}
+
+/// How a run went.
+void write_outcome(JsonWriter &json, const coupling::RunResult &run, const Request &asked)
+{
+  const std::size_t width = run.columns.size(), last_row = run.rows.size() - width;
+  const bool        rows = width > 0 && run.rows.size() >= width;
+  json.begin_object("outcome");
+  json.text("method", run.method);
+  json.number("begin", rows ? run.rows.front() : asked.run ? asked.run->begin : 0.);
+  json.number("end", rows ? run.rows[last_row] : asked.run ? asked.run->begin : 0.);
+  json.integer("events_located", static_cast<long long>(run.events.size()));
+  json.boolean("complete", run.failure.empty() && !run.interrupted);
+  json.boolean("interrupted", run.interrupted);
+  text_or_null(json, "failure", run.failure);
+  json.end_object();
+}
+
 void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes)
 {
   json.begin_array(name);
@@ -317,7 +371,11 @@ std::string summary_json(const Result &result)
   json.begin_object();
   json.text("scene", result.scene);
   json.text("version", result.version);
+  text_or_null(json, "commit", result.commit);
   json.text("command", result.command);
+  write_request(json, result.asked);
+  if (result.run)
+    write_outcome(json, *result.run, result.asked);
   write_model(json, result.model);
   json.begin_array("bodies_from_cad");
   for (const std::string &body : result.bodies_from_cad)

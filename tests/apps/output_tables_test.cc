@@ -148,8 +148,8 @@ TEST(Tables, SummaryHasEveryMemberOfTheContractEvenWithoutARun)
   Result result = example_result();
   result.run.reset();
   const std::string json = summary_json(result);
-  for (const char *member : {"scene", "version", "model", "frequencies_hz", "signals", "events", "method", "accuracy",
-                             "work", "wall_s", "energy", "warnings"})
+  for (const char *member : {"scene", "version", "commit", "asked", "model", "frequencies_hz", "signals", "events",
+                             "method", "accuracy", "work", "wall_s", "energy", "warnings"})
     EXPECT_NE(json.find("\n  \"" + std::string(member) + "\": "), std::string::npos) << member;
 }
 
