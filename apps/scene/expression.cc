@@ -181,7 +181,7 @@ Expression negated(const Expression &a)
 Expression raised(const Expression &a, const Expression &exponent)
 {
   if (!is_number(exponent))
-    fail("has an exponent with a unit; write 1e-3 mm, or put the power in parentheses");
+    fail("has an exponent with a unit");
   if (counts_shaft_turns(a))
     fail("raises turns of a shaft (1/min, rpm) to a power; write the speed in rad/s or Hz");
   if (!exponent.is_value())

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -222,8 +223,10 @@ private:
     if (!is("^"))
       return base;
     const std::size_t sign        = next_++;
-    const bool        unit_before = number_with_unit_;
+    const bool        unit_before = std::exchange(number_with_unit_, false);
     const Expression  exponent    = factor();
+    if (number_with_unit_)
+      fail("has a unit behind its exponent; write 1e-3 mm, or put the power in parentheses", sign);
     if (base.checked && exponent.checked)
       number_with_unit_ = unit_before;
     return at(sign, [&] { return raised(base, exponent); });

@@ -173,6 +173,7 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                                                   {"max(1)", "arguments"},
                                                                   {"1/0", "zero"},
                                                                   {"sqrt(-1)", "negative"},
+                                                                  {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
                                                                   {"2 $ 3", "'$'"},
                                                                   {"1e999", "range"},
                                                                   {"10^400", "finite"},
