@@ -348,21 +348,18 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
         recorder.step();
         cylinders.step();
       });
+  driver.on_event([&](const Event &event) { recorder.jump(event.name); });
   recorder.begin();
   cylinders.begin();
 
   const long   progress_every = machine.size() > 1000 ? 4 : 1024;
   CrawlWatch   crawl(options);
-  const double finish   = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
-  std::size_t  n_events = 0;
+  const double finish = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
   try
   {
     for (long k = 1; integrator->time() < finish; ++k)
     {
       driver.advance();
-      if (driver.events().size() != n_events)
-        recorder.jump(driver.events().back().name);
-      n_events = driver.events().size();
       if (stop && stop->load(std::memory_order_relaxed))
       {
         result.interrupted = true;

@@ -1,5 +1,7 @@
 #include "coupling/integration/exact.h"
 
+#include "coupling/integration/consistent_start.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -10,6 +12,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the grid is joined with the next step
+constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u moves too little for its rate to be read
 constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
 
 /// A step to begin with: an eighth of the longest period of the base system.
@@ -72,12 +75,18 @@ void Exact::start_piece()
 {
   t_begin_ = t_full_ = local_.t;
   stepped_ = cut_ = false;
-  now_known_      = false;
+  forget_inside();
   system_.local_force(local_, local_.p);
   ++context_.work.evaluations;
   context_.accelerate(x_, local_);
   force_->begin(x_, local_);
   local_begin_ = local_;
+}
+
+void Exact::forget_inside()
+{
+  now_known_ = false;
+  t_inside_  = t_begin_;
 }
 
 Exact::Target Exact::next_target() const
@@ -153,7 +162,7 @@ void Exact::advance()
     t_begin_     = local_.t;
     stepped_     = false;
   }
-  now_known_ = false;
+  forget_inside();
   for (;;)
   {
     const Target target = next_target();
@@ -182,8 +191,8 @@ void Exact::advance()
 
 void Exact::cut(double t)
 {
-  now_known_ = false;
-  cut_       = true;
+  forget_inside();
+  cut_ = true;
   if (!(t > t_begin_))
   {
     local_ = local_begin_;
@@ -194,6 +203,7 @@ void Exact::cut(double t)
   if (attempt(target))
   {
     local_.t = t;
+    keep_held_rates(system_, local_.v);
     return;
   }
   ++context_.work.rejected;
@@ -245,7 +255,21 @@ void Exact::interpolate(double t, LocalState &state) const
     return;
   }
   force_->interpolate((t - t_begin_) / h, state);
-  state.t = t;
+  state.t             = t;
+  const bool is_short = h < few_differences * step_, holds = !system_.held().empty();
+  if (!is_short && !holds)
+    return;
+  const Eigen::VectorXd &x = state_at(t);
+  if (is_short)
+  {
+    state.u.noalias() = context_.measures.read_u.transpose() * x;
+    state.v.noalias() = context_.measures.read_v.transpose() * x;
+  }
+  if (!holds)
+    return;
+  system_.local_force(state, state.p);
+  ++context_.work.evaluations;
+  context_.accelerate(x, state);
 }
 
 const Eigen::VectorXd &Exact::state_at(double t) const
@@ -259,12 +283,15 @@ const Eigen::VectorXd &Exact::state_at(double t) const
       force_->end_state(x_work_);
     return x_work_;
   }
+  if (t_inside_ > t_begin_ && t == t_inside_)
+    return x_inside_;
   force_->begin_state(x_inside_);
   if (t > t_begin_)
   {
     force_->forces(forces_);
     carry_inside(context_.measures, force_->basis(), t - t_begin_, h, forces_, x_inside_);
   }
+  t_inside_ = t;
   return x_inside_;
 }
 
