@@ -165,7 +165,9 @@ public:
       point.failure  = result.failure;
       if (!method.peer)
         point.settings = scene_settings(method, setting, events);
-      if (point.failure.empty())
+      if (point.failure.empty() && reference_.size() == 0)
+        point.failure = "no reference to tell its error";
+      else if (point.failure.empty())
       {
         point.error    = scaled_error(result.values, reference_);
         point.resolved = point.error >= resolved_above * model_.reference_error;

@@ -166,6 +166,7 @@ void BdfControlled::restart()
   now_known_ = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
+  scale_.laws(dp_du_, dp_dv_);
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 

@@ -3,6 +3,7 @@
 #include "coupling/integration/backward_differences.h"
 #include "coupling/integration/bdf_order_limit.h"
 #include "coupling/integration/consistent_start.h"
+#include "coupling/integration/error_control.h"
 #include "coupling/integration/error_scale.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
@@ -51,7 +52,7 @@ namespace gestell::coupling
  * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
  * of a start; the polynomial of degree k + 1 from order 3 on.
  */
-class BdfControlled : public TimeIntegrator
+class BdfControlled : public TimeIntegrator, public ErrorControl
 {
 public:
   struct Options
@@ -81,6 +82,8 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
+  bool                   controls_error() const override { return true; }
+  void                   expect(double way, double speed) override { scale_.expect(way, speed); }
 
   /// Order and length [s] of the step to come.
   int    order() const { return order_; }

@@ -1,5 +1,8 @@
 #include "coupling/integration/event_driver.h"
 
+#include "coupling/integration/error_control.h"
+#include "coupling/integration/loads_to_come.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,8 +46,15 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   before_.p.setZero();
   system_.follow_history(false);
   system_.start(before_);
+  auto *const  control  = dynamic_cast<ErrorControl *>(&integrator_);
+  const bool   controls = control && control->controls_error();
+  LoadedMotion loaded;
+  if (controls)
+    loaded = loads_to_come(system_, before_, options_.end);
   system_.follow_history(options_.locate);
   integrator_.begin(t, q, v);
+  if (controls)
+    control->expect(loaded.way, loaded.speed);
   before_ = integrator_.local();
   detection_.begin(before_);
   window_begin_ = t;

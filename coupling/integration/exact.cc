@@ -31,7 +31,8 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
                                                            : make_fused_step(context_, options.force);
   Q_             = reordered(modes_.Q, context_.measures.n_p);
   V_             = reordered(modes_.V, context_.measures.n_p);
-  step_          = options.step > 0. ? options.step : natural_step(modes_);
+  context_.error_tolerance = options.tolerance;
+  step_                    = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(system);
   local_begin_.resize(system);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
@@ -47,13 +48,17 @@ void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   local_.u.noalias() = system_.directions().transpose() * q;
   local_.v.noalias() = system_.directions().transpose() * v;
   local_.p.setZero();
-  context_.u_begin = local_.u;
-  context_.scale.setZero();
+  context_.begin(x_, local_.u);
   t_origin_ = t;
   tick_     = 0;
   on_grid_  = true;
   rung_     = 0;
   start_piece();
+}
+
+void Exact::expect(double way, double)
+{
+  context_.loads_way = way;
 }
 
 /// Harmonics of the load as they are at local_.t, in x_: what rounding did to them goes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/error_control.h"
 #include "coupling/integration/force_step.h"
 #include "coupling/integration/time_integrator.h"
 
@@ -27,7 +28,7 @@ namespace gestell::coupling
  * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
  * the grid allows.
  */
-class Exact : public TimeIntegrator
+class Exact : public TimeIntegrator, public ErrorControl
 {
 public:
   struct Options
@@ -55,6 +56,8 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return context_.work; }
+  bool                   controls_error() const override { return options_.tolerance > 0.; }
+  void                   expect(double way, double speed) override;
 
 private:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone

@@ -304,5 +304,41 @@ TEST(Exact, LinearForceIsStableUpToTwoRootThree)
   EXPECT_GT(energy_after(ForceRule::linear, 1.01 * limit, 2000), 1e6);
 }
 
+// --- Newton
+
+/// End of x'' + x + x^3 = 0 from x = 1.
+double end_of_duffing(const Exact::Options &options)
+{
+  SmallSystem system(one(1.), one(0.), one(1.));
+  system.set_law(Vector::Ones(1),
+                 [](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   p     = -u * u * u;
+                   dp_du = -3. * u * u;
+                   dp_dv = 0.;
+                 });
+  Exact exact(system, options);
+  exact.begin(0., Vector::Ones(1), Vector::Zero(1));
+  run_to(exact, 40., options.step);
+  return exact.instant().q[0];
+}
+
+// What Newton leaves of a force counts (omega h)^-2 times more than what it moves in one step.
+TEST(Exact, NewtonLeavesLittleBesideTheErrorOfFixedSteps)
+{
+  for (const int order : {6, 8})
+    for (const double h : {0.1, 0.05, 0.025})
+    {
+      Exact::Options fine      = fixed(0.02, ForceRule::collocation, 8);
+      fine.newton.tolerance    = 1e-13;
+      Exact::Options tight     = fixed(h, ForceRule::collocation, order);
+      tight.newton.tolerance   = 1e-13;
+      const double truth       = end_of_duffing(fine);
+      const double own         = std::abs(end_of_duffing(tight) - truth);
+      const double as_it_comes = std::abs(end_of_duffing(fixed(h, ForceRule::collocation, order)) - truth);
+      EXPECT_LT(as_it_comes, 2. * own + 1e-9) << order << " " << h;
+    }
+}
+
 } // namespace
 } // namespace gestell::tests
