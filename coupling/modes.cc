@@ -96,7 +96,8 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
   return result;
 }
 
-/// Multipliers of the joints as the machine moves on from rest.
+} // namespace
+
 Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
@@ -105,7 +106,6 @@ Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorX
   ConsistentStart(machine, "modes").solve(q, zero, a, local, work);
   return local.lambda;
 }
-} // namespace
 
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 {

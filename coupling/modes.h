@@ -50,6 +50,10 @@ struct Linearisation
   bool                           damping = true;              ///< false: undamped frequencies and shapes only
 };
 
+/// Multipliers [n_c] of the joints as the machine moves on from rest at q; `local` holds its motion there.
+/// @throws ConvergenceFailure
+Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local);
+
 /**
  * Modes of the coupled machine linearised at q, shapes in the machine's coordinates:
  *

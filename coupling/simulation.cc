@@ -5,6 +5,7 @@
 #include "coupling/integration/event_driver.h"
 #include "coupling/joint_rank.h"
 #include "coupling/recorder.h"
+#include "coupling/stiffness_watch.h"
 #include "coupling/tilting_rotors.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
@@ -158,11 +159,13 @@ void take_work(const IntegrationWork &work, long chatter, bool controlled, RunRe
 void guard(const Machine &machine, const InitialState &initial, const RunOptions &options, const MethodOptions &method,
            RunResult &result)
 {
-  result.accuracy = mode_accuracy(machine, initial, method);
-  result.warnings = stability_warnings(result.accuracy, method);
+  const LinearSpectrum spectrum = spectrum_for(machine, initial, method);
+  const StabilityGuard guard(spectrum, method);
+  result.accuracy = guard.modes();
+  result.warnings = guard.warnings();
   try
   {
-    check_stability(result.accuracy, method);
+    guard.check();
   }
   catch (const std::invalid_argument &unstable)
   {
@@ -341,12 +344,15 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     fail_at_start(failure, result);
     return result;
   }
-  CylinderWatch cylinders(machine, *integrator);
+  CylinderWatch  cylinders(machine, *integrator);
+  StiffnessWatch stiffness(machine, initial, method);
   driver.on_step(
       [&]
       {
         recorder.step();
         cylinders.step();
+        if (!options.force_unstable)
+          stiffness.step(integrator->local());
       });
   recorder.begin();
   cylinders.begin();
