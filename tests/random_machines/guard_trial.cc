@@ -65,9 +65,10 @@ public:
   std::vector<Finding> findings()
   {
     coupling::Machine model = apps::build_machine(trial_.scene());
-    modes_                  = coupling::mode_accuracy(model, trial_.initial(), options_);
-    double radius           = 0.;
-    for (const coupling::ModeAccuracy &mode : modes_)
+    spectrum_               = coupling::linear_spectrum(model, trial_.initial());
+    const coupling::StabilityGuard guard(spectrum_, options_);
+    double                         radius = 0.;
+    for (const coupling::ModeAccuracy &mode : guard.modes())
       if (mode.unstable)
         radius = std::max(radius, mode.spectral_radius);
     if (radius > 0.)
@@ -105,7 +106,7 @@ private:
     if (steps < most_steps && !grew(forced(options_, std::max(100., steps)), growth))
       find("guard refused what does not grow", options_, radius, 1.);
     coupling::MethodOptions offered = options_;
-    offered.step                    = coupling::largest_stable_step(modes_, options_);
+    offered.step                    = coupling::StabilityGuard(spectrum_, options_).largest_stable_step();
     if (!(offered.step > 0.))
       return;
     const Told told = trial_.run(offered, 1, offered.step * 50.);
@@ -123,11 +124,11 @@ private:
     find(kind, options, energy_growth(longer), growth);
   }
 
-  const Trial                        &trial_;
-  double                             &cpu_s_;
-  coupling::MethodOptions             options_;
-  std::vector<coupling::ModeAccuracy> modes_;
-  std::vector<Finding>                findings_;
+  const Trial             &trial_;
+  double                  &cpu_s_;
+  coupling::MethodOptions  options_;
+  coupling::LinearSpectrum spectrum_;
+  std::vector<Finding>     findings_;
 };
 
 } // namespace
