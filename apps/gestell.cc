@@ -43,6 +43,9 @@ CLI::App *add_command(CLI::App &program, const std::string &name, const std::str
   command->add_option("--jobs", options.jobs, "threads of the linear algebra that makes a frame (default 1)")
       ->check(above_zero());
   command->add_flag("--quiet", options.quiet, "no progress on standard error");
+  command->add_flag_callback(
+      "--trust-scripts", [&options] { options.scripts = gestell::fem::Scripts::trusted; },
+      "run scripts of gmsh (.geo) as they are, which may run programs and write files");
   if (input == "SCENE")
   {
     command->add_option("-o,--output", options.folder, "folder for results (default results/<scene name>)");

@@ -295,7 +295,7 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
 
 int chart_command(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
-  Scene scene = read_scene(options.input, options.overrides);
+  Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
   check_scene(scene);
   if (chart_options.samples < 2)
@@ -336,7 +336,7 @@ int chart_command(const CommonOptions &options, const ChartCommandOptions &chart
   {
     std::vector<std::string> overrides = options.overrides;
     overrides.push_back("reduction.modes=" + std::to_string(modes));
-    references.push_back(chart_model(request, read_scene(options.input, overrides), chart, progress));
+    references.push_back(chart_model(request, read_scene(options.input, overrides, options.scripts), chart, progress));
   }
   for (std::size_t m = 0; m + 1 < references.size(); ++m)
     chart.models[m].truncation = scaled_error(references[m], references.back());

@@ -46,7 +46,7 @@ std::size_t elements_written(const Scene &scene)
 
 int check_command(const CommonOptions &options)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
   check_start(scene);
   std::vector<std::string> warnings = scene.warnings;

@@ -59,7 +59,7 @@ void print_poles(const std::vector<coupling::Pole> &poles)
 
 int modes_command(const CommonOptions &options, const ModesCommandOptions &modes)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
   const std::filesystem::path folder = results_path(options, scene);
   require_writable(folder);

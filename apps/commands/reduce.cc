@@ -24,7 +24,7 @@ Scene scene_to_reduce(const CommonOptions &options)
 {
   if (options.input.empty())
     throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
-  Scene scene = read_scene(options.input, options.overrides);
+  Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "

@@ -89,7 +89,7 @@ void print_answer(const coupling::RunResult &run)
 
 int run_command(const CommonOptions &options)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
   check_scene(scene);
   const std::filesystem::path folder = results_path(options, scene);

@@ -114,7 +114,7 @@ int stability_command(const CommonOptions &options, const StabilityCommandOption
   std::optional<Scene> scene;
   if (with_scene)
   {
-    scene = read_scene(options.input, options.overrides);
+    scene = read_scene(options.input, options.overrides, options.scripts);
     check_scene(*scene);
   }
   const std::filesystem::path folder =

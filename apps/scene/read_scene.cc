@@ -177,7 +177,7 @@ void check_gravity(const SceneTable &table, const Scene &scene)
 
 } // namespace
 
-Scene read_scene(const std::string &path, const std::vector<std::string> &overrides)
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts)
 {
   const SceneNode  root = read_scene_file(path, overrides);
   const Parameters parameters(root.find("parameters"));
@@ -191,13 +191,14 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   scene.description = table.text("description", "");
   if (scene.name.find('/') != std::string::npos || scene.name == "." || scene.name == "..")
     throw table.error("name", "must not contain '/': it names the folder of the results");
-  scene.gravity   = table.vector("gravity", kind::acceleration, {});
-  scene.frame     = read_frame(table);
-  scene.reduction = read_reduction(table, scene.frame);
+  scene.gravity                = table.vector("gravity", kind::acceleration, {});
+  scene.frame                  = read_frame(table);
+  scene.frame.geometry.scripts = scripts;
+  scene.reduction              = read_reduction(table, scene.frame);
   check_gravity(table, scene);
 
   Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
-  scene.bodies = read_bodies(table, names);
+  scene.bodies = read_bodies(table, names, scripts);
   read_places(table, names, scene);
   read_elements(table, names, scene);
   read_joints(table, names, scene);

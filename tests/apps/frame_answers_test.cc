@@ -131,6 +131,26 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
   EXPECT_TRUE(broken.says("block.step")) << broken.text;
 }
 
+TEST_F(FrameAnswers, AScriptThatRunsProgramsIsRefusedUnlessItIsTrusted)
+{
+  const std::string did   = (folder_ / "did").string();
+  std::string       scene = block(support);
+  scene.replace(scene.find("block.geo"), 9, "other.geo");
+  const std::string script =
+      folder_.file("other.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n"
+                                "SystemCall \"touch '" +
+                                    did + "'\";\n");
+  for (const Answer &answer : {ask("check", scene), ask("run", scene), gestell("mesh " + script)})
+  {
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says("other.geo:3: SystemCall runs a program")) << answer.text;
+    EXPECT_FALSE(std::filesystem::exists(did));
+  }
+  const Answer trusted = ask("check", scene, " --trust-scripts");
+  EXPECT_EQ(trusted.exit_code, 0) << trusted.text;
+  EXPECT_TRUE(std::filesystem::exists(did));
+}
+
 TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
 {
   const Answer answer = ask("run", block(rest));
