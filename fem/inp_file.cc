@@ -9,7 +9,6 @@
 #include <set>
 #include <stdexcept>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace gestell::fem
 {
@@ -107,6 +106,15 @@ private:
       read_file(input);
   }
 
+  /// Whether a keyword, or what stands below it, says something of the mesh.
+  static bool is_of_mesh(const std::string &name)
+  {
+    static const std::set<std::string> known = {
+        "HEADING", "PREPRINT", "NODE",     "ELEMENT", "NSET",         "ELSET", "SURFACE",      "SOLID SECTION",
+        "PART",    "END PART", "ASSEMBLY", "SYSTEM",  "END ASSEMBLY", "END",   "END INSTANCE", "INSTANCE"};
+    return known.count(name) > 0;
+  }
+
   /// Keywords that say of the mesh what is not read.
   void require_followed(const InpKeyword &keyword)
   {
@@ -130,7 +138,12 @@ private:
       refuse(head + "surfaces combined of others are not read; list the sides of the elements.");
     for (const char *tie : {"TIE", "EQUATION", "MPC", "RIGID BODY", "COUPLING", "KINEMATIC COUPLING"})
       if (name == tie)
+      {
         ties_.insert("*" + name);
+        return;
+      }
+    if (!is_of_mesh(name))
+      left_.insert("*" + name);
   }
 
   void begin_elements(const std::string &type)
@@ -167,7 +180,7 @@ private:
   void take_node(const std::vector<std::string> &fields)
   {
     const std::size_t node = number(fields[0]);
-    if (!nodes_.insert(node).second)
+    if (!nodes_.emplace(node, mesh_.numbers.size()).second)
       refuse("node " + std::to_string(node) + " comes twice; give each node a number of its own.");
     mesh_.numbers.push_back(node);
     for (std::size_t d = 1; d <= 3; ++d)
@@ -292,12 +305,92 @@ private:
       const std::set<std::size_t> all = resolve(name, node_entries_);
       mesh_.node_sets[name].assign(all.begin(), all.end());
     }
+    order_middles();
     add_solids();
     add_surface_elements();
+    tell_what_is_left();
     for (const std::string &tie : ties_)
       mesh_.notes.push_back(tie + " is left out: what it ties together must share nodes");
     for (const Side &side : sides_)
       add_side(side);
+  }
+
+  void tell_what_is_left()
+  {
+    constexpr std::size_t most_told = 8;
+    std::string           names;
+    std::size_t           n = 0;
+    for (const std::string &name : left_)
+      if (++n <= most_told)
+        names += (n > 1 ? ", " : "") + name;
+    if (n > most_told)
+      names += " and " + std::to_string(n - most_told) + " more";
+    if (n > 0)
+      mesh_.notes.push_back(names + (n > 1 ? " are" : " is") +
+                            " not read: a mesh is taken from the file, material, supports and loads from the scene");
+  }
+
+  /// Square of the distance of a node from the middle between two others.
+  double beside(std::size_t node, std::size_t a, std::size_t b) const
+  {
+    double sum = 0.;
+    for (int d = 0; d < 3; ++d)
+    {
+      const auto   x = [&](std::size_t number) { return mesh_.coordinates[3 * nodes_.at(number) + d]; };
+      const double r = x(node) - 0.5 * (x(a) + x(b));
+      sum += r * r;
+    }
+    return sum;
+  }
+
+  /// Of every middle node in the file's order, the edge it lies on; its own one where another is no nearer.
+  std::vector<std::size_t> edges_of_middles(const Element &element) const
+  {
+    const auto              &edges     = inp_edges(element.kind->gmsh_type);
+    const std::size_t        n_corners = element.nodes.size() - edges.size();
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+      const auto distance = [&](std::size_t edge)
+      { return beside(element.nodes[n_corners + k], element.nodes[edges[edge][0]], element.nodes[edges[edge][1]]); };
+      std::size_t nearest = k;
+      for (std::size_t edge = 0; edge < edges.size(); ++edge)
+        if (distance(edge) < 0.99 * distance(nearest)) // equal but for the digits of the file
+          nearest = edge;
+      result.push_back(nearest);
+    }
+    return result;
+  }
+
+  /// Puts the middle nodes of cells into Abaqus's order where all cells of a kind have them in one other order.
+  void order_middles()
+  {
+    std::map<int, std::vector<std::size_t>> order_of; // kind to the edges of its middles
+    for (const std::size_t number : order_)
+    {
+      Element    &element = elements_.at(number);
+      const auto &edges   = inp_edges(element.kind->gmsh_type);
+      if (edges.empty())
+        continue;
+      const std::vector<std::size_t> order = edges_of_middles(element);
+      const auto [common, is_new]          = order_of.try_emplace(element.kind->gmsh_type, order);
+      const std::size_t n_different        = std::set<std::size_t>(order.begin(), order.end()).size();
+      if (n_different < edges.size() || order != common->second)
+        throw std::invalid_argument(
+            source_.place + ": " + source_.path + ": the middle nodes of element " + std::to_string(number) +
+            " do not lie on the edges they stand for, in no order that all elements share; " + element.kind->begin +
+            " needs them edge by edge as in Abaqus's manual. Export the mesh again, or without middle nodes.");
+      const std::size_t        n_corners = element.nodes.size() - edges.size();
+      std::vector<std::size_t> nodes     = element.nodes;
+      for (std::size_t k = 0; k < edges.size(); ++k)
+        nodes[n_corners + order[k]] = element.nodes[n_corners + k];
+      element.nodes = nodes;
+    }
+    for (const auto &[kind, order] : order_of)
+      if (!std::is_sorted(order.begin(), order.end()))
+        mesh_.notes.push_back("the middle nodes of its " + std::string(kind == 11 ? "tetrahedra" : "hexahedra") +
+                              " stand in the order of another program than Abaqus; they are taken for the edges they "
+                              "lie on");
   }
 
   void add_solids()
@@ -376,7 +469,7 @@ private:
   const InpElementKind                           *kind_ = nullptr;
   std::string                                     set_, node_set_;
   std::size_t                                     element_ = 0; // being read
-  std::unordered_set<std::size_t>                 nodes_;
+  std::unordered_map<std::size_t, std::size_t>    nodes_;       // to their index
   std::unordered_map<std::size_t, Element>        elements_;
   std::vector<std::size_t>                        order_; // of the elements
   std::map<std::string, std::vector<std::string>> node_entries_, element_entries_;
@@ -384,7 +477,7 @@ private:
   std::vector<std::string>                        sections_;
   std::vector<Side>                               sides_;
   std::map<std::string, int>                      n_parts_;
-  std::set<std::string>                           ties_;
+  std::set<std::string>                           ties_, left_;
 };
 
 } // namespace

@@ -220,11 +220,12 @@ void measure_solids(CadModel &model, const Mesh &mesh)
     solid.min = model.max;
     solid.max = model.min;
   }
-  const std::vector<std::array<int, 4>> pieces = tetrahedra_of(mesh);
+  const std::vector<std::array<int, 4>> pieces  = tetrahedra_of(mesh);
+  const std::vector<double>             volumes = curved_volumes(mesh);
   for (std::size_t c = 0; c < pieces.size(); ++c)
   {
     Solid &solid = model.solids[mesh.cell_solid[c * mesh.cell_solid.size() / pieces.size()]];
-    solid.volume += six_volumes(mesh, pieces[c]) / 6.;
+    solid.volume += volumes[c];
     for (const int point : pieces[c])
       for (int d = 0; d < 3; ++d)
       {
@@ -252,8 +253,8 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
   check_materials(result.model, specification);
-  measure_solids(result.model, mesh);
   unfold(result.extracted.mesh);
+  measure_solids(result.model, mesh);
   const auto divided = divide_skin(result.extracted, result.model.groups);
   result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
   result.selection   = select_all(result.model, specification);
