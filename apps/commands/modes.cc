@@ -67,7 +67,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   ProgressLine                             progress(options.quiet);
   std::optional<coupling::MeshConvergence> convergence;
   if (modes.converge > 0.)
-    convergence = converge_frame(scene, modes, progress);
+    convergence = converge_frame(scene, modes, folder, progress);
   PreparedMachine prepared =
       convergence ? prepare_machine_on(scene, convergence->frame) : prepare_machine(scene, progress);
 

@@ -151,6 +151,13 @@ TEST_F(FrameAnswers, AScriptThatRunsProgramsIsRefusedUnlessItIsTrusted)
   EXPECT_TRUE(std::filesystem::exists(did));
 }
 
+TEST_F(FrameAnswers, AConvergenceKeepsTheRowsOfItsMeshes)
+{
+  const Answer answer = ask("modes", block(support), " --converge 1e-4 --max-coordinates 6000");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_GE(count(read(folder_.results() / "mesh_convergence.csv"), "\n"), 3);
+}
+
 TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
 {
   const Answer answer = ask("run", block(rest));
