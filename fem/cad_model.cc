@@ -82,6 +82,20 @@ void check_kernel(const CadSource &source)
         "it with SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" to mesh by itself.");
 }
 
+/// Cells of surfaces in a mesh file.
+std::size_t shell_cells(const CadModel &model)
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  std::size_t n = 0;
+  for (const auto &of_type : elements)
+    n += of_type.size();
+  for (const auto &[name, faces] : model.groups.faces) // of an .inp
+    n += faces.size();
+  return n;
+}
+
 void check_solids(const CadModel &model, const CadSource &source, const GmshSession &session)
 {
   const std::string head = source.place + ": " + source.path;
@@ -94,9 +108,14 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
                                               : "no closed solid, only " + std::to_string(faces.size()) +
                                                  " faces (shells or surfaces)" +
                                                  (model.meshed ? "" : open_edges_of_faces(model.unit));
-    throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
+    const std::size_t n_shell = model.meshed ? shell_cells(model) : 0;
+    const std::string cells   = n_shell == 0 ? " holds no tetrahedra"
+                                             : " holds " + std::to_string(n_shell) +
+                                                 " triangles and quadrilaterals (a shell or a skin), but no tetrahedra";
+    throw std::invalid_argument(head + (model.meshed ? cells : " holds " + what) +
                                 (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
-                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
+                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving; a plate "
+                                                "is taken as a solid of its thickness."
                                               : "closed solid: sew the faces into a solid and export it as a solid."));
   }
   for (const Solid &solid : model.solids)

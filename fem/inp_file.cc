@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -265,7 +266,7 @@ private:
     const char *begin       = field.data() + (field[0] == '+');
     double      result      = 0.;
     const auto [end, error] = std::from_chars(begin, field.data() + field.size(), result);
-    if (error != std::errc() || end != field.data() + field.size())
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(result))
       refuse("\"" + field + "\" is no coordinate.");
     return result;
   }

@@ -312,6 +312,8 @@ private:
     const std::size_t begin = next_++;
     if (!take("^"))
       return units().at(name);
+    if (name == "%")
+      fail("needs % without an exponent: \"2 %\" is 0.02; write its square as \"(2 %)^2\"");
     const double sign = take("-") ? -1. : 1.;
     if (token().kind != Token::number || token().value != std::floor(token().value))
       fail("needs a whole number as the exponent of the unit '" + name + "'");

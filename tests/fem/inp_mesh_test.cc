@@ -248,7 +248,10 @@ TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
   EXPECT_THAT(told_of(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
   EXPECT_THAT(told_of("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
   EXPECT_THAT(told_of("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
+  EXPECT_THAT(told_of("*NODE\n1, 0, NaN, 0\n"), HasSubstr("\"NaN\" is no coordinate"));
   EXPECT_THAT(told_of(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=S4, ELSET=A\n1, 1,2,4,3\n2, 5,6,8,7\n"),
+              AllOf(HasSubstr("holds 2 triangles and quadrilaterals"), HasSubstr("a plate is taken as a solid")));
 }
 
 TEST(InpMesh, TakesLinesOfOtherFiles)
