@@ -6,6 +6,7 @@
 #include "fem/hexahedral_mesh.h"
 #include "fem/memory_estimate.h"
 #include "fem/mesh_extraction.h"
+#include "fem/mesh_grading.h"
 #include "fem/mesh_groups.h"
 #include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -31,6 +33,7 @@ namespace
 constexpr double cells_by_default = 25000.;
 constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
 constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
+constexpr double runaway          = 3.;   // times the triangles wanted
 
 enum class MissingSize
 {
@@ -81,15 +84,60 @@ void require_straight(const ExtractedMesh &extracted, const FrameSpecification &
                                 "along curved faces, or mesh with tetrahedra.");
 }
 
-/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
-void generate(const FrameSpecification &specification, const GmshSession &session, const MeshProgress &progress)
+const std::string remedy = "; choose another mesh.size or repair the faces in the CAD program.";
+
+/// Triangles of gmsh's mesh of the surfaces.
+std::size_t number_of_triangles()
 {
-  const auto        report = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
-  const std::string remedy = "; choose another mesh.size or repair the faces in the CAD program.";
-  report("meshing surfaces");
-  session.run([] { gmsh::model::mesh::generate(2); },
-              head_of(specification) + ": gmsh cannot mesh its surfaces: ", remedy);
-  report("meshing volumes");
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  std::size_t n = 0;
+  for (const auto &of_type : elements)
+    n += of_type.size();
+  return n;
+}
+
+void require_cells(double n, const std::string &what, const MeshOptions &options)
+{
+  if (n > options.max_cells)
+    throw std::invalid_argument(options.place + ": " + what + ", mesh.max_cells allows " + text(options.max_cells) +
+                                " cells; use a larger size, remove small edges and faces (defeature), or raise "
+                                "max_cells.");
+}
+
+/// Meshes the surfaces; again with sizes that grow from short edges where those make far more triangles than wanted.
+void mesh_surfaces(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options,
+                   const GmshSession &session, const std::optional<SizeField> &refined, bool script_has_sizes)
+{
+  const std::string head = head_of(specification) + ": gmsh cannot mesh its surfaces: ";
+  session.run([] { gmsh::model::mesh::generate(2); }, head, remedy);
+  const WantedSize wanted(result.model, options, result.selection, refined);
+  const double     excess = excess_of_triangles(wanted, result.model.unit);
+  const ShortEdges edges  = excess > runaway && !script_has_sizes
+                                ? grade_from_short_edges(wanted, result.model, options, result.selection)
+                                : ShortEdges{};
+  if (edges.n > 0)
+  {
+    session.run(
+        []
+        {
+          gmsh::model::mesh::clear();
+          gmsh::model::mesh::generate(2);
+        },
+        head, remedy);
+    result.model.notes.push_back(
+        std::to_string(edges.n) + " edges are meshed with sides of less than half of the size, " +
+        text(1e3 * edges.shortest) + " mm at least; carried through the faces they would make " + text(excess) +
+        " times the triangles wanted, so elements grow from them to the size");
+  }
+  const double n = static_cast<double>(number_of_triangles());
+  require_cells(0.5 * n, "the surfaces alone have " + text(n) + " triangles", options); // two at most to a cell
+}
+
+/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
+void mesh_volumes(const FrameSpecification &specification, const GmshSession &session)
+{
   session.run([] { gmsh::model::mesh::generate(3); },
               head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
@@ -199,12 +247,22 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
                    MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
-  const MeshOptions options = prepare_geometry(result, specification, missing);
+  const bool               script_has_sizes = has_size_fields();
+  const MeshOptions        options          = prepare_geometry(result, specification, missing);
+  const auto               report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  std::optional<SizeField> field;
   if (!refined.empty())
-    set_refined_sizes(SizeField(refined, options.size), result.model.unit);
-  generate(specification, session, progress);
+    set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
+  report("meshing surfaces");
+  mesh_surfaces(result, specification, options, session, field, script_has_sizes);
+  report("meshing volumes");
+  mesh_volumes(specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
   require_straight(result.extracted, specification);
+  require_cells(result.extracted.mesh.n_cells(),
+                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
+  if (refined.empty()) // who refines judges beforehand
+    judge_memory(result, specification);
   if (!result.extracted.mesh.hexahedra.empty())
     return;
   improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
