@@ -91,11 +91,12 @@ void write_model(JsonWriter &json, const ModelFacts &model)
   json.end_object();
 }
 
-void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes)
+void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes,
+                       double coupling::Mode::*frequency = &coupling::Mode::frequency_hz)
 {
   json.begin_array(name);
   for (const coupling::Mode &mode : modes)
-    json.number("", mode.frequency_hz);
+    json.number("", mode.*frequency);
   json.end_array();
 }
 
@@ -282,6 +283,7 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
       append_exact(csv += ',', x);
     csv += std::string(",") + kind + ',';
     append_exact(csv, mode.growth);
+    append_exact(csv += ',', mode.refined_hz);
     csv += '\n';
   }
 }
@@ -325,6 +327,7 @@ std::string summary_json(const Result &result)
   json.end_array();
   write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
+  write_frequencies(json, "frame_refined_frequencies_hz", result.frame_modes, &coupling::Mode::refined_hz);
   write_poles(json, result.poles);
   if (result.along)
     write_along(json, *result.along);
@@ -371,8 +374,9 @@ std::string history_csv(const coupling::RunResult &run)
 
 std::string modes_csv(const Result &result)
 {
-  std::string csv = "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
-                    "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s]\n";
+  std::string csv =
+      "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
+      "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]\n";
   append_modes(csv, result.frame_modes, "frame");
   append_modes(csv, result.coupled_modes, "coupled");
   return csv;

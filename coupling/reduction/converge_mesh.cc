@@ -2,6 +2,7 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/mesh_extrapolation.h"
+#include "coupling/modes.h"
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/team_assembly.h"
 #include "fem/discretisation.h"
@@ -92,8 +93,7 @@ std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
   { return j < modes.omega.size() && j < frame.frequency_error.size() && !std::isnan(frame.frequency_error[j]); };
   for (Eigen::Index j = n_rigid; known(j) && j < n_rigid + count; ++j)
     result.push_back({"frequency " + std::to_string(j - n_rigid + 1), "Hz", modes.V.col(j),
-                      modes.omega[j] * modes.omega[j], frame.frequencies_hz[j] / (1. + frame.frequency_error[j]),
-                      true});
+                      modes.omega[j] * modes.omega[j], refined_hz(frame, j), true});
   return result;
 }
 
