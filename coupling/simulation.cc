@@ -2,6 +2,7 @@
 
 #include "coupling/cylinder_watch.h"
 #include "coupling/element_law.h"
+#include "coupling/fast_forces.h"
 #include "coupling/integration/event_driver.h"
 #include "coupling/joint_rank.h"
 #include "coupling/recorder.h"
@@ -342,14 +343,17 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     return result;
   }
   CylinderWatch cylinders(machine, *integrator);
+  FastForces    fast_forces(machine, *integrator);
   driver.on_step(
       [&]
       {
         recorder.step();
         cylinders.step();
+        fast_forces.step();
       });
   recorder.begin();
   cylinders.begin();
+  fast_forces.begin();
 
   const long   progress_every = machine.size() > 1000 ? 4 : 1024;
   CrawlWatch   crawl(options);
@@ -361,7 +365,10 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     {
       driver.advance();
       if (driver.events().size() != n_events)
+      {
         recorder.jump(driver.events().back().name);
+        fast_forces.jump();
+      }
       n_events = driver.events().size();
       if (stop && stop->load(std::memory_order_relaxed))
       {
@@ -385,6 +392,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   for (const std::string &warning : cylinders.warnings())
     result.warnings.push_back(warning);
+  if (std::string warning = fast_forces.warning(); !warning.empty())
+    result.warnings.push_back(std::move(warning));
   const Eigen::VectorXd &v = integrator->instant().v;
   for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
     result.warnings.push_back(warning);
