@@ -2,6 +2,7 @@
 
 #include "apps/scene/carried_bodies.h"
 #include "apps/scene/damping_text.h"
+#include "apps/scene/matrix_units.h"
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
 #include "coupling/frame_service_loader.h"
@@ -73,7 +74,12 @@ namespace
 void add_warnings(const Scene &scene, PreparedMachine &prepared)
 {
   if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  {
     prepared.warnings = frame->notes;
+    if (scene.frame.source == FrameSource::matrices)
+      if (const std::string suspicion = suspect_frequency(*frame); !suspicion.empty())
+        prepared.warnings.push_back(suspicion);
+  }
   prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
 }
 } // namespace
