@@ -57,7 +57,7 @@ public:
         craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
-    auto [text, warns] = mesh_statement(reduced, *discretisation.mesh_error, mesh);
+    auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);
     (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
     return {std::move(discretisation.matrices), std::move(reduced.frame)};
   }
