@@ -2,11 +2,14 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/team.h"
+#include "apps/commit.h"
 #include "apps/version.h"
 #include "coupling/integration/second_order_system.h"
+#include "coupling/nearest_name.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -33,6 +36,37 @@ CLI::Validator above_zero()
 using namespace gestell::apps;
 namespace coupling = gestell::coupling;
 
+std::vector<std::string> command_names(const CLI::App &program)
+{
+  std::vector<std::string> names;
+  for (const CLI::App *command : program.get_subcommands([](const CLI::App *) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The first word is no option and no command.
+void require_command(const CLI::App &program, const std::string &word)
+{
+  const auto names = command_names(program);
+  if (!word.empty() && word.front() != '-' && std::find(names.begin(), names.end(), word) == names.end())
+    throw std::invalid_argument("there is no command '" + word + "'" + coupling::suggestion(word, names));
+}
+
+/// What is left of the command line: an option of another command, a slip, a second scene.
+std::invalid_argument unexpected(const CLI::App &program)
+{
+  const CLI::App          *command = program.get_subcommands().empty() ? &program : program.get_subcommands().front();
+  const std::string        word    = program.remaining(true).front();
+  std::vector<std::string> options;
+  for (const CLI::Option *option : command->get_options())
+    for (const std::string &name : option->get_lnames())
+      options.push_back("--" + name);
+  return std::invalid_argument(command->get_name() + ": " +
+                               (word.front() == '-'
+                                    ? "there is no option " + word + coupling::suggestion(word, options)
+                                    : "'" + word + "' is one input too many; names with spaces stand in quotes"));
+}
+
 CLI::App *add_command(CLI::App &program, const std::string &name, const std::string &does, const std::string &example,
                       const std::string &input, CommonOptions &options)
 {
@@ -43,6 +77,9 @@ CLI::App *add_command(CLI::App &program, const std::string &name, const std::str
   command->add_option("--jobs", options.jobs, "threads of the linear algebra that makes a frame (default 1)")
       ->check(above_zero());
   command->add_flag("--quiet", options.quiet, "no progress on standard error");
+  command->add_flag_callback(
+      "--trust-scripts", [&options] { options.scripts = gestell::fem::Scripts::trusted; },
+      "run scripts of gmsh (.geo) as they are, which may run programs and write files");
   if (input == "SCENE")
   {
     command->add_option("-o,--output", options.folder, "folder for results (default results/<scene name>)");
@@ -159,7 +196,8 @@ CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityComm
 int run_program(int argc, char **argv)
 {
   CLI::App program{"Gestell computes how a machine and the frame that carries it shake each other.", "gestell"};
-  program.set_version_flag("--version", std::string("gestell ") + version);
+  program.set_version_flag("--version",
+                           std::string("gestell ") + version + (commit().empty() ? "" : " (" + commit() + ")"));
   program.require_subcommand(1);
 
   CommonOptions        options;
@@ -191,9 +229,15 @@ int run_program(int argc, char **argv)
   StabilityCommandOptions stability_options;
   CLI::App               *stability = add_stability(program, options, stability_options);
 
+  if (argc > 1)
+    require_command(program, argv[1]);
   try
   {
     program.parse(argc, argv);
+  }
+  catch (const CLI::ExtrasError &)
+  {
+    throw unexpected(program);
   }
   catch (const CLI::ParseError &error)
   {

@@ -85,6 +85,7 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.modal       = is_modal(dense);
   dense.n_full      = int(M.rows());
   dense.mass        = frame.mass;
+  dense.statements  = frame.statements;
   dense.interfaces  = renumbered(frame.interfaces, order);
   for (const auto &output : frame.outputs)
     dense.outputs.push_back(

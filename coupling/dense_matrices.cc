@@ -79,8 +79,15 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
   add_up(machine, q, stiffness, damping,
          [&open](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
          {
+           placement.element->engaged(u, K.data(), D.data());
            if (std::find(open.begin(), open.end(), placement.name) == open.end())
-             placement.element->engaged(u, K.data(), D.data());
+             return;
+           const Eigen::MatrixXd engaged_K = K, engaged_D = D;
+           placement.element->open_branch(u, K.data(), D.data());
+           if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
+             throw std::invalid_argument("modes: element \"" + placement.name +
+                                         "\" acts in every position, so that it cannot be open; leave it out of "
+                                         "modes.open, and for modes without it take it out of the scene");
          });
 }
 
@@ -90,6 +97,14 @@ void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::
   add_up(machine, q, stiffness, damping,
          [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
          { placement.element->stiffest(u, K.data(), D.data()); });
+}
+
+void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                   Eigen::MatrixXd &damping)
+{
+  add_up(machine, q, stiffness, damping,
+         [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         { placement.element->open_branch(u, K.data(), D.data()); });
 }
 
 namespace

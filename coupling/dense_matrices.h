@@ -10,8 +10,9 @@ Eigen::MatrixXd dense_mass(const Machine &machine);
 Eigen::MatrixXd dense_damping(const Machine &machine);
 Eigen::MatrixXd dense_stiffness(const Machine &machine);
 
-/// Stiffness and damping W K W^T, W D W^T [n x n] of the elements engaged at q, without those named in `open`.
-/// @throws std::invalid_argument for a name in `open` that no element has.
+/// Stiffness and damping W K W^T, W D W^T [n x n] of the elements engaged at q; of those named in `open` what acts
+/// while they are open.
+/// @throws std::invalid_argument for a name in `open` that no element has, or one that is never open.
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
 
@@ -40,5 +41,9 @@ Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, co
 /// The same of all elements in the stiffest branch of their laws.
 void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
                        Eigen::MatrixXd &damping);
+
+/// The same of all elements while they are open: what acts always.
+void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                   Eigen::MatrixXd &damping);
 
 } // namespace gestell::coupling

@@ -168,7 +168,7 @@ public:
   void add(const fem::FrameSpecification &value)
   {
     const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
-                 interfaces, masses, cuts, stress, place] = value;
+                 interfaces, masses, cuts, stress, scripts, place] = value;
     add_sources(cad);
     add("unit", unit);
     add("mesh", mesh);

@@ -1,9 +1,7 @@
 #include "coupling/linear_spectrum.h"
 
 #include "coupling/dense_matrices.h"
-#include "coupling/dense_modes.h"
-
-#include <Eigen/Eigenvalues>
+#include "coupling/modes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,107 +12,136 @@ namespace gestell::coupling
 namespace
 {
 
-/// Complex eigenvalues of the modes with damping V^T B V, as lines by ascending frequency.  In the state
-/// (Omega y, y') the matrix is as large as the highest frequency, so that the lowest keep their digits.
-std::vector<SpectrumLine> damped_lines(const DenseModes &modes, const Eigen::MatrixXd &B)
+/// Geometric stiffness [n x n] of the forces that act as the machine moves on from rest.  It falls to zero where these
+/// are not found: a run that cannot start says so itself.
+Eigen::MatrixXd geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
 {
-  const Eigen::Index p = modes.omega.size();
-  if (p == 0) // nothing has mass
-    return {};
-  Eigen::MatrixXd A(2 * p, 2 * p);
-  A << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd(modes.omega.asDiagonal()),
-      Eigen::MatrixXd((-modes.omega).asDiagonal()), -modes.V.transpose() * B * modes.V;
-  const Eigen::VectorXcd    s     = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
-  const double              noise = 1e-9 * s.cwiseAbs().maxCoeff();
-  std::vector<SpectrumLine> lines;
-  for (const std::complex<double> &value : s)
-    if (value.imag() > std::max(noise, 1e-9 * std::abs(value)))
-      lines.push_back({std::abs(value), -value.real() / std::abs(value)});
-  std::sort(lines.begin(), lines.end(), [](const SpectrumLine &a, const SpectrumLine &b) { return a.omega < b.omega; });
-  return lines;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  local.resize(machine);
+  machine.gather(start.t, start.q, zero, zero, local);
+  if (machine.n_constraints() > 0)
+    try
+    {
+      local.lambda = multipliers_at_rest(machine, start.q, local);
+    }
+    catch (const ConvergenceFailure &)
+    {
+      return Eigen::MatrixXd::Zero(machine.size(), machine.size());
+    }
+  const Eigen::MatrixXd K = geometric_stiffness(machine, local);
+  return 0.5 * (K + K.transpose());
 }
 
-/// Modes of (M, B, C); K [n x n] is the part of C that engaged elements contribute, empty if none.
-void add_modes(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C, const Eigen::MatrixXd &K,
-               ModeOrigin origin, DampingRule rule, std::vector<LinearMode> &result)
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd &A)
 {
-  const DenseModes modes      = dense_modes(C, M);
-  const auto       contact_of = [&](Eigen::Index j)
+  return 0.5 * (A + A.transpose());
+}
+
+/// K and D are what elements add to B and C; all in free motions.
+LinearMachine in_modes(ModeOrigin origin, const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                       const Eigen::MatrixXd &K, const Eigen::MatrixXd &D)
+{
+  LinearMachine result{origin, dense_modes(C + K, M), {}, {}};
+  const auto   &V      = result.modes.V;
+  result.B             = symmetric(V.transpose() * (B + D) * V);
+  result.contact_omega = (V.cwiseProduct(K * V)).colwise().sum().cwiseMax(0.).cwiseSqrt();
+  return result;
+}
+
+// --- large machines
+
+/// Stiffness [n_u x n_u] of all elements in the stiffest branch of their laws.
+Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const Eigen::VectorXd &q)
+{
+  const Eigen::VectorXd               u = machine.directions().transpose() * q;
+  std::vector<Eigen::Triplet<double>> entries;
+  int                                 first = 0;
+  for (const ElementPlacement &placement : machine.elements())
   {
-    const auto v = modes.V.col(j);
-    return K.size() > 0 ? std::sqrt(std::max(0., v.dot(K * v))) : 0.;
-  };
-  const auto p = modes.omega.size();
-  if (rule == DampingRule::diagonal)
-  {
-    for (Eigen::Index j = 0; j < p; ++j)
-      if (const double omega = modes.omega[j]; omega > 0.)
-        result.push_back({origin,
-                          static_cast<int>(j) + 1,
-                          {omega, modes.V.col(j).dot(B * modes.V.col(j)) / (2. * omega)},
-                          contact_of(j)});
-    return;
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+    placement.element->stiffest(u.data() + first, K.data(), D.data());
+    for (int i = 0; i < k; ++i)
+      for (int j = 0; j < k; ++j)
+        if (K(i, j) != 0.)
+          entries.emplace_back(first + i, first + j, K(i, j));
+    first += k;
   }
-  Eigen::Index nearest = 0;
-  for (const SpectrumLine &line : damped_lines(modes, B))
-  {
-    while (nearest + 1 < p &&
-           std::abs(modes.omega[nearest + 1] - line.omega) <= std::abs(modes.omega[nearest] - line.omega))
-      ++nearest;
-    result.push_back({origin, static_cast<int>(nearest) + 1, line, contact_of(nearest)});
-  }
+  Eigen::SparseMatrix<double> K(u.size(), u.size());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
 }
 
 /// The highest frequency by power iteration on M^-1 C, approached from below; two hundred steps come within a per cent.
-LinearMode highest_mode(const Machine &machine, double damping_ratio)
+LargeMode highest_mode(const Machine &machine, const Eigen::VectorXd &q, double damping_ratio)
 {
-  const auto      mass = machine.factorise(1., 0., 0.);
-  Eigen::VectorXd x    = Eigen::VectorXd::LinSpaced(machine.size(), -1., 1.), y(x.size()), z(x.size());
+  const auto  mass = machine.factorise(1., 0., 0.);
+  const auto &W    = machine.directions();
+  const auto  K    = stiffest_of_measures(machine, q);
+
+  Eigen::VectorXd x(machine.size()), y(x.size()), z(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i)
     x[i] = std::cos(1.7 * double(i) * double(i)); // rough, so that no high mode is missed
   double omega = 0.;
   for (int i = 0; i < 200; ++i)
   {
     machine.stiffness_times(x, y);
+    y += W * (K * (W.transpose() * x));
     machine.mass_times(x, z);
     omega = std::sqrt(std::max(0., x.dot(y) / x.dot(z)));
     mass->solve(y, x);
     x /= x.norm();
   }
-  return {ModeOrigin::base, machine.size(), {omega, damping_ratio}, 0., true};
+  const ModeOrigin origin = K.nonZeros() > 0 ? ModeOrigin::closed : ModeOrigin::base;
+  return {origin, machine.size(), {omega, damping_ratio}, true};
 }
 
-std::vector<LinearMode> modes_of_large(const Machine &machine)
+std::vector<LargeMode> modes_of_large(const Machine &machine, const Eigen::VectorXd &q)
 {
-  std::vector<LinearMode>         result;
-  const std::vector<SpectrumLine> lines  = machine.spectrum();
-  int                             number = 0;
-  double                          least  = 1.;
-  for (const SpectrumLine &line : lines)
+  std::vector<LargeMode> result;
+  int                    number = 0;
+  double                 least  = 1.;
+  for (const SpectrumLine &line : machine.spectrum())
   {
     ++number;
     if (line.omega <= 0.)
       continue;
-    result.push_back({ModeOrigin::base, number, line, 0.});
+    result.push_back({ModeOrigin::base, number, line});
     least = std::min(least, line.zeta);
   }
   if (number < machine.size())
-    result.push_back(highest_mode(machine, std::max(0., least)));
+    result.push_back(highest_mode(machine, q, std::max(0., least)));
   return result;
 }
 
 } // namespace
 
-std::vector<LinearMode> linear_modes(const Machine &machine, const Eigen::VectorXd &q, DampingRule rule)
+bool is_large(const Machine &machine)
 {
-  Eigen::MatrixXd M, B, C, K, D;
-  if (machine.full_frame() || !machine.dense_matrices(M, B, C))
-    return modes_of_large(machine);
-  std::vector<LinearMode> result;
-  add_modes(M, B, C, {}, ModeOrigin::base, rule, result);
-  stiffest_matrices(machine, q, K, D);
-  if (!K.isZero(0.) || !D.isZero(0.))
-    add_modes(M, B + D, C + K, K, ModeOrigin::closed, rule, result);
+  Eigen::MatrixXd M, B, C;
+  return machine.full_frame() || !machine.dense_matrices(M, B, C);
+}
+
+LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start)
+{
+  if (is_large(machine))
+    return {{}, modes_of_large(machine, start.q)};
+  LocalState            local;
+  const Eigen::MatrixXd geometric = geometric_at_rest(machine, start, local);
+  const bool            jointed   = machine.n_constraints() > 0;
+  const Eigen::MatrixXd Z         = jointed ? free_motions(machine, local) : Eigen::MatrixXd();
+  const auto free = [&](const Eigen::MatrixXd &A) { return jointed ? Eigen::MatrixXd(Z.transpose() * A * Z) : A; };
+  const Eigen::MatrixXd M = free(dense_mass(machine)), B = free(dense_damping(machine)),
+                        C = free(dense_stiffness(machine) + geometric);
+  Eigen::MatrixXd K, D, stiffest_K, stiffest_D;
+  open_matrices(machine, start.q, K, D);
+  stiffest_matrices(machine, start.q, stiffest_K, stiffest_D);
+
+  LinearSpectrum result;
+  result.machines.push_back(in_modes(ModeOrigin::base, M, B, C, free(symmetric(K)), free(symmetric(D))));
+  if (stiffest_K != K || stiffest_D != D)
+    result.machines.push_back(
+        in_modes(ModeOrigin::closed, M, B, C, free(symmetric(stiffest_K)), free(symmetric(stiffest_D))));
   return result;
 }
 

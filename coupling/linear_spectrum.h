@@ -1,6 +1,8 @@
 #pragma once
 
+#include "coupling/damped_modes.h"
 #include "coupling/machine.h"
+#include "coupling/steady_start.h"
 
 namespace gestell::coupling
 {
@@ -8,33 +10,50 @@ namespace gestell::coupling
 /// Which linear machine a mode belongs to.
 enum class ModeOrigin
 {
-  base,  ///< the base system: frame and bodies, elements open
+  base,  ///< frame and bodies, with what elements are while they are open
   closed ///< with every element in the stiffest branch of its law, at the start configuration
 };
 
-/// A vibrating mode of the machine, for an integrator.
-struct LinearMode
+/**
+ * The machine linearised at rest in the configuration of the start, in its undamped modes V, V^T M V = E:
+ *
+ *     y'' + B y' + diag(omega^2) y = 0,     q = Z V y,     B = V^T Z^T B Z V [p x p]
+ *
+ * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.
+ */
+struct LinearMachine
+{
+  ModeOrigin      origin;
+  DenseModes      modes;
+  Eigen::MatrixXd B;
+  Eigen::VectorXd contact_omega; ///< [p] rad/s, sqrt(v^T K v): what the elements alone contribute
+};
+
+/// A mode of a machine that is too large for dense matrices.
+struct LargeMode
 {
   ModeOrigin   origin;
   int          number; ///< from 1, by frequency, those that do not vibrate counted as well
   SpectrumLine line;
-  double       contact_omega; ///< [rad/s] sqrt(v^T K v), v^T M v = 1: what the engaged elements alone contribute
   bool         bound = false; ///< stands for all modes up to its frequency, which are not known one by one
 };
 
-/// How the damping of a mode is told.
-enum class DampingRule
+/**
+ * What an integrator with a fixed step sees of a machine: base and, where that differs, closed.
+ *
+ * A frame that is too large for dense matrices gives its lowest modes and, as a `bound`, the highest one with closed
+ * contacts, by power iteration.
+ */
+struct LinearSpectrum
 {
-  diagonal, ///< v^T B v / (2 omega) of the undamped mode
-  exact     ///< from the complex eigenvalues s: omega = |s|, zeta = -Re s / |s|; modes that only decay are left out
+  std::vector<LinearMachine> machines; ///< none of a large machine
+  std::vector<LargeMode>     large;
 };
 
-/**
- * All vibrating modes of the base system, and of the machine with its elements engaged at q where that differs.
- *
- * A frame that is too large for dense matrices gives its lowest modes and, as a `bound`, the highest one by power
- * iteration; its elements are taken as open.
- */
-std::vector<LinearMode> linear_modes(const Machine &machine, const Eigen::VectorXd &q, DampingRule rule);
+/// @throws std::invalid_argument as dense_modes()
+LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start);
+
+/// Machines with up to so many coordinates have dense matrices.
+bool is_large(const Machine &machine);
 
 } // namespace gestell::coupling

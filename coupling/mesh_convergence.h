@@ -2,11 +2,14 @@
 
 #include "coupling/reduced_frame.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace gestell::coupling
 {
+
+struct MeshConvergence;
 
 struct ConvergenceOptions
 {
@@ -14,7 +17,11 @@ struct ConvergenceOptions
   int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
   bool   compliances     = true; ///< of all interfaces but those at a point are watched, too
   int    max_coordinates = 1000000;
-  int    max_meshes      = 6; ///< >= 2
+  int    max_meshes      = 6;  ///< >= 2
+  double memory          = 0.; ///< [byte] that a mesh may take with its reduction; 0: what the system has available
+
+  /// Called after each mesh with what is known so far; a convergence that is interrupted keeps that.
+  std::function<void(const MeshConvergence &so_far)> after_mesh = {};
 };
 
 /// One of the meshes.

@@ -3,6 +3,10 @@
 #include "coupling/frame_service.h"
 #include "coupling/mesh_convergence.h"
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace gestell::coupling
 {
 
@@ -17,6 +21,8 @@ public:
   {
     std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"
     std::vector<std::string> notes, statements;
+    /// [m] of the surfaces of each interface, as the CAD file tells them: without the rounding of a mesh.
+    std::map<std::string, fem::Vector3> centroids;
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 

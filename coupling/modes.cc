@@ -96,7 +96,8 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, c
   return result;
 }
 
-/// Multipliers of the joints as the machine moves on from rest.
+} // namespace
+
 Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
@@ -105,7 +106,13 @@ Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorX
   ConsistentStart(machine, "modes").solve(q, zero, a, local, work);
   return local.lambda;
 }
-} // namespace
+
+double refined_hz(const ReducedFrame &frame, Eigen::Index j)
+{
+  const bool reduced = frame.modal && frame.n_full > frame.M.rows(), known = j < frame.frequency_error.size();
+  return reduced && known ? frame.frequencies_hz[j] / (1. + frame.frequency_error[j])
+                          : std::numeric_limits<double>::quiet_NaN();
+}
 
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 {
@@ -114,6 +121,8 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
     return {};
   std::vector<Mode> modes =
       modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true, frame->n_rigid());
+  for (std::size_t j = 0; j < modes.size(); ++j)
+    modes[j].refined_hz = refined_hz(*frame, Eigen::Index(j));
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
   {
     modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding

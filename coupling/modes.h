@@ -1,8 +1,10 @@
 #pragma once
 
 #include "coupling/dense_matrices.h"
+#include "coupling/reduced_frame.h"
 
 #include <complex>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -16,6 +18,7 @@ struct Mode
   Vector3         effective_mass{};   ///< [kg] x, y, z
   double          growth = 0.;        ///< [1/s] of exp(growth t), undamped: leaves an unstable configuration
   Eigen::VectorXd shape;              ///< undamped, mass normalised, in the coordinates it belongs to
+  double          refined_hz = std::numeric_limits<double>::quiet_NaN(); ///< of a reduced frame, see refined_hz()
 };
 
 /// A motion exp(s t) of the machine with its dampers, drives and lags: one of each conjugate pair.
@@ -28,6 +31,10 @@ struct Pole
   double frequency_hz() const;  ///< damped
   double damping_ratio() const; ///< -Re s / |s|; negative: it grows
 };
+
+/// Frequency j of a reduced frame by one more step of inverse iteration [Hz], between that of the full frame and that
+/// of the model; nan where none is known or nothing is reduced.  docs/theory/reduction.md (14).
+double refined_hz(const ReducedFrame &frame, Eigen::Index j);
 
 /// Modes of the frame alone as it is supported, interface free; shapes in the frame's coordinates.  An unreduced frame
 /// gives its lowest n_modes.
@@ -49,6 +56,10 @@ struct Linearisation
   std::optional<Eigen::VectorXd> multipliers{};               ///< [n_c] of joints; none: as it moves on from rest
   bool                           damping = true;              ///< false: undamped frequencies and shapes only
 };
+
+/// Multipliers [n_c] of the joints as the machine moves on from rest at q; `local` holds its motion there.
+/// @throws ConvergenceFailure
+Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local);
 
 /**
  * Modes of the coupled machine linearised at q, shapes in the machine's coordinates:

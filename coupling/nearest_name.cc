@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -35,21 +37,63 @@ int edit_distance(const std::string &a, const std::string &b)
   return d[n][m];
 }
 
+namespace
+{
+
+std::vector<std::string> parts_of(const std::string &path)
+{
+  std::vector<std::string> parts(1);
+  for (const char c : path)
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// Of a slip of the pen; none where the words differ by more than a third of their letters.
+constexpr int another_word = 1 << 20;
+int           slip(const std::string &name, const std::string &meant)
+{
+  const int distance = edit_distance(lower(name), lower(meant));
+  return 3 * distance <= static_cast<int>(std::max(name.size(), meant.size())) + 1 ? distance : another_word;
+}
+
+/// A name without dots may leave out the rest of a path: "guide" for "frame.guide"; a whole name is nearer than a part.
+int slip_of_path(const std::string &name, const std::string &path)
+{
+  int smallest = 2 * slip(name, path);
+  if (const auto parts = parts_of(path); parts.size() > 1 && name.find('.') == std::string::npos)
+    for (const std::string &part : parts)
+      smallest = std::min(smallest, 2 * slip(name, part) + 1);
+  return smallest;
+}
+
+std::vector<std::string> sorted_by(const std::vector<std::string>                     &names,
+                                   const std::function<int(const std::string &meant)> &distance)
+{
+  std::vector<std::pair<int, std::string>> sorted;
+  for (const auto &candidate : names)
+    sorted.emplace_back(distance(candidate), candidate);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<std::string> result;
+  for (auto &[d, candidate] : sorted)
+    if (d < another_word)
+      result.push_back(std::move(candidate));
+  return result;
+}
+
+} // namespace
+
+std::vector<std::string> near_names(const std::string &name, const std::vector<std::string> &names)
+{
+  return sorted_by(names, [&](const std::string &meant) { return slip_of_path(name, meant); });
+}
+
 std::string nearest_name(const std::string &name, const std::vector<std::string> &names)
 {
-  std::string best;
-  int         best_distance = 1 << 20;
-  for (const auto &candidate : names)
-  {
-    const int distance = edit_distance(lower(name), lower(candidate));
-    // A third of the letters wrong is still a slip; more is another word.
-    if (distance < best_distance && 3 * distance <= static_cast<int>(std::max(name.size(), candidate.size())) + 1)
-    {
-      best          = candidate;
-      best_distance = distance;
-    }
-  }
-  return best;
+  const auto near = near_names(name, names);
+  return near.empty() ? "" : near.front();
 }
 
 std::string listed(const std::vector<std::string> &names)
@@ -62,9 +106,21 @@ std::string listed(const std::vector<std::string> &names)
 
 std::string suggestion(const std::string &name, const std::vector<std::string> &names)
 {
-  if (const auto nearest = nearest_name(name, names); !nearest.empty())
-    return "; did you mean '" + nearest + "'?";
-  return names.empty() ? "" : "; valid: " + listed(names);
+  constexpr std::size_t few = 5, readable = 40; // names of a message
+  auto                  near = near_names(name, names);
+  if (!near.empty())
+  {
+    const int best = slip_of_path(name, near.front());
+    near.erase(std::find_if(near.begin(), near.end(), [&](const auto &n) { return slip_of_path(name, n) > best; }),
+               near.end());
+    near.resize(std::min(near.size(), few));
+    return near.size() == 1 ? "; did you mean '" + near.front() + "'?" : "; did you mean one of " + listed(near) + "?";
+  }
+  if (names.size() <= readable)
+    return names.empty() ? "" : "; valid: " + listed(names);
+  auto nearest = sorted_by(names, [&](const std::string &meant) { return edit_distance(lower(name), lower(meant)); });
+  nearest.resize(few);
+  return "; the nearest of " + std::to_string(names.size()) + " are " + listed(nearest);
 }
 
 } // namespace gestell::coupling

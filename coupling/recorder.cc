@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr double nearby  = 0.25; ///< a parabola errs by about that share of its length about a peak at its end
+constexpr double brief   = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
 constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 struct Point
@@ -125,7 +126,12 @@ void Recorder::evaluate(double t, Sample &sample)
   const bool at_end = t == integrator_.time();
   if (!at_end)
     integrator_.interpolate(t, between_.local);
-  const LocalState &local = at_end ? integrator_.local() : between_.local;
+  tell(t, at_end ? integrator_.local() : between_.local, sample);
+}
+
+/// @param local  the motion of the measures at t
+void Recorder::tell(double t, const LocalState &local, Sample &sample)
+{
   if (accelerations_)
     a_ = accelerations_->at(t, integrator_, local, between_.q, between_.v);
   else if (!coordinates_.empty())
@@ -144,19 +150,18 @@ void Recorder::begin()
     energy_.begin(integrator_.instant());
     guard_ = EnergyGuard(energy_.at_begin());
   }
+  behind_  = integrator_.local();
   pending_ = true;
-  if (!machine_.overloaded(integrator_.local()))
-    settle(integrator_.time());
   pictures();
   keeper_.follow();
 }
 
-/// The motion at t, behind the last event.
-void Recorder::settle(double t)
+/// The motion behind the last event, at which the last step began or where there is none yet.
+void Recorder::settle()
 {
   pending_       = false;
   earlier_known_ = false;
-  evaluate(t, samples_.back());
+  tell(behind_.t, behind_, samples_.back());
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (anew_[i])
     {
@@ -164,8 +169,11 @@ void Recorder::settle(double t)
       anew_[i] = false;
     }
   extremes(samples_.back());
-  if (t == integrator_.time())
-    rows();
+  if (next_row_ == 0)
+  {
+    row(behind_.t, samples_.back(), result_.energy);
+    next_row_ = 1;
+  }
 }
 
 void Recorder::step()
@@ -173,8 +181,14 @@ void Recorder::step()
   const double begin = integrator_.step_begin(), end = integrator_.time();
   if (!(end > begin))
     return;
+  if (pending_ && end - begin < brief * length_)
+  {
+    follow_briefly();
+    return;
+  }
+  length_ = end - begin;
   if (pending_)
-    settle(begin);
+    settle();
   const auto n = static_cast<int>(samples_.size()) - 1;
   if (n == 1)
     std::swap(earlier_, samples_[0]);
@@ -202,6 +216,14 @@ void Recorder::step()
   keeper_.follow();
 }
 
+/// A step between two events at one instant.
+void Recorder::follow_briefly()
+{
+  behind_ = integrator_.local();
+  if (options_.energy)
+    balance();
+}
+
 /// Extremes of a signal count from here.
 void Recorder::look_anew(std::size_t signal)
 {
@@ -217,10 +239,8 @@ void Recorder::jump(const std::string &event)
       watched_[i] = anew_[i] = true;
   if (options_.energy)
     energy_.jump(integrator_.instant());
+  behind_  = integrator_.local();
   pending_ = true;
-  if (!machine_.overloaded(integrator_.local()))
-    settle(integrator_.time());
-  keeper_.follow();
 }
 
 void Recorder::extremes(const Sample &sample)
@@ -295,30 +315,32 @@ void Recorder::rows()
   const double end = integrator_.time();
   for (double t; (t = options_.begin + double(next_row_) * row_step_) <= end + on_grid * row_step_; ++next_row_)
   {
-    const bool at_end = t >= end - on_grid * row_step_;
-    if (!at_end)
+    if (t >= end - on_grid * row_step_)
     {
-      evaluate(std::max(t, integrator_.step_begin()), probe_);
-      extremes(probe_);
+      row(t, samples_.back(), result_.energy);
+      continue;
     }
-    row(t, at_end ? samples_.back() : probe_);
+    evaluate(std::max(t, integrator_.step_begin()), probe_);
+    extremes(probe_);
+    row(t, probe_, options_.energy ? energy_inside(probe_.t) : result_.energy);
   }
 }
 
-void Recorder::row(double t, const Sample &sample)
+/// At t in the last step, where evaluate() was last.
+EnergySummary Recorder::energy_inside(double t)
+{
+  between_.t = t;
+  integrator_.interpolate(t, between_.q, between_.v);
+  const EnergyState energy = energy_.state(between_);
+  return {energy.input, energy.stored, energy.dissipated};
+}
+
+void Recorder::row(double t, const Sample &sample, const EnergySummary &energy)
 {
   result_.rows.push_back(t);
   result_.rows.insert(result_.rows.end(), sample.values.begin(), sample.values.end());
-  if (!options_.energy)
-    return;
-  EnergyState energy{result_.energy.input, result_.energy.stored, result_.energy.dissipated};
-  if (sample.t < integrator_.time())
-  {
-    between_.t = sample.t;
-    integrator_.interpolate(sample.t, between_.q, between_.v);
-    energy = energy_.state(between_);
-  }
-  result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
+  if (options_.energy)
+    result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
 }
 
 void Recorder::pictures()
@@ -352,10 +374,10 @@ void Recorder::balance()
 void Recorder::finish()
 {
   if (pending_)
-    settle(integrator_.time());
+    settle();
   const Sample &last = samples_.back();
   if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
-    row(integrator_.time(), last);
+    row(integrator_.time(), last, result_.energy);
   for (std::size_t i = 0; i < signals_.size(); ++i)
   {
     result_.signals[i].final = last.values[i];

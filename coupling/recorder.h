@@ -25,8 +25,9 @@ std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signal
  * beyond what was seen, the dense output itself is evaluated and the parabola drawn closer.  Samples are the ends of
  * the steps, or, where steps are long against the motion, several in each.
  *
- * Of several events at one instant only the motion behind the last one is told: what sticks under more than its limit
- * slips at once, and the force that would hold it never acts.
+ * An instant with events has two motions that count: the one just before the first event, and the one behind the last,
+ * which is told with the step that goes on from there.  What lies between them lasts for no time: a rod without play is
+ * slack between thrust and pull, and what sticks under more than its limit slips at once.
  */
 class Recorder
 {
@@ -37,7 +38,7 @@ public:
 
   void begin(); ///< at the start, after the integrator began
   void step();  ///< a step was made; its dense output and the history that holds on it are there
-  /// An event of that object has changed the history at the present instant.
+  /// An event of that object has changed the history at the present instant, and the integration goes on from there.
   void jump(const std::string &event);
   void finish(); ///< the last instant always has a row
 
@@ -49,14 +50,17 @@ private:
   };
 
   void evaluate(double t, Sample &sample);
-  void settle(double t);
+  void tell(double t, const LocalState &local, Sample &sample);
+  void settle();
+  void follow_briefly();
   void look_anew(std::size_t signal);
   void extremes(const Sample &sample);
   void extreme(std::size_t signal, double t, double value);
   void turn(const Sample &a, const Sample &b, const Sample &c);
   void search(std::size_t signal, double sign, const Sample &a, const Sample &b, const Sample &c);
   void rows();
-  void row(double t, const Sample &sample);
+  void row(double t, const Sample &sample, const EnergySummary &energy);
+  EnergySummary energy_inside(double t);
   void pictures();
   void balance();
 
@@ -76,8 +80,10 @@ private:
   Sample                       earlier_, probe_;       ///< end of the step before the last one; scratch
   std::vector<char>            watched_;               ///< signals whose extremes count already
   std::vector<char>            anew_;                  ///< those that count from the instant that is pending on
-  bool                         pending_       = false; ///< the motion behind an event has not been told yet
+  LocalState                   behind_;                ///< the motion behind the last event
+  bool                         pending_       = false; ///< and it has not been told yet
   bool                         earlier_known_ = false; ///< and nothing jumped since
+  double                       length_   = 0.; ///< of the last step that was told
   double                       row_step_ = 0., picture_step_ = 0.;
   long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
 };

@@ -2,9 +2,11 @@
 
 #include "coupling/cylinder_watch.h"
 #include "coupling/element_law.h"
+#include "coupling/fast_forces.h"
 #include "coupling/integration/event_driver.h"
 #include "coupling/joint_rank.h"
 #include "coupling/recorder.h"
+#include "coupling/stiffness_watch.h"
 #include "coupling/tilting_rotors.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
@@ -158,11 +160,13 @@ void take_work(const IntegrationWork &work, long chatter, bool controlled, RunRe
 void guard(const Machine &machine, const InitialState &initial, const RunOptions &options, const MethodOptions &method,
            RunResult &result)
 {
-  result.accuracy = mode_accuracy(machine, initial, method);
-  result.warnings = stability_warnings(result.accuracy, method);
+  const LinearSpectrum spectrum = spectrum_for(machine, initial, method);
+  const StabilityGuard guard(spectrum, method);
+  result.accuracy = guard.modes();
+  result.warnings = guard.warnings();
   try
   {
-    check_stability(result.accuracy, method);
+    guard.check();
   }
   catch (const std::invalid_argument &unstable)
   {
@@ -342,27 +346,35 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     return result;
   }
   CylinderWatch cylinders(machine, *integrator);
+  StiffnessWatch stiffness(machine, initial, method);
+  FastForces fast_forces(machine, *integrator);
   driver.on_step(
       [&]
       {
         recorder.step();
         cylinders.step();
+        if (!options.force_unstable)
+          stiffness.step(integrator->local());
+        fast_forces.step();
+      });
+  driver.on_event(
+      [&](const Event &event)
+      {
+        recorder.jump(event.name);
+        fast_forces.jump();
       });
   recorder.begin();
   cylinders.begin();
+  fast_forces.begin();
 
   const long   progress_every = machine.size() > 1000 ? 4 : 1024;
   CrawlWatch   crawl(options);
-  const double finish   = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
-  std::size_t  n_events = 0;
+  const double finish = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
   try
   {
     for (long k = 1; integrator->time() < finish; ++k)
     {
       driver.advance();
-      if (driver.events().size() != n_events)
-        recorder.jump(driver.events().back().name);
-      n_events = driver.events().size();
       if (stop && stop->load(std::memory_order_relaxed))
       {
         result.interrupted = true;
@@ -385,6 +397,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   for (const std::string &warning : cylinders.warnings())
     result.warnings.push_back(warning);
+  if (std::string warning = fast_forces.warning(); !warning.empty())
+    result.warnings.push_back(std::move(warning));
   const Eigen::VectorXd &v = integrator->instant().v;
   for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
     result.warnings.push_back(warning);

@@ -84,7 +84,7 @@ void try_start(Machine &machine, const InitialState &initial, const RunOptions &
 /// Integrates from `initial` to options.end.  A ConvergenceFailure is told in `failure`, with all that was computed up
 /// to then; of a machine that does not start, nothing.  `progress` is called now and then with the time reached; `stop`
 /// ends the run early.
-/// @throws std::invalid_argument as check_run() and check_stability(), and if the method cannot treat the machine.
+/// @throws std::invalid_argument as check_run() and StabilityGuard::check(), and if the method cannot treat the machine.
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress = {},
                    const std::atomic<bool> *stop = nullptr);

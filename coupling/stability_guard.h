@@ -2,8 +2,6 @@
 
 #include "coupling/integration/method.h"
 #include "coupling/linear_spectrum.h"
-#include "coupling/machine.h"
-#include "coupling/steady_start.h"
 
 #include <string>
 #include <vector>
@@ -25,41 +23,68 @@ struct ModeAccuracy
   bool         bound = false;     ///< stands for modes that are not known one by one
 };
 
-/**
- * All vibrating modes of the base system and, for dense models, of the machine with its elements engaged at `initial`,
- * each as the method of `options` with its fixed step carries it.  Empty where the step is controlled
- * (options.tolerance > 0), and for unreduced frames and mechanisms of more than 600 coordinates under methods that are
- * stable at every step.
- *
- * BDF from order 3 on takes the complex eigenvalues, others undamped modes with their own share of damping.  Negative
- * damping ratios count as zero: what grows by itself is no fault of the method.
- *
- * Under exact propagation only the stiffness of elements is approximated, in the mode v by omega_c^2 = v^T K v of
- * omega^2: growth is that of a contact oscillator at omega_c h, period error and numerical damping are its own times
- * omega_c^2 / omega^2, in first order.
- */
-std::vector<ModeAccuracy> mode_accuracy(const Machine &machine, const InitialState &initial,
-                                        const MethodOptions &options);
+/// What the guard looks at: nothing where the step is controlled, or where the machine is large and the method stable
+/// at every step.
+LinearSpectrum spectrum_for(const Machine &machine, const InitialState &start, const MethodOptions &options);
 
 /**
- * Lays `modes` (of mode_accuracy()) over the unstable intervals of the method and refuses the run if one of them grows.
+ * Lays the linear machine over a method with its fixed step before a run, base and with closed contacts, as the
+ * integrator sees them: in the motions that joints leave free, with the dampers that couple the modes.
  *
- * Modes without stiffness do not vibrate and are left out.  Modes of the machine with closed contacts stop a run as
- * well, except with exact propagation: there the base system never grows, and a contact that is left because its force
- * is wrong is closed for few steps only, where order and tolerance matter more; see stability_warnings().
+ * - BDF takes each complex mode by itself: its scalar formula at omega = |s|, zeta = -Re s/|s| decides.
+ * - Newmark's method, central differences and Wilson's do not: a motion x r^k with real r < -1 grows where
+ *   m(r) M + b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other can (docs/stability.md).
+ *   Newmark's method with gamma < 1/2 takes, besides, the complex modes of the machine that its step amounts to.
+ * - HHT and generalised alpha are stable at every step, for any dampers.
+ * - Exact propagation approximates the stiffness of elements only, in the mode v by omega_c^2 = v^T K v of omega^2:
+ *   growth is that of a contact oscillator at omega_c h, period error and numerical damping are its own times
+ *   omega_c^2/omega^2, in first order.
  *
- * @throws std::invalid_argument that says `unstable` and names the fastest growing mode, its frequency and damping
- * ratio, the unstable interval of omega h, its growth per step, and the way out: a step or a method that works, and
- * run.force_unstable.
+ * Negative damping ratios count as zero: what grows by itself is no fault of the method.  Modes without stiffness do
+ * not vibrate and are left out.
  */
-void check_stability(const std::vector<ModeAccuracy> &modes, const MethodOptions &options);
+class StabilityGuard
+{
+public:
+  /// Looks at nothing where the step is controlled (options.tolerance > 0).
+  /// @param spectrum  outlives the guard
+  StabilityGuard(const LinearSpectrum &spectrum, const MethodOptions &options);
 
-/// What a run should tell although it is not refused: modes of closed contacts that exact propagation makes grow as
-/// long as the contact stays closed.
-std::vector<std::string> stability_warnings(const std::vector<ModeAccuracy> &modes, const MethodOptions &options);
+  /// Every vibrating mode as the method carries it: base, then closed.
+  const std::vector<ModeAccuracy> &modes() const { return modes_; }
 
-/// The largest step below options.step, to three digits, at which no mode of `modes` grows; 0 if there is none down to
-/// a thousandth of it.
-double largest_stable_step(const std::vector<ModeAccuracy> &modes, const MethodOptions &options);
+  /**
+   * Refuses the run if a motion grows.  Closed contacts stop a run as well, except with exact propagation: there the
+   * base system never grows, and a contact that is left because its force is wrong is closed for few steps only, where
+   * order and tolerance matter more; see warnings().
+   *
+   * @throws std::invalid_argument that says `unstable` and names the fastest growing mode, its frequency and damping
+   * ratio, the unstable interval of omega h, its growth per step, and the way out: a step or a method that works, and
+   * run.force_unstable.
+   */
+  void check() const;
+
+  /// What a run should tell although it is not refused: modes of closed contacts that exact propagation makes grow as
+  /// long as the contact stays closed.
+  std::vector<std::string> warnings() const;
+
+  /// The largest step below options.step, to three digits, at which nothing grows; 0 if there is none down to a
+  /// thousandth of it.
+  double largest_stable_step() const;
+
+private:
+  void                add_machine(const LinearMachine &machine);
+  void                add_large();
+  bool                motion_grows(double h) const;
+  bool                mode_grows(double h) const;
+  double              by_ladder() const;
+  double              by_bisection() const;
+  const ModeAccuracy *fastest() const;
+  std::string         message_of(const ModeAccuracy &worst) const;
+
+  const LinearSpectrum     &spectrum_;
+  MethodOptions             options_;
+  std::vector<ModeAccuracy> modes_;
+};
 
 } // namespace gestell::coupling

@@ -97,8 +97,13 @@ public:
   }
 
   const VectorXd           &q() const { return q_; }
-  VectorXd                  multipliers() const { return lambda_.head(balance_.n_joints()); }
   std::vector<std::string> &notes() { return notes_; }
+
+  HeldEquilibrium held()
+  {
+    solve();
+    return {q_, lambda_.head(balance_.n_joints())};
+  }
 
   void solve()
   {
@@ -435,19 +440,10 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
   return state;
 }
 
-HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position)
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const SteadyMotion *motion,
+                                 const InitialState *from)
 {
-  Equilibrium equilibrium(machine, position.state, &position);
-  equilibrium.solve();
-  return {equilibrium.q(), equilibrium.multipliers()};
-}
-
-HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const InitialState &from,
-                                 const SteadyMotion &motion)
-{
-  Equilibrium equilibrium(machine, from, &position, &motion);
-  equilibrium.solve();
-  return {equilibrium.q(), equilibrium.multipliers()};
+  return Equilibrium(machine, from ? *from : position.state, &position, motion).held();
 }
 
 } // namespace gestell::coupling

@@ -52,18 +52,15 @@ struct HeldEquilibrium
  * time the constant part acts; technological forces and drives rest (Acting::structure), for the machine stands still.
  * A motion without stiffness along which no force acts stays where it is.
  *
- * @param position  assembled: its state is where the search begins, chains that play opens just touching
+ * Of a machine in motion everything acts, what is held goes on with an acceleration that no force holds it to, and loads
+ * have the inertia and the damping of the motion beside them, docs/theory/start.md (15).
+ *
+ * @param position  assembled, chains that play opens just touching
+ * @param motion    of a machine that moves, or null
+ * @param from      where the search begins; null: at the position
  * @throws std::invalid_argument as static_equilibrium()
  */
-HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position);
-
-/**
- * The same of a machine in motion: everything acts, what is held goes on with an acceleration that no force holds it to, and
- * loads have the inertia and the damping of the motion beside them, docs/theory/start.md (15).
- *
- * @param from  where the search begins
- */
-HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const InitialState &from,
-                                 const SteadyMotion &motion);
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const SteadyMotion *motion = nullptr,
+                                 const InitialState *from = nullptr);
 
 } // namespace gestell::coupling

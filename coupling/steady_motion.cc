@@ -235,7 +235,7 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
   for (int round = 0; round < most_rounds; ++round)
   {
     const SteadyMotion motion = steady_motion(machine, held, state.q);
-    HeldEquilibrium    next   = held_equilibrium(machine, held, state, motion);
+    HeldEquilibrium    next   = held_equilibrium(machine, held, &motion, &state);
     const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
     state.q                   = next.q;
     state.v                   = motion.v;

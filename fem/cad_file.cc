@@ -87,10 +87,15 @@ bool is_mesh(CadFile file)
   return file == CadFile::mesh || file == CadFile::abaqus;
 }
 
-bool is_step(const std::string &path)
+std::optional<CadFile> kind_of_file(const std::string &path)
 {
   const auto kind = kinds.find(extension(path));
-  return kind != kinds.end() && kind->second == CadFile::step;
+  return kind == kinds.end() ? std::nullopt : std::optional<CadFile>(kind->second);
+}
+
+bool is_step(const std::string &path)
+{
+  return kind_of_file(path) == CadFile::step;
 }
 
 CadFile check_cad_file(const CadSource &source)
@@ -111,18 +116,18 @@ CadFile check_cad_file(const CadSource &source)
     refuse("is empty; export the model again.");
   if (bytes(path, 0, 1).empty())
     refuse("cannot be read; check its permissions.");
-  const auto kind = kinds.find(extension(path));
-  if (kind == kinds.end())
+  const auto kind = kind_of_file(path);
+  if (!kind)
     refuse("ends in \"" + extension(path) +
            "\"; .step, .stp, .brep, .geo, .msh and .inp are read: export the model as STEP.");
   if (source.unit < 0.)
     throw std::invalid_argument(source.place + ": unit = " + text(source.unit) + " m; it must be > 0, or be left out.");
 
-  if (kind->second == CadFile::brep)
+  if (*kind == CadFile::brep)
     check_brep(path, size, refuse);
-  if (kind->second == CadFile::step)
+  if (*kind == CadFile::step)
     check_step(path, size, refuse);
-  return kind->second;
+  return *kind;
 }
 
 } // namespace gestell::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace gestell::fem
@@ -15,13 +16,24 @@ enum class CadFile
   triangles ///< .stl, a surface
 };
 
+/// Whether scripts of gmsh may do all that its language allows: run programs, write files, read any.
+enum class Scripts
+{
+  harmless, ///< no: they are judged first
+  trusted
+};
+
 /// A file with the geometry of a frame or a part.
 struct CadSource
 {
   std::string path;
   double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
   std::string place;     ///< heads messages
+  Scripts     scripts = Scripts::harmless;
 };
+
+/// By the extension of its name; nothing if such files are not read.
+std::optional<CadFile> kind_of_file(const std::string &path);
 
 bool is_step(const std::string &path);
 

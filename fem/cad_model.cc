@@ -3,6 +3,7 @@
 #include "fem/cad_file.h"
 #include "fem/defeature.h"
 #include "fem/gmsh_faces.h"
+#include "fem/harmless_files.h"
 #include "fem/mesh_groups.h"
 #include "fem/shells.h"
 #include "fem/solid_union.h"
@@ -81,6 +82,20 @@ void check_kernel(const CadSource &source)
         "it with SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" to mesh by itself.");
 }
 
+/// Cells of surfaces in a mesh file.
+std::size_t shell_cells(const CadModel &model)
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  std::size_t n = 0;
+  for (const auto &of_type : elements)
+    n += of_type.size();
+  for (const auto &[name, faces] : model.groups.faces) // of an .inp
+    n += faces.size();
+  return n;
+}
+
 void check_solids(const CadModel &model, const CadSource &source, const GmshSession &session)
 {
   const std::string head = source.place + ": " + source.path;
@@ -88,14 +103,19 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
   {
     gmsh::vectorpair faces;
     gmsh::model::getEntities(faces, 2);
-    const std::string said = session.errors();
-    const std::string what = faces.empty() ? "no shape"
-                                           : "no closed solid, only " + std::to_string(faces.size()) +
+    const std::string said    = session.errors();
+    const std::string what    = faces.empty() ? "no shape"
+                                              : "no closed solid, only " + std::to_string(faces.size()) +
                                                  " faces (shells or surfaces)" +
                                                  (model.meshed ? "" : open_edges_of_faces(model.unit));
-    throw std::invalid_argument(head + (model.meshed ? " holds no tetrahedra" : " holds " + what) +
+    const std::size_t n_shell = model.meshed ? shell_cells(model) : 0;
+    const std::string cells   = n_shell == 0 ? " holds no tetrahedra"
+                                             : " holds " + std::to_string(n_shell) +
+                                                 " triangles and quadrilaterals (a shell or a skin), but no tetrahedra";
+    throw std::invalid_argument(head + (model.meshed ? cells : " holds " + what) +
                                 (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
-                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving."
+                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving; a plate "
+                                                "is taken as a solid of its thickness."
                                               : "closed solid: sew the faces into a solid and export it as a solid."));
   }
   for (const Solid &solid : model.solids)
@@ -172,17 +192,20 @@ bool boxes_touch(const Solid &a, const Solid &b, double tolerance)
   return true;
 }
 
-CadModel open_cad(const CadSource &source, const GmshSession &session)
+namespace
 {
-  const CadFile file = check_cad_file(source);
-  CadModel      model;
+
+/// Reads `opened` in place of source.path.
+CadModel read_model(const CadSource &source, CadFile file, const std::string &opened, const GmshSession &session)
+{
+  CadModel model;
   model.meshed = is_mesh(file) || file == CadFile::triangles;
   model.unit   = source.unit > 0. ? source.unit : 1.;
   if (file == CadFile::step && source.unit > 0.)
     gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
 
   name_faces_of_step();
-  session.run([&] { file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(source.path); },
+  session.run([&] { file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened); },
               source.place + ": gmsh cannot read " + source.path + ": ",
               "; it may be damaged: export the model again, and see whether gmsh opens it.");
   model.meshed = model.meshed || (file == CadFile::geo && has_cells());
@@ -205,9 +228,25 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
   return model;
 }
 
+} // namespace
+
+CadModel open_cad(const CadSource &source, const GmshSession &session)
+{
+  const CadFile       file = check_cad_file(source);
+  const HarmlessFiles harmless(source, file);
+  try
+  {
+    return read_model(source, file, harmless.path(), session);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(harmless.in_own_names(error.what()));
+  }
+}
+
 CadSource source_of(const FrameSpecification &specification)
 {
-  return {specification.cad, specification.unit, specification.place};
+  return {specification.cad, specification.unit, specification.place, specification.scripts};
 }
 
 CadModel read_cad(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -240,12 +241,18 @@ void unfold(Mesh &mesh)
                          "them curved");
 }
 
+std::vector<double> curved_volumes(const Mesh &mesh)
+{
+  std::vector<double> volumes;
+  for (const auto &cell : tetrahedra_of(mesh))
+    volumes.push_back((mesh.middles.empty() ? six_volumes(mesh, cell) : determinant(mesh, cell).mean()) / 6.);
+  return volumes;
+}
+
 double curved_volume(const Mesh &mesh)
 {
-  double volume = 0.;
-  for (const auto &cell : tetrahedra_of(mesh))
-    volume += mesh.middles.empty() ? six_volumes(mesh, cell) / 6. : determinant(mesh, cell).mean() / 6.;
-  return volume;
+  const std::vector<double> volumes = curved_volumes(mesh);
+  return std::accumulate(volumes.begin(), volumes.end(), 0.);
 }
 
 } // namespace gestell::fem

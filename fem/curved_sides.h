@@ -2,6 +2,8 @@
 
 #include "fem/mesh_extraction.h"
 
+#include <vector>
+
 namespace gestell::fem
 {
 
@@ -18,6 +20,9 @@ void follow_geometry(ExtractedMesh &extracted, const CadModel &model);
  * A note of the mesh tells how many edges that were.
  */
 void unfold(Mesh &mesh);
+
+/// Volumes of the tetrahedra_of() the mesh with their curved sides [m^3].
+std::vector<double> curved_volumes(const Mesh &mesh);
 
 /// Volume of the cells with their curved sides [m^3], exact for straight ones.
 double curved_volume(const Mesh &mesh);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/cad_file.h"
 #include "fem/modal_ratios.h"
 
 #include <Eigen/Core>
@@ -153,8 +154,9 @@ struct FrameSpecification
   std::vector<InterfaceSpecification>    interfaces;
   std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
-  bool                                   stress = false; ///< to be recovered
-  std::string                            place;          ///< "press.toml:12: frame"
+  bool                                   stress  = false; ///< to be recovered
+  Scripts                                scripts = Scripts::harmless;
+  std::string                            place; ///< "press.toml:12: frame"
 };
 
 } // namespace gestell::fem

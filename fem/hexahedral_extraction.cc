@@ -207,7 +207,7 @@ ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, 
 {
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
-  MeshNodes     nodes(model.unit, options.gap);
+  MeshNodes     nodes(model.unit, options.gap, head);
   read_cells(model, head, nodes, mesh);
   note_straight_sides(largest_offset(model, head, nodes), mesh);
   result.node = nodes.tags();

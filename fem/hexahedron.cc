@@ -29,6 +29,13 @@ Gauss gauss(int n)
 {
   if (n == 2)
     return {{-std::sqrt(1. / 3.), std::sqrt(1. / 3.)}, {1., 1.}};
+  if (n == 4)
+  {
+    const double near  = std::sqrt(3. / 7. - 2. / 7. * std::sqrt(1.2)),
+                 far   = std::sqrt(3. / 7. + 2. / 7. * std::sqrt(1.2));
+    const double heavy = 0.5 + std::sqrt(30.) / 36., light = 0.5 - std::sqrt(30.) / 36.;
+    return {{-far, -near, near, far}, {light, heavy, heavy, light}};
+  }
   return {{-std::sqrt(0.6), 0., std::sqrt(0.6)}, {5. / 9., 8. / 9., 5. / 9.}};
 }
 
@@ -71,8 +78,8 @@ Gradients gradients(const Eigen::Vector3d &xi)
 
 const std::vector<QuadraturePoint> &quadrature(int n)
 {
-  static const std::vector<QuadraturePoint> two = rule(2), three = rule(3);
-  return n == 2 ? two : three;
+  static const std::vector<QuadraturePoint> two = rule(2), three = rule(3), four = rule(4);
+  return n == 2 ? two : n == 3 ? three : four;
 }
 
 Eigen::Vector3d node_position(int node)

@@ -45,7 +45,8 @@ struct QuadraturePoint
   Gradients       dN;
 };
 
-/// n = 2, whose points are where stresses are best, or n = 3, which integrates all matrices of a brick exactly.
+/// n = 2, whose points are where stresses are best, or n = 3, which integrates all matrices of a brick exactly; 4 does
+/// so with cubics beside the quadratics.
 const std::vector<QuadraturePoint> &quadrature(int n);
 
 /// Where the nodes stand in the reference cell.

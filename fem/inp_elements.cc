@@ -58,4 +58,13 @@ const std::vector<std::vector<int>> &inp_faces(int gmsh_type)
   return gmsh_type == 5 || gmsh_type == 17 ? hexahedron : gmsh_type == 4 || gmsh_type == 11 ? tetrahedron : none;
 }
 
+const std::vector<std::array<int, 2>> &inp_edges(int gmsh_type)
+{
+  static const std::vector<std::array<int, 2>> tetrahedron = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  static const std::vector<std::array<int, 2>> hexahedron  = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  static const std::vector<std::array<int, 2>> none;
+  return gmsh_type == 11 ? tetrahedron : gmsh_type == 17 ? hexahedron : none;
+}
+
 } // namespace gestell::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,9 @@ const InpElementKind *inp_element_kind(const std::string &type);
 
 /// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of prisms and pyramids.
 const std::vector<std::vector<int>> &inp_faces(int gmsh_type);
+
+/// Edges of a cell of quadratic tetrahedra or hexahedra, by its corners, in the order of their middle nodes in the file;
+/// none of others.
+const std::vector<std::array<int, 2>> &inp_edges(int gmsh_type);
 
 } // namespace gestell::fem

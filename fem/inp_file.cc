@@ -2,14 +2,15 @@
 
 #include "fem/inp_elements.h"
 #include "fem/inp_lines.h"
+#include "fem/inp_middle_nodes.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace gestell::fem
 {
@@ -107,6 +108,15 @@ private:
       read_file(input);
   }
 
+  /// Whether a keyword, or what stands below it, says something of the mesh.
+  static bool is_of_mesh(const std::string &name)
+  {
+    static const std::set<std::string> known = {
+        "HEADING", "PREPRINT", "NODE",     "ELEMENT", "NSET",         "ELSET", "SURFACE",      "SOLID SECTION",
+        "PART",    "END PART", "ASSEMBLY", "SYSTEM",  "END ASSEMBLY", "END",   "END INSTANCE", "INSTANCE"};
+    return known.count(name) > 0;
+  }
+
   /// Keywords that say of the mesh what is not read.
   void require_followed(const InpKeyword &keyword)
   {
@@ -130,7 +140,12 @@ private:
       refuse(head + "surfaces combined of others are not read; list the sides of the elements.");
     for (const char *tie : {"TIE", "EQUATION", "MPC", "RIGID BODY", "COUPLING", "KINEMATIC COUPLING"})
       if (name == tie)
+      {
         ties_.insert("*" + name);
+        return;
+      }
+    if (!is_of_mesh(name))
+      left_.insert("*" + name);
   }
 
   void begin_elements(const std::string &type)
@@ -167,7 +182,7 @@ private:
   void take_node(const std::vector<std::string> &fields)
   {
     const std::size_t node = number(fields[0]);
-    if (!nodes_.insert(node).second)
+    if (!nodes_.emplace(node, mesh_.numbers.size()).second)
       refuse("node " + std::to_string(node) + " comes twice; give each node a number of its own.");
     mesh_.numbers.push_back(node);
     for (std::size_t d = 1; d <= 3; ++d)
@@ -252,7 +267,7 @@ private:
     const char *begin       = field.data() + (field[0] == '+');
     double      result      = 0.;
     const auto [end, error] = std::from_chars(begin, field.data() + field.size(), result);
-    if (error != std::errc() || end != field.data() + field.size())
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(result))
       refuse("\"" + field + "\" is no coordinate.");
     return result;
   }
@@ -292,12 +307,47 @@ private:
       const std::set<std::size_t> all = resolve(name, node_entries_);
       mesh_.node_sets[name].assign(all.begin(), all.end());
     }
+    order_middles();
     add_solids();
     add_surface_elements();
+    tell_what_is_left();
     for (const std::string &tie : ties_)
       mesh_.notes.push_back(tie + " is left out: what it ties together must share nodes");
     for (const Side &side : sides_)
       add_side(side);
+  }
+
+  void tell_what_is_left()
+  {
+    constexpr std::size_t most_told = 8;
+    std::string           names;
+    std::size_t           n = 0;
+    for (const std::string &name : left_)
+      if (++n <= most_told)
+        names += (n > 1 ? ", " : "") + name;
+    if (n > most_told)
+      names += " and " + std::to_string(n - most_told) + " more";
+    if (n > 0)
+      mesh_.notes.push_back(names + (n > 1 ? " are" : " is") +
+                            " not read: a mesh is taken from the file, material, supports and loads from the scene");
+  }
+
+  void order_middles()
+  {
+    InpMiddleNodes middles(
+        [this](std::size_t number)
+        {
+          const double *x = mesh_.coordinates.data() + 3 * nodes_.at(number);
+          return Vector3{x[0], x[1], x[2]};
+        });
+    for (const std::size_t number : order_)
+      if (Element &element = elements_.at(number); !middles.order(element.kind->gmsh_type, element.nodes))
+        throw std::invalid_argument(
+            source_.place + ": " + source_.path + ": the middle nodes of element " + std::to_string(number) +
+            " do not lie on the edges they stand for, in no order that all elements share; " + element.kind->begin +
+            " needs them edge by edge as in Abaqus's manual. Export the mesh again, or without middle nodes.");
+    for (const std::string &note : middles.notes())
+      mesh_.notes.push_back(note);
   }
 
   void add_solids()
@@ -376,7 +426,7 @@ private:
   const InpElementKind                           *kind_ = nullptr;
   std::string                                     set_, node_set_;
   std::size_t                                     element_ = 0; // being read
-  std::unordered_set<std::size_t>                 nodes_;
+  std::unordered_map<std::size_t, std::size_t>    nodes_;       // to their index
   std::unordered_map<std::size_t, Element>        elements_;
   std::vector<std::size_t>                        order_; // of the elements
   std::map<std::string, std::vector<std::string>> node_entries_, element_entries_;
@@ -384,7 +434,7 @@ private:
   std::vector<std::string>                        sections_;
   std::vector<Side>                               sides_;
   std::map<std::string, int>                      n_parts_;
-  std::set<std::string>                           ties_;
+  std::set<std::string>                           ties_, left_;
 };
 
 } // namespace

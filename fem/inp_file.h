@@ -35,15 +35,15 @@ struct InpMesh
  *
  * Reads *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *SOLID SECTION (for the names of solids), and the files that
  * *INCLUDE and INPUT= name (keywords or data lines, which stand where they are named); what ties nodes to each other is
- * noted, all else, such as materials and steps, is not asked for.  Elements: C3D4, C3D10, C3D8, C3D20 and their
- * variants (C3D10M, C3D8R,
- * ...).  Triangles and quadrilaterals without a section, as meshers write them, only name
- * surfaces; trusses without a section are left out.  Parts and instances are read if there is one of them, not moved.
+ * noted, and so are the keywords of all else, such as materials and steps.  Elements: C3D4, C3D10, C3D8, C3D20 and
+ * their variants (C3D10M, C3D8R, ...).  Middle nodes are taken for the edges they lie on.  Triangles and quadrilaterals
+ * without a section, as meshers write them, only name surfaces; trusses without a section are left out.  Parts and
+ * instances are read if there is one of them, not moved.
  *
  * @throws std::invalid_argument with file and line for what cannot be read, other elements, elements with nodes that
- *         are not there, nodes or elements that come twice, and for keywords that say of the mesh what is not read:
- *         nodes and elements made by rules (*NGEN, *NFILL, *NCOPY, *NMAP, *ELGEN, *ELCOPY, *IMPORT), coordinates in
- *         other systems (*SYSTEM, *NODE with SYSTEM=C or S), *IMPERFECTION, sets of nodes by elements, combined
+ *         are not there, nodes or elements that come twice, middle nodes on no edges, and for keywords that say of the
+ * mesh what is not read: nodes and elements made by rules (*NGEN, *NFILL, *NCOPY, *NMAP, *ELGEN, *ELCOPY, *IMPORT),
+ * coordinates in other systems (*SYSTEM, *NODE with SYSTEM=C or S), *IMPERFECTION, sets of nodes by elements, combined
  *         surfaces.
  */
 InpMesh read_inp(const CadSource &source);

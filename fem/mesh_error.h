@@ -3,6 +3,7 @@
 #include "fem/cell_materials.h"
 #include "fem/kinematics.h"
 #include "fem/quadratic_mesh.h"
+#include "fem/raised_degree.h"
 
 #include <Eigen/Core>
 
@@ -37,6 +38,12 @@ public:
    * @return   eta_K^2 of every cell and field [n_cells x k].
    */
   Eigen::MatrixXd of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) const;
+
+  /// The frame in elements of degree three on the same mesh.
+  RaisedFrame raised(const FrameMatrices &frame) const
+  {
+    return raise_degree(mesh_, materials_, kinematics_, frame.C, frame.M);
+  }
 
   const QuadraticMesh &mesh() const { return mesh_; }
 

@@ -269,7 +269,7 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const
     return extract_hexahedra(model, head, options);
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
-  MeshNodes     nodes(model.unit, options.gap);
+  MeshNodes     nodes(model.unit, options.gap, head);
   read_cells(model, head, nodes, mesh);
   result.node = nodes.tags();
 

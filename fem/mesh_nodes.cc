@@ -1,5 +1,6 @@
 #include "fem/mesh_nodes.h"
 
+#include "fem/face.h"
 #include "fem/vector3.h"
 
 #include <gmsh.h>
@@ -55,7 +56,7 @@ std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, d
   return pairs;
 }
 
-MeshNodes::MeshNodes(double unit, double gap)
+MeshNodes::MeshNodes(double unit, double gap, const std::string &head)
 {
   std::vector<std::size_t> all;
   std::vector<double>      coordinates, parameters;
@@ -65,6 +66,9 @@ MeshNodes::MeshNodes(double unit, double gap)
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     points.push_back(unit * Point3{coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
+    if (!std::all_of(points.back().begin(), points.back().end(), [](double x) { return std::isfinite(x); }))
+      throw std::invalid_argument(head + ": node " + std::to_string(all[i]) + " lies at " + text(points.back()) +
+                                  ", which is no place; export the mesh again.");
     position_[all[i]] = points.back();
   }
   if (gap > 0.)

@@ -21,8 +21,10 @@ public:
   /**
    * @param unit   length of gmsh's unit [m]
    * @param gap    nodes no further apart than this [m] are taken for one; 0: none are
+   * @param head   of messages
+   * @throws std::invalid_argument if a coordinate is no number.
    */
-  MeshNodes(double unit, double gap);
+  MeshNodes(double unit, double gap, const std::string &head);
 
   /// Index of the point in `points`, which grows by nodes not met before.
   /// @param head  of the message of the std::invalid_argument for a node that is not in the mesh

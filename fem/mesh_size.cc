@@ -155,9 +155,20 @@ void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Sel
 
   gmsh::option::setNumber("Mesh.MeshSizeMin", 0.);
   gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / model.unit);
+  gmsh::option::setNumber("Mesh.MinimumCircleNodes", elements_around_circle);
+  set_smallest_as_background(surface_size_fields(model, options, selection));
+}
+
+std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions &options, const Selection &selection)
+{
   std::vector<double> fields;
-  for (const auto &[name, size] : surface_size)
+  for (const auto &[name, size] : resolve_surface_sizes(options, selection))
     fields.push_back(add_field(selection.at(name), size / model.unit, options.size / model.unit));
+  return fields;
+}
+
+void set_smallest_as_background(const std::vector<double> &fields)
+{
   if (fields.empty())
     return;
   const int smallest = gmsh::model::mesh::field::add("Min");
@@ -165,10 +176,10 @@ void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Sel
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
 }
 
-void set_refined_sizes(SizeField field, double unit)
+void set_refined_sizes(const SizeField &field, double unit)
 {
   gmsh::model::mesh::setSizeCallback(
-      [field = std::move(field), unit](int, int, double x, double y, double z) {
+      [field, unit](int, int, double x, double y, double z) {
         return field({unit * x, unit * y, unit * z}) / unit;
       });
 }

@@ -6,6 +6,7 @@
 #include "fem/hexahedral_mesh.h"
 #include "fem/memory_estimate.h"
 #include "fem/mesh_extraction.h"
+#include "fem/mesh_grading.h"
 #include "fem/mesh_groups.h"
 #include "fem/mesh_quality.h"
 #include "fem/mesh_size.h"
@@ -15,11 +16,13 @@
 #include "fem/solid_materials.h"
 #include "fem/surface_selection.h"
 #include "fem/vector3.h"
+#include "fem/watched_meshing.h"
 
 #include <gmsh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -48,11 +51,6 @@ struct MeshedModel
   std::string   smallest; ///< edges and faces
 };
 
-std::string head_of(const FrameSpecification &specification)
-{
-  return specification.place + ": " + specification.cad;
-}
-
 Selection select_all(const CadModel &model, const FrameSpecification &specification)
 {
   Selection selection;
@@ -79,19 +77,6 @@ void require_straight(const ExtractedMesh &extracted, const FrameSpecification &
     throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
                                 " are hexahedra, whose sides are straight; leave curved out and make cells smaller "
                                 "along curved faces, or mesh with tetrahedra.");
-}
-
-/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
-void generate(const FrameSpecification &specification, const GmshSession &session, const MeshProgress &progress)
-{
-  const auto        report = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
-  const std::string remedy = "; choose another mesh.size or repair the faces in the CAD program.";
-  report("meshing surfaces");
-  session.run([] { gmsh::model::mesh::generate(2); },
-              head_of(specification) + ": gmsh cannot mesh its surfaces: ", remedy);
-  report("meshing volumes");
-  session.run([] { gmsh::model::mesh::generate(3); },
-              head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
 /// Whether a face of gmsh is among those of a surface, if there is such a surface.
@@ -199,12 +184,22 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
                    MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
-  const MeshOptions options = prepare_geometry(result, specification, missing);
+  const bool               script_has_sizes = has_size_fields();
+  const MeshOptions        options          = prepare_geometry(result, specification, missing);
+  const auto               report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  std::optional<SizeField> field;
   if (!refined.empty())
-    set_refined_sizes(SizeField(refined, options.size), result.model.unit);
-  generate(specification, session, progress);
+    set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
+  report("meshing surfaces");
+  mesh_surfaces(result.model, result.selection, specification, options, session, field, script_has_sizes);
+  report("meshing volumes");
+  mesh_volumes(specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
   require_straight(result.extracted, specification);
+  require_cells(result.extracted.mesh.n_cells(),
+                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
+  if (refined.empty()) // who refines judges beforehand
+    judge_memory(result, specification);
   if (!result.extracted.mesh.hexahedra.empty())
     return;
   improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
@@ -220,11 +215,12 @@ void measure_solids(CadModel &model, const Mesh &mesh)
     solid.min = model.max;
     solid.max = model.min;
   }
-  const std::vector<std::array<int, 4>> pieces = tetrahedra_of(mesh);
+  const std::vector<std::array<int, 4>> pieces  = tetrahedra_of(mesh);
+  const std::vector<double>             volumes = curved_volumes(mesh);
   for (std::size_t c = 0; c < pieces.size(); ++c)
   {
     Solid &solid = model.solids[mesh.cell_solid[c * mesh.cell_solid.size() / pieces.size()]];
-    solid.volume += six_volumes(mesh, pieces[c]) / 6.;
+    solid.volume += volumes[c];
     for (const int point : pieces[c])
       for (int d = 0; d < 3; ++d)
       {
@@ -252,8 +248,8 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
                                 "; raise max_cells or give a coarser mesh.");
   check_materials(result.model, specification);
-  measure_solids(result.model, mesh);
   unfold(result.extracted.mesh);
+  measure_solids(result.model, mesh);
   const auto divided = divide_skin(result.extracted, result.model.groups);
   result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
   result.selection   = select_all(result.model, specification);

@@ -18,11 +18,16 @@ bool ForceElement::holds(const double *, double &) const
   return false;
 }
 
-void ForceElement::engaged(const double *, double *K, double *D) const
+void ForceElement::no_structure(double *K, double *D) const
 {
   const int k = n_measures();
   std::fill_n(K, k * k, 0.);
   std::fill_n(D, k * k, 0.);
+}
+
+void ForceElement::engaged(const double *, double *K, double *D) const
+{
+  no_structure(K, D);
 }
 
 bool ForceElement::closure(const double *, const double *, double &, double *, double &) const

@@ -121,6 +121,14 @@ public:
   /// step of an integrator has to stand.  Default: engaged().
   virtual void stiffest(const double *u, double *K, double *D) const { engaged(u, K, D); }
 
+  /// Stiffness and damping as engaged() tells them of what acts in every branch of the law, so that it stays when the
+  /// element is open: the oil film of a rod with play.  Default: engaged(), of a law without a branch in which it is
+  /// open.
+  virtual void open_branch(const double *u, double *K, double *D) const { engaged(u, K, D); }
+
+  /// Stiffness grows with the motion itself, so that stiffest() at one place is no bound: a contact after Hertz.
+  virtual bool stiffens() const { return false; }
+
   /// Geometric stiffness [k x k, column major]: of a force that turns with the motion, -d(G^T)/du P, at the forces of
   /// `motion` (of a joint its multipliers).  Together with engaged() it is the tangent.
   virtual void geometric(const LocalMotion &motion, const double *history, double *K) const;
@@ -174,6 +182,9 @@ public:
   virtual double                quantity(int i, const LocalMotion &motion, const double *history) const = 0;
 
 protected:
+  /// K and D of an element that is nothing while it is open.
+  void no_structure(double *K, double *D) const;
+
   /// -p of an element of one measure: the force it opposes to its motion, what most of them tell as their force.
   double resistance(const LocalMotion &motion, const double *history) const;
 };

@@ -75,6 +75,14 @@ void SwitchedElement::engaged(const double *u, double *K, double *D) const
   zero(D, n_measures() * n_measures());
 }
 
+void SwitchedElement::open_branch(const double *u, double *K, double *D) const
+{
+  if (begin_ == Begin::on)
+    law_->open_branch(u, K, D);
+  else
+    no_structure(K, D);
+}
+
 void SwitchedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
   if (is_on(history))

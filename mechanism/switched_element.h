@@ -43,6 +43,8 @@ public:
   /// As it begins, likewise closure() and penetration(): structure and start of a run are asked for, no later instant.
   void engaged(const double *u, double *K, double *D) const override;
   void stiffest(const double *u, double *K, double *D) const override { law_->stiffest(u, K, D); }
+  void open_branch(const double *u, double *K, double *D) const override;
+  bool stiffens() const override { return law_->stiffens(); }
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;
   bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
 

@@ -139,22 +139,28 @@ void TransmittedElement::derivatives(const LocalMotion &motion, const double *hi
   spread_tangent(seen, of_rate, dp_dv);
 }
 
-void TransmittedElement::engaged(const double *u, double *K, double *D) const
+void TransmittedElement::spread_structure(Structure structure, const double *u, double *K, double *D) const
 {
   const Seen seen = see({0., u, at_rest, at_rest}, nullptr);
   double     k[max_of_law * max_of_law], d[max_of_law * max_of_law];
-  law_->engaged(seen.s, k, d);
+  (law_.get()->*structure)(seen.s, k, d);
   spread_tangent(seen, k, K);
   spread_tangent(seen, d, D);
 }
 
+void TransmittedElement::engaged(const double *u, double *K, double *D) const
+{
+  spread_structure(&ForceElement::engaged, u, K, D);
+}
+
 void TransmittedElement::stiffest(const double *u, double *K, double *D) const
 {
-  const Seen seen = see({0., u, at_rest, at_rest}, nullptr);
-  double     k[max_of_law * max_of_law], d[max_of_law * max_of_law];
-  law_->stiffest(seen.s, k, d);
-  spread_tangent(seen, k, K);
-  spread_tangent(seen, d, D);
+  spread_structure(&ForceElement::stiffest, u, K, D);
+}
+
+void TransmittedElement::open_branch(const double *u, double *K, double *D) const
+{
+  spread_structure(&ForceElement::open_branch, u, K, D);
 }
 
 void TransmittedElement::geometric(const LocalMotion &motion, const double *history, double *K) const

@@ -52,6 +52,8 @@ public:
                    double *dp_dv) const override;
   void engaged(const double *u, double *K, double *D) const override;
   void stiffest(const double *u, double *K, double *D) const override;
+  void open_branch(const double *u, double *K, double *D) const override;
+  bool stiffens() const override { return law_->stiffens(); }
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;
   void accept(const LocalMotion &motion, double *history) const override;
 
@@ -93,6 +95,9 @@ private:
   /// p = G^T P with the virtual coordinates' P behind it and, of a derivative of P by the law's measures, that by u.
   void spread(const Seen &seen, const double *P, double *p) const;
   void spread_tangent(const Seen &seen, const double *dP, double *dp) const;
+  /// K and D of the law by one of its methods, on the measures of the motion.
+  using Structure = void (ForceElement::*)(const double *u, double *K, double *D) const;
+  void spread_structure(Structure structure, const double *u, double *K, double *D) const;
 
   const double *of_function(const LocalMotion &motion, const double *history) const
   {

@@ -35,8 +35,9 @@ double option_value(const std::string &option, const std::string &text, Kind dim
   {
     char        *end   = nullptr;
     const double plain = std::strtod(text.c_str(), &end);
-    const double value =
-        *end == '\0' && !text.empty() ? plain : value_as(parse_quantity(text, no_parameter), dimension, text);
+    const double value = *end == '\0' && !text.empty()
+                             ? plain
+                             : value_as(parse_quantity(text, no_parameter, {}, &dimension), dimension, text);
     if (value > 0. && std::isfinite(value))
       return value;
   }
@@ -165,7 +166,9 @@ public:
       point.failure  = result.failure;
       if (!method.peer)
         point.settings = scene_settings(method, setting, events);
-      if (point.failure.empty())
+      if (point.failure.empty() && reference_.size() == 0)
+        point.failure = "no reference to tell its error";
+      else if (point.failure.empty())
       {
         point.error    = scaled_error(result.values, reference_);
         point.resolved = point.error >= resolved_above * model_.reference_error;
@@ -295,7 +298,7 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
 
 int chart_command(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
-  Scene scene = read_scene(options.input, options.overrides);
+  Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
   check_scene(scene);
   if (chart_options.samples < 2)
@@ -336,7 +339,7 @@ int chart_command(const CommonOptions &options, const ChartCommandOptions &chart
   {
     std::vector<std::string> overrides = options.overrides;
     overrides.push_back("reduction.modes=" + std::to_string(modes));
-    references.push_back(chart_model(request, read_scene(options.input, overrides), chart, progress));
+    references.push_back(chart_model(request, read_scene(options.input, overrides, options.scripts), chart, progress));
   }
   for (std::size_t m = 0; m + 1 < references.size(); ++m)
     chart.models[m].truncation = scaled_error(references[m], references.back());

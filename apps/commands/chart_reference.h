@@ -38,10 +38,9 @@ private:
 
 /**
  * A fine run with located events: exact propagation by collocation of order 8, controlled; its error is the largest
- * distance from two others, one with the tenfold tolerance and one of order 6.  Machines that exact propagation cannot
- * treat take BDF of controlled order instead, with two tolerances; `notes` then says so.
- *
- * @throws ConvergenceFailure if no run gets to the end
+ * distance from two others, one with the tenfold tolerance and one of order 6.  Where exact propagation cannot treat the
+ * machine, or does not get to the end, BDF of controlled order does it, with ever larger tolerances, and at last BDF 2
+ * with fixed steps; `notes` tells why.  Without values if none gets to the end.
  */
 Reference own_reference(const WorkProblem &problem, std::vector<std::string> &notes);
 

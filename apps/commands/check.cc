@@ -15,13 +15,16 @@ namespace gestell::apps
 namespace
 {
 
-/// Reads the frame's file and finds its surfaces, where this build can.  @return what was found
-std::string try_geometry(const fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+/// Reads the frame's file and finds its surfaces and where they are, where this build can.  @return what was found
+std::string try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings)
 {
   if (!coupling::has_frame_service())
     return frame.cad + " is there; this build cannot read it";
-  const auto [found, notes, statements] = coupling::mesh_service().inspect(frame);
+  const auto [found, notes, statements, centroids] = coupling::mesh_service().inspect(frame);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
+  for (fem::InterfaceSpecification &interface : frame.interfaces)
+    if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)
+      interface.position = centroid->second;
   std::string text = frame.cad + ": " + found + "; not meshed";
   for (const std::string &statement : statements)
     text += "\nframe: " + statement;
@@ -46,19 +49,25 @@ std::size_t elements_written(const Scene &scene)
 
 int check_command(const CommonOptions &options)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
-  check_scene(scene);
-  check_start(scene);
+  Scene                    scene = read_scene(options.input, options.overrides, options.scripts);
+  std::vector<std::string> loose = check_scene(scene);
   std::vector<std::string> warnings = scene.warnings;
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
+  {
     geometry = try_geometry(scene.frame.geometry, warnings);
+    loose    = check_scene(scene); // the places of interfaces are known now
+  }
+  check_start(scene);
+  warnings.insert(warnings.end(), loose.begin(), loose.end());
   std::cout << scene.file << ": the scene \"" << scene.name
             << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
             << count_text(elements_written(scene), "element") << ", " << count_text(scene.signals.size(), "signal")
             << '\n';
   if (!geometry.empty())
     std::cout << "frame: " << geometry << '\n';
+  if (!scene.joints.empty() && !places_known(scene))
+    std::cout << "joints: closed when the frame is made; its file tells where interfaces without 'position' are\n";
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fem/cad_file.h"
+
 #include <string>
 #include <vector>
 
@@ -21,8 +23,9 @@ struct CommonOptions
   std::string              input;  ///< scene, or CAD file of `gestell mesh`
   std::string              folder; ///< -o; empty: results/<scene name>
   std::vector<std::string> overrides;
-  int                      jobs  = 1;
-  bool                     quiet = false;
+  int                      jobs    = 1;
+  bool                     quiet   = false;
+  fem::Scripts             scripts = fem::Scripts::harmless; ///< of gmsh, that scenes name
 };
 
 struct MeshCommandOptions

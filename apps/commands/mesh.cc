@@ -29,7 +29,7 @@ double option_of(const std::string &option, const std::string &text, const Kind 
   try
   {
     if (*end != '\0')
-      value = value_as(parse_quantity(text, no_parameter), kind, text);
+      value = value_as(parse_quantity(text, no_parameter, {}, &kind), kind, text);
     if (value > 0.)
       return value;
   }
@@ -86,6 +86,7 @@ fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommand
   const double density = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
   frame.material       = {210e9, 0.3, density > 0. ? density : steel, "gestell mesh"};
   frame.place          = "gestell mesh";
+  frame.scripts        = options.scripts;
   return frame;
 }
 

@@ -22,15 +22,19 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
 {
   if (modes.empty())
     return;
-  std::cout << kind << "\n  mode   frequency [Hz]   damping ratio   effective mass x / y / z [kg]\n";
+  const bool refined = any_refined(modes);
+  std::cout << kind << "\n  mode   frequency [Hz]" << (refined ? "     refined [Hz]" : "")
+            << "   damping ratio   effective mass x / y / z [kg]\n";
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     const coupling::Mode &mode = modes[j];
     if (const std::string above = words_above(limit, j > 0 ? modes[j - 1].frequency_hz : 0., mode.frequency_hz);
         !above.empty())
       std::cout << "  " << above << '\n';
-    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << mode.frequency_hz
-              << std::setprecision(4) << std::setw(16)
+    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << mode.frequency_hz;
+    if (refined)
+      std::cout << std::setw(17) << (std::isnan(mode.refined_hz) ? "unknown" : short_text(mode.refined_hz, 8));
+    std::cout << std::setprecision(4) << std::setw(16)
               << (std::isnan(mode.damping_ratio) ? "-" : short_text(mode.damping_ratio)) << "   ";
     for (const double mass : mode.effective_mass)
       std::cout << std::setw(11) << mass;
@@ -41,6 +45,8 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
       std::cout << "   " << at_zero;
     std::cout << '\n';
   }
+  if (refined)
+    std::cout << "  " << refined_words << '\n';
 }
 
 void print_poles(const std::vector<coupling::Pole> &poles)
@@ -59,7 +65,7 @@ void print_poles(const std::vector<coupling::Pole> &poles)
 
 int modes_command(const CommonOptions &options, const ModesCommandOptions &modes)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
   const std::filesystem::path folder = results_path(options, scene);
   require_writable(folder);
@@ -67,7 +73,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   ProgressLine                             progress(options.quiet);
   std::optional<coupling::MeshConvergence> convergence;
   if (modes.converge > 0.)
-    convergence = converge_frame(scene, modes, progress);
+    convergence = converge_frame(scene, modes, folder, progress);
   PreparedMachine prepared =
       convergence ? prepare_machine_on(scene, convergence->frame) : prepare_machine(scene, progress);
 
@@ -75,6 +81,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   const auto geometric =
       modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
   Result result = begin_result(scene, "modes", prepared, geometric);
+  result.asked  = {options.input, options.overrides, std::nullopt};
   if (!modes.along.empty())
   {
     result.along = modes_along_result(scene, prepared, modes, progress);

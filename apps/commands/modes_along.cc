@@ -21,8 +21,9 @@ double option_value(const std::string &option, const std::string &text, const Ki
 {
   try
   {
-    Quantity quantity = parse_quantity(text, [](const std::string &) { return std::nullopt; });
-    char    *end      = nullptr;
+    Quantity quantity = parse_quantity(
+        text, [](const std::string &) { return std::nullopt; }, {}, &kind);
+    char *end = nullptr;
     std::strtod(text.c_str(), &end);
     if (!text.empty() && *end == '\0') // plain numbers are SI
       return quantity.value;

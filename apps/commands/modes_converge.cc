@@ -58,7 +58,8 @@ std::string reached(const coupling::MeshConvergence &convergence)
 
 } // namespace
 
-coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes, ProgressLine &progress)
+coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes,
+                                         const std::filesystem::path &folder, ProgressLine &progress)
 {
   if (scene.frame.source != FrameSource::geometry || frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": --converge refines the mesh of a frame, but this scene's frame is not "
@@ -69,6 +70,11 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandO
   options.n_frequencies   = modes.frequencies;
   options.max_coordinates = modes.max_coordinates;
   options.compliances     = modes.watch == "all";
+  options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far)
+  {
+    std::filesystem::create_directories(folder);
+    write_convergence(folder, so_far);
+  };
   return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options,
                                            [&progress](const std::string &phase, double share)
                                            { progress.show(phase, share); });

@@ -11,7 +11,8 @@ namespace gestell::apps
 
 /// `gestell modes SCENE --converge TOLERANCE`: refines the mesh of the scene's frame, see coupling::converge_mesh().
 /// @throws std::invalid_argument if the frame is not made from geometry, or options are out of range.
-coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes, ProgressLine &progress);
+coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes,
+                                         const std::filesystem::path &folder, ProgressLine &progress);
 
 /// Prints meshes, limits, errors and whether they are within the tolerance.
 void print_convergence(const coupling::MeshConvergence &convergence, double tolerance);

@@ -1,7 +1,10 @@
 #include "apps/commands/prepared_machine.h"
 
+#include "apps/commit.h"
 #include "apps/scene/carried_bodies.h"
 #include "apps/scene/damping_text.h"
+#include "apps/scene/free_things.h"
+#include "apps/scene/matrix_units.h"
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
 #include "coupling/frame_service_loader.h"
@@ -73,7 +76,12 @@ namespace
 void add_warnings(const Scene &scene, PreparedMachine &prepared)
 {
   if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  {
     prepared.warnings = frame->notes;
+    if (scene.frame.source == FrameSource::matrices)
+      if (const std::string suspicion = suspect_frequency(*frame); !suspicion.empty())
+        prepared.warnings.push_back(suspicion);
+  }
   prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
 }
 } // namespace
@@ -211,6 +219,7 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.scene         = scene.name;
   result.description   = scene.description;
   result.version       = version;
+  result.commit        = commit();
   result.command       = command;
   result.model         = model_facts(prepared);
   result.model.damping = damping_text(scene.frame);
@@ -222,7 +231,9 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
-  for (const std::string &warning : carried_warnings(scene, small))
+  for (const auto &warnings : {carried_warnings(scene, small), idle_bodies(scene, small), remote_joints(scene, small)})
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  if (const auto warning = free_frame(scene, small, result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
   add_poles(scene, small, q, how, result);
   result.scenery = scenery_of(small);

@@ -8,6 +8,7 @@
 #include "apps/scene/damping_text.h"
 #include "apps/version.h"
 #include "coupling/frame_cache.h"
+#include "coupling/modes.h"
 
 #include <cmath>
 #include <filesystem>
@@ -24,7 +25,7 @@ Scene scene_to_reduce(const CommonOptions &options)
 {
   if (options.input.empty())
     throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
-  Scene scene = read_scene(options.input, options.overrides);
+  Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
@@ -75,12 +76,13 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
     for (const std::string &file : export_frame(
              folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
       std::cout << "written: " << file << '\n';
-  std::cout << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
-            << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
-            << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
-            << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
-               "accelerations; reduction.inertia_relief carries it)\n"
-            << "  supported frame, interface free:\n    mode   frequency [Hz]   estimated relative error\n";
+  std::cout
+      << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   " << frame.n_full
+      << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
+      << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
+      << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
+         "accelerations; reduction.inertia_relief carries it)\n"
+      << "  supported frame, interface free:\n    mode   frequency [Hz]     refined [Hz]   estimated relative error\n";
   const double limit = frame.frequency_limit_hz > 0. ? frame.frequency_limit_hz : INFINITY;
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
   {
@@ -89,11 +91,13 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
       std::cout << "    " << above << '\n';
     std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
     if (j < frame.frequency_error.size() && std::isnan(frame.frequency_error[j]))
-      std::cout << std::setw(27) << "unknown";
+      std::cout << std::setw(17) << "unknown" << std::setw(27) << "unknown";
     else if (j < frame.frequency_error.size())
-      std::cout << std::setprecision(3) << std::setw(27) << frame.frequency_error[j];
+      std::cout << std::setw(17) << coupling::refined_hz(frame, j) << std::setprecision(3) << std::setw(27)
+                << frame.frequency_error[j];
     std::cout << '\n';
   }
+  std::cout << "  " << refined_words << '\n';
   ModelFacts facts;
   facts.frame        = frame.facts;
   facts.frame_mass   = frame.mass;

@@ -89,7 +89,7 @@ void print_answer(const coupling::RunResult &run)
 
 int run_command(const CommonOptions &options)
 {
-  const Scene scene = read_scene(options.input, options.overrides);
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
   check_scene(scene);
   const std::filesystem::path folder = results_path(options, scene);
@@ -105,6 +105,7 @@ int run_command(const CommonOptions &options)
   progress.show("modes");
   Result result   = begin_result(scene, "run", prepared);
   result.settings = settings_text(scene);
+  result.asked    = {options.input, options.overrides, scene.run.options};
 
   const coupling::RunOptions &run = scene.run.options;
   progress.show("integration", 0.);

@@ -25,13 +25,13 @@ void check_ratios(const std::vector<double> &zetas)
       throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios lie between 0 and 10");
 }
 
-MethodVerdict verdict(const coupling::Machine &machine, const coupling::InitialState &start, const MappedMethod &method,
-                      double step)
+MethodVerdict verdict(const coupling::LinearSpectrum &spectrum, const MappedMethod &method, double step)
 {
   coupling::MethodOptions options = method.options;
   options.step                    = step;
-  const auto    modes             = coupling::mode_accuracy(machine, start, options);
-  MethodVerdict result;
+  const coupling::StabilityGuard guard(spectrum, options);
+  const auto                    &modes = guard.modes();
+  MethodVerdict                  result;
   result.method = options.method == coupling::Method::exact ? "exact, " + method.name : method.name;
   for (const auto &mode : modes)
     if (mode.unstable)
@@ -45,7 +45,7 @@ MethodVerdict verdict(const coupling::Machine &machine, const coupling::InitialS
     }
   result.only_closed = result.growing > 0 && options.method == coupling::Method::exact;
   if (result.growing > 0)
-    result.step_that_works = coupling::largest_stable_step(modes, options);
+    result.step_that_works = guard.largest_stable_step();
   const auto closed = std::find_if(modes.begin(), modes.end(),
                                    [](const auto &mode) { return mode.origin == coupling::ModeOrigin::closed; });
   if (closed != modes.begin())
@@ -78,20 +78,22 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
 
   std::ostringstream name;
   name << coupling::method_name(method) << " with a step of " << method.step << " s";
-  study.method = name.str();
-  study.modes  = coupling::mode_accuracy(machine, start, method);
+  study.method                            = name.str();
+  const coupling::LinearSpectrum spectrum = coupling::linear_spectrum(machine, start);
+  const coupling::StabilityGuard guard(spectrum, method);
+  study.modes = guard.modes();
   for (const MethodFamily &family : families)
     for (const MappedMethod &other : family.methods)
-      study.verdicts.push_back(verdict(machine, start, other, method.step));
+      study.verdicts.push_back(verdict(spectrum, other, method.step));
   try
   {
-    coupling::check_stability(study.modes, method);
+    guard.check();
   }
   catch (const std::invalid_argument &unstable)
   {
     study.notes.push_back(unstable.what());
   }
-  for (const std::string &warning : coupling::stability_warnings(study.modes, method))
+  for (const std::string &warning : guard.warnings())
     study.notes.push_back(warning);
 }
 
@@ -114,7 +116,7 @@ int stability_command(const CommonOptions &options, const StabilityCommandOption
   std::optional<Scene> scene;
   if (with_scene)
   {
-    scene = read_scene(options.input, options.overrides);
+    scene = read_scene(options.input, options.overrides, options.scripts);
     check_scene(*scene);
   }
   const std::filesystem::path folder =

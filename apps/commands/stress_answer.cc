@@ -89,6 +89,16 @@ StressAt stress_at(const Scene &scene, const ReducedFrame &frame, const std::str
   return result;
 }
 
+std::string words_of_disagreement(const StressAt &instant)
+{
+  const StressPlace &peak = *instant.peak;
+  return "the largest stress " + (instant.label.empty() ? "" : "(" + instant.label + ") ") + "at " +
+         short_text(instant.t) + " s, " + short_text(1e-6 * peak.von_mises) + " MPa at (" + short_text(peak.at[0]) +
+         " " + short_text(peak.at[1]) + " " + short_text(peak.at[2]) +
+         "), is uncertain: neighbouring elements disagree by " + short_text(100. * peak.disagreement, 2) +
+         " %, above 10 % the mesh is too coarse there; make it finer";
+}
+
 } // namespace
 
 void require_stress(const Scene &scene, const ReducedFrame *frame)
@@ -133,6 +143,9 @@ StressResult stress_answer(const Scene &scene, const ReducedFrame &frame, const 
   }
   std::stable_sort(result.instants.begin(), result.instants.end(),
                    [](const StressAt &a, const StressAt &b) { return a.t < b.t; });
+  for (const StressAt &instant : result.instants)
+    if (instant.peak && instant.peak->disagreement > resolved_disagreement)
+      warnings.push_back(words_of_disagreement(instant));
   return result;
 }
 

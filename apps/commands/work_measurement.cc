@@ -104,7 +104,15 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
   options.locate = events;
   options.end    = problem.samples.back();
   coupling::EventDriver driver(problem.machine, *integrator, options);
-  driver.begin(problem.begin, problem.initial.q, problem.initial.v);
+  try
+  {
+    driver.begin(problem.begin, problem.initial.q, problem.initial.v);
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    run.failure = failure.what();
+    return run;
+  }
   Sampler sampler(problem, *integrator);
   if (sampling == Sampling::on)
     driver.on_step([&sampler] { sampler.step(); });

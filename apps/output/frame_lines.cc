@@ -57,6 +57,15 @@ std::string free_line(const ModelFacts &model)
 
 } // namespace
 
+bool any_refined(const std::vector<coupling::Mode> &modes)
+{
+  return std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return !std::isnan(mode.refined_hz); });
+}
+
+const char *const refined_words = "The machine runs on the reduced frame, whose frequencies lie above those of the "
+                                  "whole mesh. The refined ones, by one more step of inverse iteration, are nearer to "
+                                  "them, from above, too.";
+
 const char *const static_residual_words =
     "The static load the modes do not carry is that of weight inside the frame, by the energy of the deflection "
     "between "

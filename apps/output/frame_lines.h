@@ -12,6 +12,12 @@ namespace gestell::apps
 /// motions, motions that are free, damping.
 std::vector<std::string> frame_lines(const ModelFacts &model);
 
+/// Some mode has a refined frequency.
+bool any_refined(const std::vector<coupling::Mode> &modes);
+
+/// What refined frequencies are and how they lie to those of the model and of the full frame.
+extern const char *const refined_words;
+
 /// What the static load that the modes do not carry means, and when it matters.
 extern const char *const static_residual_words;
 

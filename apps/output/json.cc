@@ -131,6 +131,12 @@ void JsonWriter::text(const std::string &name, const std::string &x)
   document_ += json_quoted(x);
 }
 
+void JsonWriter::null(const std::string &name)
+{
+  start_member(name);
+  document_ += "null";
+}
+
 void JsonWriter::boolean(const std::string &name, bool x)
 {
   start_member(name);

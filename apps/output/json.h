@@ -25,6 +25,7 @@ public:
   void integer(const std::string &name, long long x);
   void text(const std::string &name, const std::string &x);
   void boolean(const std::string &name, bool x);
+  void null(const std::string &name);
 
   /// The whole document; valid once every begin has met its end.
   const std::string &document() const { return document_; }

@@ -182,8 +182,10 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
 std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
   const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
-  std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>"
-                        "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th>" +
+  const bool  refined = any_refined(modes);
+  std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>" +
+                     std::string(refined ? "<th class=\"n\">refined [Hz]</th>" : "") +
+                     "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th>" +
                      std::string(growing ? "<th class=\"n\">grows by</th>" : "") +
                      "<th class=\"n\">effective mass x "
                      "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
@@ -193,17 +195,19 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
     if (const std::string above =
             words_above(limit, number > 0 ? modes[number - 1].frequency_hz : 0., mode.frequency_hz);
         !above.empty())
-      html += "<tr><td class=\"soft\" colspan=\"" + std::string(growing ? "8" : "7") + "\">" + escape_xml(above) +
+      html += "<tr><td class=\"soft\" colspan=\"" + std::to_string(7 + growing + refined) + "\">" + escape_xml(above) +
               "</td></tr>\n";
-    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6) +
-            number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
+    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6);
+    if (refined)
+      html += number_cell(mode.refined_hz, 6);
+    html += number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
     if (growing)
       html += cell(mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–", "n");
     for (const double mass : mode.effective_mass)
       html += number_cell(mass);
     html += "</tr>\n";
   }
-  return html + "</table></div>\n";
+  return html + "</table></div>\n" + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
 }
 
 std::string pole_table(const std::vector<coupling::Pole> &poles)

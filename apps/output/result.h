@@ -52,15 +52,25 @@ struct AlongResult
   std::vector<coupling::OrderMeeting> meetings;
 };
 
+/// What the computation was asked for.
+struct Request
+{
+  std::string                         file; ///< of the scene, as it was given
+  std::vector<std::string>            set;  ///< entries of the scene overridden on the command line
+  std::optional<coupling::RunOptions> run;  ///< of a run
+};
+
 /// All that is written about one computation: plain values, gathered by whoever computed them.
 struct Result
 {
   std::string scene;       ///< name of the scene
   std::string description; ///< what the scene says about itself, may be empty
   std::string version;     ///< of the program
+  std::string commit;      ///< that it was built from; empty: unknown
   std::string command;     ///< "run", "modes"
   std::string settings;    ///< how it was computed, plain text for the report, may be empty
 
+  Request                                     asked;
   ModelFacts                                  model;
   std::vector<std::pair<std::string, double>> wall_s; ///< phase, seconds; in the order of the work
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed

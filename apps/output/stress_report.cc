@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::size_t most_pictures = 4;
-constexpr double      resolved      = 0.1; ///< disagreement below which a value stands
 
 std::string time_text(double t)
 {
@@ -63,7 +62,7 @@ std::string statement(const StressResult &stress)
     html +=
         " Rows “beside” tell the elements at surfaces that are held rigid: at their rims the stress has no limit as "
         "the mesh is refined, so that it tells the mesh more than the frame.";
-  const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved; };
+  const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };
   html += " The last column tells how much neighbouring elements disagree about the stress there.";
   if (std::any_of(stress.instants.begin(), stress.instants.end(), coarse))
     html += " <strong>Above some 10 % the mesh is too coarse for a value of stress: make it finer there.</strong>";

@@ -12,6 +12,9 @@
 namespace gestell::apps
 {
 
+/// Disagreement of neighbouring elements below which a stress stands; above, the mesh is too coarse there.
+constexpr double resolved_disagreement = 0.1;
+
 /// A point of the skin and what it bears.
 struct StressPlace
 {

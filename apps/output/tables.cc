@@ -91,11 +91,66 @@ void write_model(JsonWriter &json, const ModelFacts &model)
   json.end_object();
 }
 
-void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes)
+void text_or_null(JsonWriter &json, const std::string &name, const std::string &text)
+{
+  if (text.empty())
+    json.null(name);
+  else
+    json.text(name, text);
+}
+
+/// Of numbers that are 0 where nothing was asked for.
+void number_or_null(JsonWriter &json, const std::string &name, double x)
+{
+  if (x == 0.)
+    json.null(name);
+  else
+    json.number(name, x);
+}
+
+void write_request(JsonWriter &json, const Request &asked)
+{
+  json.begin_object("asked");
+  json.text("file", asked.file);
+  json.begin_array("set");
+  for (const std::string &entry : asked.set)
+    json.text("", entry);
+  json.end_array();
+  if (asked.run)
+  {
+    const coupling::MethodOptions &method = asked.run->method;
+    json.text("method", coupling::method_name(method));
+    number_or_null(json, "tolerance", method.tolerance);
+    number_or_null(json, "step", method.step);
+    json.number("begin", asked.run->begin);
+    json.number("end", asked.run->end);
+    json.boolean("events", asked.run->events);
+  }
+  json.end_object();
+}
+
+/// How a run went.
+void write_outcome(JsonWriter &json, const coupling::RunResult &run, const Request &asked)
+{
+  const std::size_t width = run.columns.size(), last_row = run.rows.size() - width;
+  const bool        rows = width > 0 && run.rows.size() >= width;
+  json.begin_object("outcome");
+  json.text("method", run.method);
+  json.number("begin", rows ? run.rows.front() : asked.run ? asked.run->begin : 0.);
+  json.number("end", rows ? run.rows[last_row] : asked.run ? asked.run->begin : 0.);
+  json.integer("events_located", static_cast<long long>(run.events.size()));
+  json.boolean("complete", run.failure.empty() && !run.interrupted);
+  json.boolean("interrupted", run.interrupted);
+  text_or_null(json, "failure", run.failure);
+  json.end_object();
+}
+
+void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes,
+                       double coupling::Mode::*frequency = &coupling::Mode::frequency_hz)
 {
   json.begin_array(name);
   for (const coupling::Mode &mode : modes)
-    json.number("", mode.frequency_hz);
+    json.number("", mode.*frequency);
   json.end_array();
 }
 
@@ -282,6 +337,7 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
       append_exact(csv += ',', x);
     csv += std::string(",") + kind + ',';
     append_exact(csv, mode.growth);
+    append_exact(csv += ',', mode.refined_hz);
     csv += '\n';
   }
 }
@@ -317,7 +373,11 @@ std::string summary_json(const Result &result)
   json.begin_object();
   json.text("scene", result.scene);
   json.text("version", result.version);
+  text_or_null(json, "commit", result.commit);
   json.text("command", result.command);
+  write_request(json, result.asked);
+  if (result.run)
+    write_outcome(json, *result.run, result.asked);
   write_model(json, result.model);
   json.begin_array("bodies_from_cad");
   for (const std::string &body : result.bodies_from_cad)
@@ -325,6 +385,7 @@ std::string summary_json(const Result &result)
   json.end_array();
   write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
   write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
+  write_frequencies(json, "frame_refined_frequencies_hz", result.frame_modes, &coupling::Mode::refined_hz);
   write_poles(json, result.poles);
   if (result.along)
     write_along(json, *result.along);
@@ -371,8 +432,9 @@ std::string history_csv(const coupling::RunResult &run)
 
 std::string modes_csv(const Result &result)
 {
-  std::string csv = "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
-                    "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s]\n";
+  std::string csv =
+      "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
+      "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]\n";
   append_modes(csv, result.frame_modes, "frame");
   append_modes(csv, result.coupled_modes, "coupled");
   return csv;

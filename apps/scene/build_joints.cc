@@ -129,6 +129,9 @@ void check_level(const coupling::Machine &machine, const SwitchRequest &request,
   if (!equal(unit.dimension, level.dimension))
     throw std::invalid_argument("the signal \"" + request.request.signal + "\" is told in " + signal.unit +
                                 ", but the " + what + " is " + describe(level.dimension));
+  const Kind kind{what + " of a signal in " + signal.unit, "20 1/min", unit.dimension,
+                  unit.counts == Counts::radians ? Counts::turns : Counts::nothing};
+  value_as(level, kind, describe(level.dimension));
 }
 
 } // namespace

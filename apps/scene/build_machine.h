@@ -39,8 +39,15 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);
 
 /// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
-/// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.
-void check_scene(const Scene &scene);
+/// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.  Joints are
+/// closed if places_known(): a body turns about its interface.  @return warnings, see free_things.h
+std::vector<std::string> check_scene(const Scene &scene);
+
+/// Whether the scene says where all interfaces of its frame are; the centroids of surfaces are known by the CAD file.
+bool places_known(const Scene &scene);
+
+/// Refuses names of [start] and [modes] that the machine does not have.
+void check_start_names(const Scene &scene, const coupling::Machine &machine);
 
 /// What is said against a start, headed with the place of the joint or element it names, or else that of [start].
 std::invalid_argument against_start(const Scene &scene, const std::string &message);

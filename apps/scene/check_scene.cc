@@ -1,8 +1,10 @@
 #include "apps/scene/build_machine.h"
+#include "apps/scene/free_things.h"
 #include "coupling/assembly.h"
 #include "coupling/reduced_frame_file.h"
 #include "coupling/sticking_conflict.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gestell::apps
@@ -70,18 +72,34 @@ coupling::Machine machine_to_check(const Scene &scene)
 
 } // namespace
 
-void check_scene(const Scene &scene)
+bool places_known(const Scene &scene)
+{
+  const auto &interfaces = scene.frame.geometry.interfaces;
+  return scene.frame.source != FrameSource::geometry ||
+         std::all_of(interfaces.begin(), interfaces.end(),
+                     [](const fem::InterfaceSpecification &interface) { return interface.position.has_value(); });
+}
+
+std::vector<std::string> check_scene(const Scene &scene)
 {
   auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
-  if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
-    modes_configuration(scene, machine);
-  if (scene.start.rule == StartRule::given)
-    initial_state(scene, machine);
+  if (coupling::has_joints(machine) && !places_known(scene))
+    check_start_names(scene, machine);
+  else
+  {
+    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
+      modes_configuration(scene, machine);
+    if (scene.start.rule == StartRule::given)
+      initial_state(scene, machine);
+  }
   for (const auto &[name, angle] : scene.start.steady.angles)
     (void)angle, machine.body(name);
+  auto warnings = idle_bodies(scene, machine);
+  if (const auto remote = remote_joints(scene, machine); places_known(scene))
+    warnings.insert(warnings.end(), remote.begin(), remote.end());
   if (!scene.run.given)
-    return;
+    return warnings;
   try
   {
     coupling::check_run(machine, scene.run.options, scene.signals.size());
@@ -90,6 +108,7 @@ void check_scene(const Scene &scene)
   {
     throw std::invalid_argument(scene.run.place + ": " + error.what());
   }
+  return warnings;
 }
 
 void require_free_motion(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial)
@@ -121,6 +140,8 @@ void check_start(const Scene &scene)
   if (!scene.run.given || (!known && scene.start.rule != StartRule::given))
     return;
   auto machine = machine_to_check(scene);
+  if (coupling::has_joints(machine) && !places_known(scene))
+    return;
   try
   {
     const coupling::InitialState initial = initial_state(scene, machine);

@@ -23,11 +23,34 @@ bool is_number(const Expression &e)
   return !e.checked || equal(e.dimension, {});
 }
 
+constexpr double full_turn = 2. * 3.14159265358979323846; // [rad]
+
+/// 2 pi rad times a frequency is an angular speed.
 Counts joined(Counts a, Counts b)
 {
-  if (a == Counts::radians || b == Counts::radians)
-    return Counts::radians; // 2 pi rad times a frequency is an angular speed
   return std::max(a, b);
+}
+
+bool counts_shaft_turns(const Expression &e)
+{
+  return e.counts == Counts::shaft_turns;
+}
+
+/// What leaves turns of a shaft what they are: a plain number, a time.
+bool leaves_turns(const Expression &e)
+{
+  return e.counts <= Counts::minutes && e.counts != Counts::pi && equal({e.dimension[0], e.dimension[1], 0.}, {});
+}
+
+[[noreturn]] void fail_turns(const std::string &verb, const Expression &a, const Expression &b)
+{
+  const Expression &other = counts_shaft_turns(a) ? b : a;
+  if (other.counts == Counts::pi)
+    fail(verb + " turns of a shaft (1/min, rpm) and pi: 2 pi is counted already where they become an angular speed; "
+                "leave pi out, or write the frequency in Hz");
+  fail(verb + " turns of a shaft (1/min, rpm) and " +
+       (other.counts == Counts::radians ? "radians" : describe(other.dimension)) +
+       ", where turns or radians could be meant; write the speed in rad/s, \"(2*pi*25) rad/s\", or in Hz, \"25 Hz\"");
 }
 
 Dimension sum(const Dimension &a, const Dimension &b, int sign)
@@ -54,6 +77,14 @@ Expression alike(const Expression &a, const Expression &b, const std::string &ve
   // The one whose dimension is known tells that of both.
   Expression c = a_nothing || (!a.checked && b.checked && !b_nothing) ? b : a;
   c.counts     = joined(a.counts, b.counts);
+  if (counts_shaft_turns(a) == counts_shaft_turns(b) || a.is_zero() || b.is_zero())
+    return c;
+  const Expression &other = counts_shaft_turns(a) ? b : a;
+  if (other.checked && other.counts != Counts::radians)
+    fail(verb + " turns of a shaft (1/min, rpm) " + preposition +
+         " what may count turns or radians; write all in "
+         "1/min or all in rad/s");
+  c.counts = Counts::radians; // a plain number of [parameters] is in rad/s
   return c;
 }
 
@@ -68,6 +99,13 @@ Expression elementary(const std::string &name, Function f, const Expression &x)
 {
   if (!is_number(x))
     fail("takes " + name + "() of " + describe(x.dimension) + "; it needs a plain number or an angle");
+  const bool of_angle = name == "sin" || name == "cos" || name == "tan";
+  if (counts_shaft_turns(x) && !of_angle)
+    fail("takes " + name + "() of turns of a shaft (1/min, rpm); it needs a plain number");
+  if (x.counts == Counts::minutes && of_angle)
+    fail("takes " + name +
+         "() of what is made with minutes or hours and may count turns; write 1500/min in front for "
+         "turns of a shaft, or seconds");
   return {applied(f, x.formula), {}, x.checked, Counts::nothing};
 }
 
@@ -110,6 +148,9 @@ Expression compared(const Expression &a, const Expression &b)
 
 Expression multiplied(const Expression &a, const Expression &b)
 {
+  const bool turns = counts_shaft_turns(a) || counts_shaft_turns(b);
+  if (turns && !leaves_turns(counts_shaft_turns(a) ? b : a))
+    fail_turns("multiplies", a, b);
   return {a.formula * b.formula, sum(a.dimension, b.dimension, 1), a.checked && b.checked, joined(a.counts, b.counts)};
 }
 
@@ -117,7 +158,19 @@ Expression divided(const Expression &a, const Expression &b)
 {
   if (b.is_zero())
     fail("divides by zero");
-  return {a.formula / b.formula, sum(a.dimension, b.dimension, -1), a.checked && b.checked, joined(a.counts, b.counts)};
+  const Expression quotient{a.formula / b.formula, sum(a.dimension, b.dimension, -1), a.checked && b.checked,
+                            joined(a.counts, b.counts)};
+  if (!counts_shaft_turns(b) && (!counts_shaft_turns(a) || leaves_turns(b)))
+    return quotient;
+  const bool in_radians = a.counts >= Counts::shaft_turns && b.counts >= Counts::shaft_turns;
+  if (!in_radians || !equal(a.dimension, b.dimension))
+    fail_turns("divides", a, b);
+  return {quotient.formula, quotient.dimension, quotient.checked, Counts::nothing}; // a ratio of speeds
+}
+
+Expression shaft_turns(const Expression &a, const Expression &minutes)
+{
+  return multiplied(a, {full_turn / minutes.formula, multiple(minutes.dimension, -1.), true, Counts::shaft_turns});
 }
 
 Expression negated(const Expression &a)
@@ -129,6 +182,8 @@ Expression raised(const Expression &a, const Expression &exponent)
 {
   if (!is_number(exponent))
     fail("has an exponent with a unit");
+  if (counts_shaft_turns(a))
+    fail("raises turns of a shaft (1/min, rpm) to a power; write the speed in rad/s or Hz");
   if (!exponent.is_value())
   {
     if (!is_number(a))
@@ -172,6 +227,8 @@ Expression called(const std::string &name, const std::vector<Expression> &x)
   {
     if (x[0].is_value() && x[0].formula.constant() < 0.)
       fail("takes the root of a negative number");
+    if (counts_shaft_turns(x[0]))
+      fail("takes the root of turns of a shaft (1/min, rpm); write the speed in rad/s or Hz");
     return {power(x[0].formula, 0.5), multiple(x[0].dimension, 0.5), x[0].checked, x[0].counts};
   }
   return elementary(name, elementary_functions().at(name), x[0]);

@@ -36,6 +36,8 @@ Expression subtracted(const Expression &a, const Expression &b);
 Expression multiplied(const Expression &a, const Expression &b);
 Expression divided(const Expression &a, const Expression &b);
 Expression negated(const Expression &a);
+/// a per `minutes`, a number of turns of a shaft in a time.
+Expression shaft_turns(const Expression &a, const Expression &minutes);
 Expression raised(const Expression &a, const Expression &exponent);
 
 /// a - b, for a comparison of the two.

@@ -116,11 +116,12 @@ Quantity Parameters::evaluate(const SceneNode &value) const
   return {e.formula.constant(), e.dimension, e.checked, e.counts};
 }
 
-Expression Parameters::expression(const SceneNode &value, const std::vector<Variable> &variables) const
+Expression Parameters::expression(const SceneNode &value, const std::vector<Variable> &variables,
+                                  const Kind *kind) const
 {
   if (value.type == SceneNode::Type::text)
     return parse_expression(
-        value.text, variables, [this](const std::string &name) { return find(name); }, names());
+        value.text, variables, [this](const std::string &name) { return find(name); }, names(), kind);
   return Quantity{value.number, {}, false, Counts::nothing};
 }
 

@@ -24,8 +24,9 @@ public:
 
   /// A number or an expression; what a plain number measures is not known.
   Quantity evaluate(const SceneNode &value) const;
-  /// The same of `variables` as well.
-  Expression expression(const SceneNode &value, const std::vector<Variable> &variables) const;
+  /// The same of `variables` as well; `kind` as of parse_expression().
+  Expression expression(const SceneNode &value, const std::vector<Variable> &variables,
+                        const Kind *kind = nullptr) const;
 
 private:
   Quantity evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -21,6 +22,14 @@ const std::map<std::string, mechanism::Relation> relations = {{">", mechanism::R
                                                               {"<", mechanism::Relation::below},
                                                               {"<=", mechanism::Relation::not_above}};
 
+/// A name that nothing has, and what it may have been meant for, the most likely first.
+struct UnknownName
+{
+  std::size_t              token;
+  std::vector<std::string> meant;
+  std::string              before, behind; ///< message around a proposal
+};
+
 class Parser
 {
 public:
@@ -30,8 +39,6 @@ public:
   {
     for (const Variable &variable : variables)
       known_names_.push_back(variable.name);
-    const auto unit_list = unit_names();
-    known_names_.insert(known_names_.end(), unit_list.begin(), unit_list.end());
   }
 
   Expression whole()
@@ -44,13 +51,23 @@ public:
     return e;
   }
 
-private:
-  // --- errors
+  /// Reads `text` in the place of the token.
+  void replace(std::size_t token, const std::string &text)
+  {
+    auto other = tokens_of(text);
+    other.pop_back();
+    const auto place = tokens_.begin() + token;
+    tokens_.insert(tokens_.erase(place), other.begin(), other.end());
+  }
 
   [[noreturn]] void fail(const std::string &what, std::size_t token) const
   {
     throw std::invalid_argument("\"" + text_ + "\" " + what + character(tokens_[token].place));
   }
+
+private:
+  // --- errors
+
   [[noreturn]] void fail(const std::string &what) const { fail(what, next_); }
 
   /// The result of `operation`; what it says against it is about the token.
@@ -74,15 +91,21 @@ private:
   [[noreturn]] void missing_operator() const
   {
     if (token().kind == Token::name && !is_operand(token().text) && !is_function(token().text) && !is_unit())
-      fail("has an unknown unit '" + token().text + "'" + near(token().text, unit_names()));
+      throw UnknownName{next_, units_meant(token().text), "has an unknown unit '" + token().text + "'", ""};
+    refuse_decimal_comma();
     if (token().kind == Token::symbol && relations.count(token().text))
       fail("compares outside of a condition; write if(a " + token().text + " b, value, other value)");
     fail("lacks an operator (* / + -) before '" + token().text + "'");
   }
-  static std::string near(const std::string &name, const std::vector<std::string> &names)
+  void refuse_decimal_comma() const
   {
-    const auto nearest = coupling::nearest_name(name, names);
-    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+    if (is(",") && next_ > 0 && tokens_[next_ - 1].kind == Token::number && token(1).kind == Token::number)
+    {
+      const std::string whole = tokens_[next_ - 1].text;
+      fail(whole.find('.') == std::string::npos
+               ? "has a decimal comma; write " + whole + "." + token(1).text
+               : "has a decimal comma; decimals have a point, and nothing stands between thousands");
+    }
   }
 
   [[noreturn]] void unknown_name(const std::string &name) const
@@ -90,9 +113,14 @@ private:
     std::string listed;
     for (const Variable &variable : variables_)
       listed += (listed.empty() ? "" : ", ") + variable.name + " (" + variable.meaning + ")";
-    fail("names '" + name + "', which is neither a " + (variables_.empty() ? "" : "variable, a ") +
-         "parameter nor a unit" + near(name, known_names_) +
-         (variables_.empty() ? "" : "; the variables are " + listed) + "; parameters are declared in [parameters]");
+    auto       meant = coupling::near_names(name, known_names_);
+    const auto units = units_meant(name);
+    meant.insert(meant.end(), units.begin(), units.end());
+    throw UnknownName{next_, meant,
+                      "names '" + name + "', which is neither a " + (variables_.empty() ? "" : "variable, a ") +
+                          "parameter nor a unit",
+                      (variables_.empty() ? "" : "; the variables are " + listed) +
+                          "; parameters are declared in [parameters]"};
   }
 
   [[noreturn]] void ambiguous_name(const std::string &name) const
@@ -113,7 +141,19 @@ private:
   }
   bool is_unit(std::size_t ahead = 0) const
   {
-    return token(ahead).kind == Token::name && units().count(token(ahead).text) && !is("(", ahead + 1);
+    if (token(ahead).kind != Token::name || is("(", ahead + 1))
+      return false;
+    return units().count(token(ahead).text) || (turn_units().count(token(ahead).text) && is_per_time(ahead + 1));
+  }
+  bool is_per_time(std::size_t ahead) const
+  {
+    const auto unit = units().find(token(ahead + 1).text);
+    return is("/", ahead) && unit != units().end() && equal(unit->second.dimension, {0, 0, 1});
+  }
+  /// Of a name that is_unit().
+  static const Quantity &unit_named(const std::string &name)
+  {
+    return units().count(name) ? units().at(name) : turn_units().at(name);
   }
   bool take(const std::string &symbol) { return is(symbol) ? (++next_, true) : false; }
 
@@ -145,18 +185,27 @@ private:
     Expression a = factor();
     while (is("*") || is("/"))
     {
-      const std::size_t sign   = next_++;
-      const bool        over   = tokens_[sign].text == "/";
-      const bool        minute = over && token().text == "min" && !is_operand("min");
-      number_with_unit_        = false;
-      const Expression b       = factor();
+      const std::size_t sign       = next_++;
+      const bool        over       = tokens_[sign].text == "/";
+      const bool        per_minute = over && at_minute() && a.counts == Counts::nothing && equal(a.dimension, {});
+      number_with_unit_            = false;
+      const Expression b           = factor();
       if (over && number_with_unit_)
         fail("can be read in two ways: put what stands after '/' in parentheses, or what stands before its unit", sign);
-      a = at(sign, [&] { return over ? divided(a, b) : multiplied(a, b); });
-      if (minute && a.counts == Counts::nothing && equal(a.dimension, {0, 0, -1}))
-        a.counts = Counts::turns;
+      a = at(sign, [&] { return per_minute ? shaft_turns(a, b) : over ? divided(a, b) : multiplied(a, b); });
     }
     return a;
+  }
+
+  /// The next factor is "min", "(min)", "(1 min)", or that of hours.
+  bool at_minute() const
+  {
+    const bool        inside = is("(");
+    const std::size_t unit   = !inside ? 0 : token(1).kind == Token::number && token(1).value == 1. ? 2 : 1;
+    const std::size_t behind = unit + 1;
+    const bool        ends   = inside ? is(")", behind) : !is("^", behind) && !is_unit(behind);
+    return is_unit(unit) && units().at(token(unit).text).counts == Counts::minutes && ends &&
+           !is_operand(token(unit).text);
   }
 
   Expression factor()
@@ -174,8 +223,10 @@ private:
     if (!is("^"))
       return base;
     const std::size_t sign        = next_++;
-    const bool        unit_before = number_with_unit_;
+    const bool        unit_before = std::exchange(number_with_unit_, false);
     const Expression  exponent    = factor();
+    if (number_with_unit_)
+      fail("has a unit behind its exponent; write 1e-3 mm, or put the power in parentheses", sign);
     if (base.checked && exponent.checked)
       number_with_unit_ = unit_before;
     return at(sign, [&] { return raised(base, exponent); });
@@ -204,6 +255,7 @@ private:
 
   void close()
   {
+    refuse_decimal_comma();
     if (!take(")"))
       fail("lacks a closing ')'");
   }
@@ -223,7 +275,7 @@ private:
     if (const auto value = parameters_(name))
       return ++next_, *value;
     if (name == "pi")
-      return ++next_, Quantity{3.14159265358979323846, {}, true, Counts::nothing};
+      return ++next_, Quantity{3.14159265358979323846, {}, true, Counts::pi};
     if (is_unit())
     {
       const Expression e = with_units(Quantity{1., {}, true, Counts::nothing});
@@ -273,9 +325,12 @@ private:
   }
 
   /// Units that follow a number without an operator.
-  Expression with_units(Expression e)
+  Expression with_units(const Expression &number)
   {
-    bool divided = false, any = false;
+    const Quantity one{1., {}, true, Counts::nothing};
+    const auto     first   = next_;
+    bool           divided = false, any = false;
+    Expression     e = number, group = one; ///< with the units, the units alone
     number_with_unit_ = false;
     for (;;)
     {
@@ -290,18 +345,23 @@ private:
              "s/m\"");
       const std::size_t begin = next_;
       next_ += per ? 1 : reciprocal ? 2 : 0;
-      if (reciprocal && !any && token().text == "min" && !is("^", 1))
-        ++next_, e = multiplied(e, units().at("rpm"));
-      else
-      {
-        const Expression unit = unit_power();
-        e = at(begin, [&] { return per || reciprocal ? apps::divided(e, unit) : multiplied(e, unit); });
-      }
+      const Expression unit   = unit_power();
+      const auto       joined = [&](const Expression &a)
+      { return at(begin, [&] { return per || reciprocal ? apps::divided(a, unit) : multiplied(a, unit); }); };
+      e       = joined(e);
+      group   = joined(group);
       divided = divided || per || reciprocal;
       any     = true;
     }
     number_with_unit_ = any;
-    return e;
+    return is_per_minute(group) ? at(first, [&] { return shaft_turns(number, apps::divided(one, group)); }) : e;
+  }
+
+  /// "1/min", "min^-1", "1/min/s" without another unit count turns of a shaft.
+  static bool is_per_minute(const Expression &group)
+  {
+    return group.counts == Counts::minutes && group.dimension[2] < 0. &&
+           equal(group.dimension, {0, 0, group.dimension[2]});
   }
 
   Expression unit_power()
@@ -311,32 +371,71 @@ private:
       ambiguous_name(name);
     const std::size_t begin = next_++;
     if (!take("^"))
-      return units().at(name);
+      return unit_named(name);
+    if (name == "%")
+      fail("needs % without an exponent: \"2 %\" is 0.02; write its square as \"(2 %)^2\"");
     const double sign = take("-") ? -1. : 1.;
     if (token().kind != Token::number || token().value != std::floor(token().value))
       fail("needs a whole number as the exponent of the unit '" + name + "'");
     const Quantity exponent{sign * tokens_[next_++].value, {}, true, Counts::nothing};
-    return at(begin, [&] { return raised(units().at(name), exponent); });
+    return at(begin, [&] { return raised(unit_named(name), exponent); });
   }
 
   const std::string            text_;
   const std::vector<Variable> &variables_;
   const NameLookup            &parameters_;
-  std::vector<std::string>     known_names_; ///< parameters, variables and units
+  std::vector<std::string>     known_names_; ///< parameters and variables
   std::vector<Token>           tokens_;      ///< the last one is of kind `end`
   std::size_t                  next_             = 0;
   bool                         number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
 };
 
+/// It can be read and, if there is a kind, is of it.
+bool makes_sense(Parser &parser, const Kind *kind, const std::string &text)
+{
+  try
+  {
+    const Expression e = parser.whole();
+    if (kind)
+      formula_as(e, *kind, text);
+    return true;
+  }
+  catch (const std::invalid_argument &)
+  {
+    return false;
+  }
+  catch (const UnknownName &)
+  {
+    return false;
+  }
+}
+
 } // namespace
 
 Expression parse_expression(const std::string &text, const std::vector<Variable> &variables,
-                            const NameLookup &parameters, const std::vector<std::string> &names)
+                            const NameLookup &parameters, const std::vector<std::string> &names, const Kind *kind)
 {
   if (text.size() > longest_text)
     throw std::invalid_argument("\"" + text.substr(0, 40) + "...\" is longer than " + std::to_string(longest_text) +
                                 " characters; split it into parameters");
-  return Parser(text, variables, parameters, names).whole();
+  Parser parser(text, variables, parameters, names);
+  try
+  {
+    return parser.whole();
+  }
+  catch (const UnknownName &unknown)
+  {
+    for (const std::string &meant : unknown.meant)
+    {
+      Parser other(text, variables, parameters, names);
+      other.replace(unknown.token, meant);
+      if (makes_sense(other, kind, text))
+        parser.fail(unknown.before + "; did you mean '" + meant + "'?" + unknown.behind, unknown.token);
+    }
+    parser.fail(unknown.before + (kind ? "; " + with_article(*kind) + " is given as \"" + kind->example + "\"" : "") +
+                    unknown.behind,
+                unknown.token);
+  }
 }
 
 } // namespace gestell::apps

@@ -3,9 +3,10 @@
 namespace gestell::apps
 {
 
-Quantity parse_quantity(const std::string &text, const NameLookup &parameters, const std::vector<std::string> &names)
+Quantity parse_quantity(const std::string &text, const NameLookup &parameters, const std::vector<std::string> &names,
+                        const Kind *kind)
 {
-  const Expression e = parse_expression(text, {}, parameters, names);
+  const Expression e = parse_expression(text, {}, parameters, names, kind);
   return {e.formula.constant(), e.dimension, e.checked, e.counts};
 }
 

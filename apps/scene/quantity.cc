@@ -61,6 +61,31 @@ std::string with_article(const Kind &kind)
 namespace
 {
 
+constexpr double full_turn = 2. * 3.14159265358979323846; // [rad]
+
+/// Radians and turns are told apart.
+void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_text)
+{
+  const bool        radians = kind.refused == Counts::turns, hertz = kind.refused == Counts::radians;
+  const std::string write_radians = "; write 1/min, rpm or rad/s";
+  if (counts == Counts::turns && radians)
+    throw std::invalid_argument(needs_and_text + ", which counts turns" + write_radians);
+  if (counts == Counts::radians && hertz)
+    throw std::invalid_argument(needs_and_text + ", which counts radians; write Hz or 1/min");
+  if (counts == Counts::minutes && radians)
+    throw std::invalid_argument(needs_and_text +
+                                ", which is made with minutes or hours and may count turns; write 1500/min for turns "
+                                "of a shaft, rad/min or seconds for radians");
+  if (counts == Counts::shaft_turns && !radians && !hertz)
+    throw std::invalid_argument(needs_and_text + ", which counts turns of a shaft (1/min, rpm)");
+}
+
+/// The part of a turn of a shaft that is one of the kind.
+double per_radian(Counts counts, const Kind &kind)
+{
+  return counts == Counts::shaft_turns && kind.refused == Counts::radians ? 1. / full_turn : 1.;
+}
+
 /// `shown`: the quantity as messages tell it behind its text, "3 kg".
 void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::string &text, const std::string &shown)
 {
@@ -75,10 +100,8 @@ void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::st
                                 "\" without a unit; a plain number in SI units stands without quotes");
   if (!fits)
     throw std::invalid_argument(needs + "\"" + text + "\", " + shown);
-  if (kind.refused != Counts::nothing && q.counts == kind.refused)
-    throw std::invalid_argument(
-        needs + "\"" + text + "\", which counts " +
-        (kind.refused == Counts::turns ? "turns; write 1/min, rpm or rad/s" : "radians; write Hz"));
+  if (!is_zero)
+    check_counts(q.counts, kind, needs + "\"" + text + "\"");
 }
 
 } // namespace
@@ -86,7 +109,7 @@ void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::st
 double value_as(const Quantity &q, const Kind &kind, const std::string &text)
 {
   check_kind(q, q.value == 0., kind, text, printed(q.value) + " " + describe(q.dimension));
-  return q.value;
+  return q.value * per_radian(q.counts, kind);
 }
 
 mechanism::Formula formula_as(const Expression &e, const Kind &kind, const std::string &text)
@@ -94,7 +117,7 @@ mechanism::Formula formula_as(const Expression &e, const Kind &kind, const std::
   if (e.is_value())
     return value_as({e.formula.constant(), e.dimension, e.checked, e.counts}, kind, text);
   check_kind({0., e.dimension, e.checked, e.counts}, false, kind, text, "which is in " + describe(e.dimension));
-  return e.formula;
+  return e.formula * per_radian(e.counts, kind);
 }
 
 } // namespace gestell::apps

@@ -12,13 +12,16 @@ namespace gestell::apps
 /// Exponents of metre, kilogram and second.  Angles are numbers: rad = 1.
 using Dimension = std::array<double, 3>;
 
-/// What kind of number per second a value is.  1/s alone does not say whether radians or turns are counted, a factor of
-/// 2 pi that no dimension check sees.
+/// What a value counts.  Its dimension does not say whether radians or turns, a factor of 2 pi.
+/// Of two factors the later one here tells what the product counts.
 enum class Counts
 {
   nothing,
-  radians, ///< rad, deg, rpm, 1/min after a number
-  turns    ///< Hz, number/min
+  pi,          ///< a number with pi in it
+  minutes,     ///< minutes or hours are in it: its inverse may count turns
+  turns,       ///< Hz
+  shaft_turns, ///< 1/min, rpm, r/min: turns of a shaft; the value is in rad/s, as a frequency it is divided by 2 pi
+  radians      ///< rad, deg
 };
 
 /// A value in SI units.
@@ -35,7 +38,7 @@ struct Kind
 {
   std::string name, example;
   Dimension   dimension;
-  Counts      refused     = Counts::nothing; ///< an angular speed refuses turns, a frequency radians
+  Counts      refused     = Counts::nothing; ///< where radians are counted turns, of a frequency radians
   int         metre_range = 0;               ///< so many more powers of a metre are right as well (matrices)
 };
 
@@ -59,7 +62,7 @@ inline const Kind damping{"damping", "600 kN s/m", {0, 1, -1}};
 inline const Kind bedding{"stiffness per area", "40 N/mm^3", {-2, 1, -2}};
 inline const Kind damping_per_area{"damping per area", "600 kN s/m^3", {-2, 1, -1}};
 inline const Kind torsional_stiffness{"torsional stiffness", "1300 kN m/rad", {2, 1, -2}};
-inline const Kind torsional_damping{"torsional damping", "3 kN m s/rad", {2, 1, -1}};
+inline const Kind torsional_damping{"torsional damping", "3 kN m s/rad", {2, 1, -1}, Counts::turns};
 inline const Kind cubic_stiffness{"cubic stiffness", "5 N/mm^3", {-2, 1, -2}};
 inline const Kind torsional_cubic_stiffness{"torsional cubic stiffness", "5 N m/rad^3", {2, 1, -2}};
 inline const Kind pressure{"pressure", "210 GPa", {-1, 1, -2}};
@@ -92,18 +95,23 @@ using NameLookup = std::function<std::optional<Quantity>(const std::string &name
  *
  * The units that follow a number belong to it more tightly than any operator; "N s/m" is (N s)/m and "kg m^2" squares
  * the metre only.  What reads in two ways is refused: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  Where
- * an operand is expected a parameter comes before a unit of the same name.  "1/min" after a number means turns per
- * minute of a shaft, 2 pi/60 rad/s, as on every name plate; a full list of units is in docs/scene.md.
+ * an operand is expected a parameter comes before a unit of the same name.  A full list of units is in docs/scene.md.
+ *
+ * A number per minute or hour counts the turns of a shaft, as on every name plate, however it is written: "1500 1/min",
+ * "1500/min", "1500/(1 min)", "1500 min^-1", "1500 r/min", "1500 rpm".  It is 2 pi 25 rad/s as an angular speed and
+ * 25 Hz as a frequency.  Multiplied or divided by anything but plain numbers and times it could be meant in either way,
+ * and is refused.
  *
  * Formulas, expressions with variables, have the same grammar: parse_expression().
  *
- * @param names  of all parameters, for suggestions.
+ * @param names  of all parameters, `kind` what is needed, for proposals.
  * @throws std::invalid_argument with what was expected and where in the text.
  */
 Quantity parse_quantity(const std::string &text, const NameLookup &parameters,
-                        const std::vector<std::string> &names = {});
+                        const std::vector<std::string> &names = {}, const Kind *kind = nullptr);
 
-/// Value of `quantity` if it is of `kind`; throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
+/// Value of `quantity` if it is of `kind`, in the unit of the kind: of turns of a shaft rad/s or, as a frequency, Hz.
+/// @throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
 double value_as(const Quantity &quantity, const Kind &kind, const std::string &text);
 
 /// True for names that parameters cannot have: functions and pi.

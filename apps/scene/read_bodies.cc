@@ -14,7 +14,7 @@ namespace
 {
 
 /// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
-BodyRequest read_body(const SceneTable &table, const SceneTable &scene)
+BodyRequest read_body(const SceneTable &table, const SceneTable &scene, fem::Scripts scripts)
 {
   check_thing_name(table);
   BodyRequest body;
@@ -30,7 +30,7 @@ BodyRequest read_body(const SceneTable &table, const SceneTable &scene)
       body.axis = table.direction("normal");
     if (table.has("cad"))
     {
-      read_part(table, scene, body);
+      read_part(table, scene, body, scripts);
       return body;
     }
     body.mass     = table.positive("mass", kind::mass);
@@ -48,7 +48,7 @@ BodyRequest read_body(const SceneTable &table, const SceneTable &scene)
   body.axis        = table.direction("axis");
   if (table.has("cad"))
   {
-    read_part(table, scene, body);
+    read_part(table, scene, body, scripts);
     return body;
   }
   body.position = table.vector("position", kind::length, {});
@@ -92,13 +92,13 @@ std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
 
 } // namespace
 
-std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names)
+std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names, fem::Scripts scripts)
 {
   std::vector<BodyRequest> bodies;
   const auto               tables = scene.tables("body");
   for (const auto &table : tables)
   {
-    bodies.push_back(read_body(table, scene));
+    bodies.push_back(read_body(table, scene, scripts));
     names.add_body(bodies.back());
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)

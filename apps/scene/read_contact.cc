@@ -12,7 +12,7 @@ using mechanism::Clearance;
 
 // Hunt and Crossley's factor is a reciprocal speed: s/m, or s/rad between rotors.
 const Kind dissipation{"dissipation factor", "0.3 s/m", {-1, 0, 1}};
-const Kind torsional_dissipation{"dissipation factor", "0.3 s/rad", {0, 0, 1}};
+const Kind torsional_dissipation{"dissipation factor", "0.3 s/rad", {0, 0, 1}, Counts::turns};
 
 /// N/m^n, or N m/rad^n between rotors.
 Kind stiffness_of(double exponent, bool turns)

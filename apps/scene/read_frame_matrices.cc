@@ -300,6 +300,15 @@ Eigen::MatrixXd read_translations(const SceneTable &frame, const fem::FrameMatri
   return R;
 }
 
+/// [kg] as given, or by the rigid translations if those of all rows are known; else 0.
+double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, bool has_translations)
+{
+  if (!has_translations && !frame.has("total_mass"))
+    return 0.;
+  const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
+  return frame.positive("total_mass", kind::mass, mass.diagonal().maxCoeff());
+}
+
 } // namespace
 
 fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations)
@@ -342,10 +351,15 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
       for (const auto &direction : directions)
         matrices.outputs.push_back(read_output(table.table(direction), "support." + table.name() + ".", n));
 
-  matrices.translations      = read_translations(frame, matrices, nodes, has_translations);
-  const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
-  matrices.mass              = frame.positive("total_mass", kind::mass, mass.diagonal().maxCoeff());
-  for (const std::string &suspicion : suspect_units(matrices, has_translations))
+  matrices.translations = read_translations(frame, matrices, nodes, has_translations);
+  matrices.mass         = total_mass(frame, matrices, has_translations);
+  if (matrices.mass == 0.)
+    matrices.statements.push_back("mass of the frame: not known, and effective masses count the rows of interfaces and "
+                                  "nodes alone; 'translations' tells how all rows move, 'total_mass' what it weighs");
+  std::vector<fem::Interface> placed = matrices.interfaces;
+  for (const TableNode &node : nodes)
+    placed.push_back(node.motions);
+  for (const std::string &suspicion : suspect_units(matrices, placed))
     frame.warn("mass", suspicion);
   return matrices;
 }

@@ -1,10 +1,12 @@
 #include "apps/scene/read_joints.h"
 
+#include "apps/scene/joint_axes.h"
 #include "apps/scene/read_compliance.h"
 #include "apps/scene/read_joint_friction.h"
 #include "apps/scene/read_scalars.h"
 #include "apps/scene/relative_motion.h"
 #include "coupling/nearest_name.h"
+#include "fem/vector3.h"
 
 #include <Eigen/Geometry>
 
@@ -18,6 +20,7 @@ namespace
 {
 
 using Form = mechanism::RelativeMeasure::Form;
+using fem::dot;
 
 /// A name of its own among all that signals refer to.
 void check_new_name(const SceneTable &table, const Names &names, const Scene &scene)
@@ -36,11 +39,6 @@ void check_two_places(const SceneTable &table, const PlaceRequest &from, const P
   if (from.marker == to.marker)
     throw table.error("to",
                       "lies on '" + to.marker + "' like `from`; it needs two bodies that can move against each other");
-}
-
-double dot(const Vector3 &a, const Vector3 &b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 bool turns_freely(const Names &names, const std::string &marker)
@@ -170,68 +168,6 @@ constexpr JointName joint_names[] = {
     {"cylindrical", JointType::cylindrical}, {"rigid", JointType::rigid},         {"prismatic", JointType::prismatic},
     {"in-plane", JointType::in_plane},       {"distance", JointType::distance},   {"gear", JointType::gear}};
 
-/// Of bodies that can turn about their own axis only.
-void check_own_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
-{
-  const Vector3 axis = table.direction("axis");
-  for (const PlaceRequest *place : {&joint.from, &joint.to})
-  {
-    const BodyRequest *body = names.find_body(place->marker);
-    const bool turns = body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar);
-    if (turns && std::abs(dot(axis, body->axis)) < 1. - 1e-9)
-      throw table.error("axis", "'" + body->name + "' turns about another axis only, its own; leave 'axis' out");
-  }
-}
-
-/// Of two bodies that turn about their own axis only.
-void check_one_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
-{
-  const BodyRequest *first = names.find_body(joint.from.marker), *second = names.find_body(joint.to.marker);
-  const auto         turns = [](const BodyRequest *body)
-  { return body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar); };
-  if (!turns(first) || !turns(second))
-    return;
-  const double cosine = std::abs(dot(first->axis, second->axis));
-  if (cosine > 1. - 1e-12) // rounding of unit vectors
-    return;
-  std::ostringstream text;
-  text << "'" << first->name << "' and '" << second->name << "' turn about axes that lie "
-       << std::acos(std::min(1., cosine)) * 180. / M_PI
-       << " deg apart, but a revolute joint has one; use \"spherical\" where they only meet in a point";
-  throw table.error("type", text.str());
-}
-
-/// The axes of a joint that turns about some.
-void read_axes(const SceneTable &table, const Names &names, JointRequest &joint)
-{
-  const auto one_is = [&](coupling::BodyKind kind)
-  {
-    for (const PlaceRequest *place : {&joint.from, &joint.to})
-      if (const BodyRequest *body = names.find_body(place->marker); body && body->kind == kind)
-        return true;
-    return false;
-  };
-  const bool turning = joint.type == JointType::revolute && one_is(coupling::BodyKind::rigid);
-  if ((turning || joint.type == JointType::universal) && one_is(coupling::BodyKind::point))
-    throw table.error("type", "needs directions on both bodies, but a point has none; use a spherical joint");
-  if (joint.type == JointType::universal)
-  {
-    joint.axis    = table.direction("axis_from");
-    joint.axis_to = table.direction("axis_to");
-    if (std::abs(dot(joint.axis, joint.axis_to)) > 1e-9)
-      throw table.error("axis_to", "must be at right angles to 'axis_from': they are the two bars of the cross");
-  }
-  else if (turning || joint.type == JointType::cylindrical || joint.type == JointType::prismatic ||
-           joint.type == JointType::in_plane)
-    joint.axis = table.direction("axis");
-  else if (joint.type == JointType::revolute)
-  {
-    if (table.has("axis"))
-      check_own_axis(table, names, joint);
-    check_one_axis(table, names, joint);
-  }
-}
-
 /// Joints of one equation on a scalar of the motion, by their names.
 using MeasureJointReader = void (*)(const SceneTable &table, const Names &names, JointRequest &joint);
 
@@ -268,17 +204,6 @@ void read_cam(const SceneTable &table, const Names &names, JointRequest &joint)
   refuse_jumps(table, *joint.measure.function, x.kind());
   joint.value         = 0.;
   joint.reaction_unit = x.unit == "rad" ? "N m" : "N";
-}
-
-/// A body that turns about its own axis turns about one askew to it by no angle.
-void check_no_skew_axis(const SceneTable &table, const Names &names, const std::string &marker, const Vector3 &axis)
-{
-  const BodyRequest *body = names.find_body(marker);
-  if (!body || (body->kind != coupling::BodyKind::rotor && body->kind != coupling::BodyKind::planar))
-    return;
-  const double cosine = std::abs(dot(axis, body->axis));
-  if (cosine > 1e-9 && cosine < 1. - 1e-9)
-    throw table.error("axis", "lies askew to the axis of '" + marker + "', about which alone it turns; give that one");
 }
 
 void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)

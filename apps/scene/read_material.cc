@@ -69,16 +69,17 @@ std::string suspicion(const Plausible &range, double value, double common_low, d
   return text.str();
 }
 
-/// Plain numbers no solid has are refused as a mistaken unit; with a unit beside them they are meant, and only warned
-/// of.
+/// Plain numbers no solid has, or hardly any and a common one in another unit, are refused as a mistaken unit; with a unit
+/// beside them they are meant, and only warned of.
 void check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
                      double common_low, double common_high)
 {
   const std::string text = suspicion(range, value, common_low, common_high);
   if (text.empty())
     return;
-  const bool impossible = value < range.least || value > range.most;
-  if (impossible && !table.is_text(key))
+  const bool mistaken = value < range.least || value > range.most ||
+                        !likely_unit(range, value, common_low, common_high).empty();
+  if (mistaken && !table.is_text(key))
     throw table.error(key, text + "; numbers without unit are SI");
   table.warn(key, text);
 }

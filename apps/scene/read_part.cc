@@ -160,13 +160,13 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
 
 } // namespace
 
-void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body)
+void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts)
 {
   const std::string file = table.file("cad");
   check_keys(table, body.kind);
   const Placement placement = read_placement(table);
   auto            part      = std::make_shared<PartRequest>();
-  part->shape               = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place()});
+  part->shape               = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place(), scripts});
   place(part->shape, placement);
   part->density = read_density(table, scene, part->shape.volume);
 

@@ -14,6 +14,6 @@ namespace gestell::apps
  * @param scene  with the [material.NAME]
  * @param body   with its kind and axis
  */
-void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body);
+void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts);
 
 } // namespace gestell::apps

@@ -9,7 +9,7 @@ namespace
 
 Kind per_seconds(const Kind &level, const std::string &name, const std::string &example, int n)
 {
-  Kind kind{name, example, level.dimension};
+  Kind kind{name, example, level.dimension, level.refused};
   kind.dimension[2] -= n;
   return kind;
 }

@@ -122,6 +122,9 @@ coupling::MethodOptions read_method_options(const SceneTable &run)
     if (!run.has("step") && (o.method == Method::bdf || o.method == Method::exact))
       throw run.error("needs 'step', the fixed step such as \"10 us\", or 'tolerance' such as 1e-6, by which the step "
                       "is controlled");
+    if (!run.has("step"))
+      throw run.error("needs 'step', the fixed step such as \"10 us\": the method '" + name_of(o.method) +
+                      "' does not control it, and that of a former method went with it");
     o.step = run.positive("step", kind::time);
   }
   if (o.method == Method::exact)

@@ -3,6 +3,7 @@
 #include "apps/scene/read_frame.h"
 #include "apps/scene/read_joints.h"
 #include "apps/scene/read_run.h"
+#include "apps/scene/read_share.h"
 #include "apps/scene/read_switches.h"
 #include "apps/scene/scene.h"
 #include "coupling/nearest_name.h"
@@ -33,7 +34,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
                                   ? ReductionMethod::none
                                   : ReductionMethod::craig_bampton;
-  request.options.tolerance = table->positive("tolerance", kind::number, request.options.tolerance);
+  request.options.tolerance = read_share(*table, "tolerance", request.options.tolerance);
   if (table->has("modes"))
   {
     request.options.n_modes = table->integer("modes", 0);
@@ -177,7 +178,7 @@ void check_gravity(const SceneTable &table, const Scene &scene)
 
 } // namespace
 
-Scene read_scene(const std::string &path, const std::vector<std::string> &overrides)
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts)
 {
   const SceneNode  root = read_scene_file(path, overrides);
   const Parameters parameters(root.find("parameters"));
@@ -191,13 +192,14 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
   scene.description = table.text("description", "");
   if (scene.name.find('/') != std::string::npos || scene.name == "." || scene.name == "..")
     throw table.error("name", "must not contain '/': it names the folder of the results");
-  scene.gravity   = table.vector("gravity", kind::acceleration, {});
-  scene.frame     = read_frame(table);
-  scene.reduction = read_reduction(table, scene.frame);
+  scene.gravity                = table.vector("gravity", kind::acceleration, {});
+  scene.frame                  = read_frame(table);
+  scene.frame.geometry.scripts = scripts;
+  scene.reduction              = read_reduction(table, scene.frame);
   check_gravity(table, scene);
 
   Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
-  scene.bodies = read_bodies(table, names);
+  scene.bodies = read_bodies(table, names, scripts);
   read_places(table, names, scene);
   read_elements(table, names, scene);
   read_joints(table, names, scene);

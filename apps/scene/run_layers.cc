@@ -40,9 +40,11 @@ void make_way(SceneNode &older, const SceneNode &newer)
 {
   if (older.type != SceneNode::Type::table || newer.type != SceneNode::Type::table)
     return;
-  const std::string former = method_in(older, "bdf");
-  if (method_in(newer, former) != former)
+  const std::string former = method_in(older, "bdf"), method = method_in(newer, former);
+  if (method != former)
     take_away(older, {"order", "beta", "gamma", "theta", "alpha", "rho_inf", "force"});
+  if (method != former && method != "bdf" && method != "exact" && older.find("tolerance"))
+    take_away(older, {"tolerance", "step"}); // the largest one
   if (newer.find("tolerance") && !older.find("tolerance"))
     take_away(older, {"step", "order"});
 }

@@ -343,8 +343,10 @@ struct Scene
  * Reads and validates a scene without computing anything (docs/scene.md is the reference of its keys).
  *
  * @param overrides  of the command line, "key.path=value".
+ * @param scripts    of gmsh that the scene names; no scene can trust its own.
  * @throws std::invalid_argument "press.toml:12: body.crank.inertia: ..." for everything a user can get wrong in it.
  */
-Scene read_scene(const std::string &path, const std::vector<std::string> &overrides = {});
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides = {},
+                 fem::Scripts scripts = fem::Scripts::harmless);
 
 } // namespace gestell::apps

@@ -1,6 +1,7 @@
 #include "apps/scene/scene_override.h"
 
 #include "apps/scene/run_layers.h"
+#include "apps/scene/toml_hint.h"
 #include "apps/scene/toml_text.h"
 
 #include <algorithm>
@@ -51,6 +52,8 @@ SceneNode override_value(const std::string &text, const Place &place)
   const auto folder = std::filesystem::current_path().string();
   if (auto value = parse_toml_value(text, place, folder))
     return *value;
+  if (const auto hint = toml_hint("value = " + text); !hint.empty() && (text.front() == '[' || text.front() == '{'))
+    fail(place, hint);
   SceneNode node; // not TOML, so it is text: --set run.method=bdf, --set run.step=10 us
   node.type   = SceneNode::Type::text;
   node.place  = place;

@@ -134,6 +134,12 @@ std::invalid_argument against_start(const Scene &scene, const std::string &messa
   return std::invalid_argument(scene.start.place + ": " + message);
 }
 
+void check_start_names(const Scene &scene, const coupling::Machine &machine)
+{
+  known_start(scene, machine, scene.start.q, scene.start.v);
+  known_start(scene, machine, scene.modes.at, {});
+}
+
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine)
 {
   const StartRequest        &start = scene.start;

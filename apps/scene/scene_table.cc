@@ -148,7 +148,7 @@ mechanism::Formula SceneTable::expression(const std::string &key, const SceneNod
                                 described(value));
   try
   {
-    const mechanism::Formula result = formula_as(parameters_->expression(value, variables), kind, value.text);
+    const mechanism::Formula result = formula_as(parameters_->expression(value, variables, &kind), kind, value.text);
     if (result.is_constant() && !std::isfinite(result.constant()))
       throw std::invalid_argument("needs a finite number, got " + value.text);
     return result;

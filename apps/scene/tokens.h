@@ -21,8 +21,8 @@ struct Token
   int         place = 0; ///< of its first character in the text, from 1
 };
 
-/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) , < <= > >=  ("·" is *, "²" is ^2, "³" is ^3); at
-/// the end one of kind `end`.
+/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) , < <= > >=; at the end one of kind `end`.  Signs
+/// beyond ASCII that engineers type stand for these: "·" and "×" for *, "⁻²" for ^-2, "π" for pi, either mu for "µ".
 /// @throws std::invalid_argument at any other character.
 std::vector<Token> tokens_of(const std::string &text);
 

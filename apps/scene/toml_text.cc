@@ -1,5 +1,7 @@
 #include "apps/scene/toml_text.h"
 
+#include "apps/scene/toml_hint.h"
+
 #include <toml.hpp>
 
 #include <algorithm>
@@ -28,6 +30,15 @@ std::string first_line(const std::string &message)
   const auto note = message.rfind("^--- ");
   if (note != std::string::npos)
     line += ": " + message.substr(note + 5, message.find('\n', note) - note - 5);
+  return line;
+}
+
+std::string line_of(const std::string &path, std::size_t number)
+{
+  std::ifstream in(path);
+  std::string   line;
+  for (std::size_t i = 0; i < number && std::getline(in, line); ++i)
+    ;
   return line;
 }
 
@@ -116,7 +127,8 @@ SceneNode parse_toml_file(const std::string &path)
   }
   catch (const toml::exception &e)
   {
-    fail(e.location().line(), "is not TOML here: " + first_line(e.what()));
+    const auto hint = toml_hint(line_of(path, e.location().line()));
+    fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
   }
   catch (const std::exception &e)
   {

@@ -1,7 +1,5 @@
 #include "coupling/integration/bdf.h"
 
-#include "coupling/integration/hermite.h"
-
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -27,7 +25,7 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
   if (!(options.step > 0.))
     throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
   const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
-  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v})
+  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_})
     x->setZero(n);
   g_.setZero(n_u);
   g_rate_.setZero(n_u);
@@ -157,6 +155,12 @@ void Bdf::find_implied(Point &point)
   point.lambda = local_.lambda;
 }
 
+/// Something is held, and the equation of motion tells by which force.
+bool Bdf::finds_held() const
+{
+  return consistent_ && !system_.held().empty();
+}
+
 void Bdf::restart()
 {
   if (cut_)
@@ -221,58 +225,11 @@ void Bdf::advance()
   ++work_.steps;
 }
 
-int Bdf::interpolation_points(double *t, const Point **points) const
-{
-  const int n = std::min(n_past_, 3);
-  for (int i = 0; i < n; ++i)
-  {
-    points[i] = &past(i);
-    t[i]      = past(i).t;
-  }
-  return n;
-}
-
-void Bdf::interpolate(double t, LocalState &state) const
-{
-  double       times[3];
-  const Point *points[3];
-  const int    n       = interpolation_points(times, points);
-  const auto   weights = hermite_weights(times, n, t);
-  state.t              = t;
-  state.u.setZero();
-  state.v.setZero();
-  state.a.setZero();
-  state.p.setZero();
-  state.lambda.setZero();
-  for (int i = 0; i < n; ++i)
-  {
-    state.lambda += weights.lagrange[i] * points[i]->lambda;
-    state.u += weights.value[i] * points[i]->u + weights.slope[i] * points[i]->u_rate;
-    state.v += weights.rate_value[i] * points[i]->u + weights.rate_slope[i] * points[i]->u_rate;
-    state.a += weights.lagrange[i] * points[i]->a;
-    state.p += weights.lagrange[i] * points[i]->p;
-  }
-}
-
-void Bdf::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
-{
-  double       times[3];
-  const Point *points[3];
-  const int    n       = interpolation_points(times, points);
-  const auto   weights = hermite_weights(times, n, t);
-  q.setZero();
-  v.setZero();
-  for (int i = 0; i < n; ++i)
-  {
-    q += weights.value[i] * points[i]->q + weights.slope[i] * points[i]->v;
-    v += weights.rate_value[i] * points[i]->q + weights.rate_slope[i] * points[i]->v;
-  }
-}
-
 void Bdf::cut(double t)
 {
   interpolate(t, cut_point_.q, cut_point_.v);
   interpolate(t, base_);
+  keep_held_rates(system_, base_.v);
   cut_point_.t      = t;
   cut_point_.u      = base_.u;
   cut_point_.u_rate = base_.v;
@@ -307,8 +264,16 @@ void Bdf::multistep(double t)
     divided_step(past(0), options_.step, 1, to);
   }
   push();
-  if (system_.n_constraints() > 0 && (index_ + 1 < 2 * options_.order || system_.wants_multipliers()))
-    find_implied(past(0));
+  if (system_.n_constraints() > 0)
+  {
+    if (index_ + 1 < 2 * options_.order || system_.wants_multipliers())
+      find_implied(past(0));
+  }
+  else if (finds_held())
+  {
+    consistent_->hold(past(0).q, past(0).v, local_, work_);
+    past(0).p = local_.p;
+  }
 }
 
 /// By extrapolation, one order above what the first points give.
@@ -437,7 +402,7 @@ void Bdf::start_value(double t)
   push();
   past(0)   = table[0];
   past(0).t = t;
-  if (system_.n_constraints() > 0)
+  if (is_implied())
     find_implied(past(0));
   present(past(0));
 }

@@ -26,6 +26,9 @@ namespace gestell::coupling
  * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as
  * many points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
  *
+ * The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ * (ConsistentStart::hold()).
+ *
  * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
  * max_halvings times; the grid stays as it was.
  */
@@ -75,6 +78,7 @@ private:
   bool         has_consistent();
   bool         is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
   void         find_implied(Point &point);
+  bool         finds_held() const;
   void         multistep(double t);
   void         start_value(double t);
   void         euler_chain(const Point &from, double length, int n, Point &to);
@@ -84,6 +88,7 @@ private:
   void         load(double t);
   void         present(const Point &point);
   int          interpolation_points(double *t, const Point **points) const;
+  int          value_weights(double t, double *weights) const;
 
   static constexpr int capacity = 8; ///< points kept: up to 6 past ones, the new one, one spare
 
@@ -91,7 +96,7 @@ private:
   Options                     options_;
   ImplicitStep                implicit_;
   VirtualRates                virtual_rates_;
-  IntegrationWork             work_;
+  mutable IntegrationWork     work_;
   mutable Instant             now_;
   mutable bool                now_known_ = false;
   double                      t_begin_   = 0.;
@@ -102,6 +107,7 @@ private:
   bool                        cut_ = false; ///< the present instant is cut_point_, inside the last step
   LocalState                  local_, base_;
   Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
+  mutable Eigen::VectorXd     q_inside_, v_inside_;
   bool                        load_known_ = false;
 
   std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first, or for joints

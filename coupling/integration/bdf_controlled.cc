@@ -66,7 +66,8 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
   for (Eigen::VectorXd *x : {&z_begin_, &z_cut_, &z_, &predicted_, &difference_, &history_, &chain_[0], &chain_[1],
                              &middle_[0], &middle_[1], &middle_[2], &end_[0], &end_[1], &end_[2]})
     x->setZero(size);
-  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &no_v_})
+  for (Eigen::VectorXd *x :
+       {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_, &no_v_})
     x->setZero(n_);
   no_rate_.setZero(n_u_);
   dp_du_.setZero(n_u_, n_u_);
@@ -166,6 +167,7 @@ void BdfControlled::restart()
   now_known_ = false;
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
+  scale_.laws(dp_du_, dp_dv_);
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 
@@ -189,6 +191,12 @@ bool BdfControlled::has_consistent()
   return consistent_ != nullptr;
 }
 
+/// Something is held, and the equation of motion tells by which force.
+bool BdfControlled::finds_held() const
+{
+  return consistent_ && !system_.held().empty();
+}
+
 /// What holds a measure or closes a joint at an instant is no law's value, but follows from the equation of motion.
 void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
 {
@@ -197,7 +205,10 @@ void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
   present(z, t);
   h_q_ = z.head(n_);
   h_v_ = z.segment(n_, n_);
-  consistent_->solve(h_q_, h_v_, product_, local_, work_);
+  if (n_c_ > 0)
+    consistent_->solve(h_q_, h_v_, product_, local_, work_);
+  else
+    consistent_->hold(h_q_, h_v_, local_, work_);
   keep_forces(z);
 }
 
@@ -300,6 +311,12 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   differences_.at(s, degree, 2 * n_ + 2 * n_u_, state.a);
   differences_.at(s, degree, 2 * n_ + 3 * n_u_, state.p);
   differences_.at(s, degree, 2 * n_ + 4 * n_u_, state.lambda);
+  if (!finds_held())
+    return;
+  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  differences_.at(s, degree, 0, q_inside_);
+  differences_.at(s, degree, n_, v_inside_);
+  consistent_->hold(q_inside_, v_inside_, state, work_);
 }
 
 void BdfControlled::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
@@ -330,6 +347,7 @@ void BdfControlled::cut(double t)
   else
   {
     interpolate(t, base_);
+    keep_held_rates(system_, base_.v);
     interpolate_part(t, 0, n_, x_, product_);
     z_cut_ << x_, product_, base_.u, base_.v, base_.a, base_.p, base_.lambda;
   }

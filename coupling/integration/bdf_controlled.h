@@ -3,6 +3,7 @@
 #include "coupling/integration/backward_differences.h"
 #include "coupling/integration/bdf_order_limit.h"
 #include "coupling/integration/consistent_start.h"
+#include "coupling/integration/error_control.h"
 #include "coupling/integration/error_scale.h"
 #include "coupling/integration/implicit_step.h"
 #include "coupling/integration/time_integrator.h"
@@ -48,10 +49,13 @@ namespace gestell::coupling
  * velocities in the directions that joints hold with errors of one order less, and multipliers of two: the local error
  * is that of positions alone then, and multipliers that somebody looks at come from g'' = 0.
  *
+ * The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ * (ConsistentStart::hold()): what the formula tells of it has, behind a change of step, errors of one order less.
+ *
  * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
  * of a start; the polynomial of degree k + 1 from order 3 on.
  */
-class BdfControlled : public TimeIntegrator
+class BdfControlled : public TimeIntegrator, public ErrorControl
 {
 public:
   struct Options
@@ -81,6 +85,8 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
+  bool                   controls_error() const override { return true; }
+  void                   expect(double way, double speed) override { scale_.expect(way, speed); }
 
   /// Order and length [s] of the step to come.
   int    order() const { return order_; }
@@ -104,6 +110,7 @@ private:
   void               load(double t);
   bool               is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
   bool               has_consistent();
+  bool               finds_held() const;
   void               find_implied(Eigen::VectorXd &z, double t);
   void               keep_forces(Eigen::VectorXd &z) const;
   void               close_joints();
@@ -135,7 +142,7 @@ private:
   VirtualRates                     virtual_rates_;
   std::unique_ptr<ConsistentStart> consistent_;       ///< once a measure is held
   bool                             massless_ = false; ///< M is singular: no consistent start
-  IntegrationWork                  work_;
+  mutable IntegrationWork          work_;
   Eigen::Index                     n_, n_u_, n_c_; ///< z = (q, q', u, u', u'', p, lambda) [2 n + 4 n_u + n_c]
   BackwardDifferences              differences_;
   int                              order_ = 1, rung_ = 0;
@@ -159,6 +166,7 @@ private:
   mutable bool                     now_known_  = false;
   bool                             load_known_ = false;
   Eigen::VectorXd                  f_t_, f_, h_q_, h_v_, x_, product_;
+  mutable Eigen::VectorXd          q_inside_, v_inside_;
   Eigen::VectorXd                  no_v_, no_rate_; ///< zeros, for errors of positions alone [n], [n_u]
 };
 

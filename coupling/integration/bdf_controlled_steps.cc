@@ -106,7 +106,7 @@ void BdfControlled::multistep()
     change(wanted_rung_, wanted_order_);
   }
   scale_.accept();
-  if (n_c_ > 0 && system_.wants_multipliers())
+  if (finds_held() || (n_c_ > 0 && system_.wants_multipliers()))
   {
     find_implied(z_, t_end_);
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
@@ -337,7 +337,7 @@ void BdfControlled::start()
   scale_.accept();
   z_ = end_[2];
   improve_middle();
-  if (n_c_ > 0)
+  if (is_implied())
   {
     find_implied(middle_[2], t_end_ + step_of(rung_));
     find_implied(z_, t_end_ + 2. * step_of(rung_));

@@ -50,11 +50,17 @@ constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: r
 
 } // namespace
 
+void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v)
+{
+  for (const HeldMeasure &h : system.held())
+    v[h.measure] = h.rate;
+}
+
 ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method, JointSolver joints)
     : system_(system), G_(system.constraint_blocks())
 {
   const auto n = system.size(), n_u = static_cast<int>(system.directions().cols());
-  for (Eigen::VectorXd *x : {&f_, &product_})
+  for (Eigen::VectorXd *x : {&f_, &product_, &a_})
     x->setZero(n);
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
@@ -209,6 +215,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     ++work.evaluations;
     // No force depends on u'' or multipliers: one step finds all.
     const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
+    linear_           = linear_ && linear;
     if (joints)
     {
       G_.set_forces(local.lambda, local.p);
@@ -235,6 +242,59 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     }
   }
   fail_unconverged(local.t);
+}
+
+void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, LocalState &local, IntegrationWork &work)
+{
+  if (saddle_ || G_.n_rows() > 0 || !linear_)
+  {
+    solve(q, v, a_, local, work);
+    return;
+  }
+  prepare_hold(local.t);
+  system_.excitation().at(local.t, f_);
+  system_.local_force(local, local.p);
+  ++work.evaluations;
+  for (const int h : holding_)
+    local.p[h] = local.a[h] = 0.;
+  held_p_.noalias() = hold_v_.transpose() * v;
+  held_p_.noalias() += hold_q_.transpose() * q;
+  held_p_.noalias() -= hold_f_.transpose() * f_;
+  for (std::size_t i = 0; i < holding_.size(); ++i)
+    held_p_[Eigen::Index(i)] -= D_.row(holding_[i]).dot(local.p);
+  delassus_.solve_in_place(held_p_);
+  for (std::size_t i = 0; i < holding_.size(); ++i)
+    local.p[holding_[i]] = held_p_[Eigen::Index(i)];
+}
+
+/// What hold() needs of the measures that are held now.
+void ConsistentStart::prepare_hold(double t)
+{
+  const auto &held = system_.held();
+  const auto  same = [](int own, const HeldMeasure &h) { return own == h.measure; };
+  if (std::equal(holding_.begin(), holding_.end(), held.begin(), held.end(), same))
+    return;
+  const auto n_h = Eigen::Index(held.size());
+  holding_.clear();
+  for (Eigen::MatrixXd *x : {&hold_f_, &hold_v_, &hold_q_})
+    x->resize(f_.size(), n_h);
+  held_p_.resize(n_h);
+  delassus_.resize(int(n_h));
+  for (Eigen::Index i = 0; i < n_h; ++i)
+  {
+    holding_.push_back(held[i].measure);
+    f_             = Y_.col(holding_.back());
+    hold_f_.col(i) = f_;
+    system_.damping_times(f_, product_);
+    hold_v_.col(i) = product_;
+    system_.stiffness_times(f_, product_);
+    hold_q_.col(i) = product_;
+  }
+  for (int i = 0; i < n_h; ++i)
+    for (int j = 0; j < n_h; ++j)
+      delassus_.matrix()(i, j) = D_(holding_[i], holding_[j]);
+  if (!delassus_.factorise())
+    fail_singular(system_, t);
 }
 
 int ConsistentStart::most_iterations() const

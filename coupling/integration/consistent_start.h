@@ -2,10 +2,15 @@
 
 #include "coupling/integration/condensed_matrix.h"
 #include "coupling/integration/saddle_matrix.h"
+#include "coupling/integration/small_lu.h"
 #include "coupling/integration/time_integrator.h"
 
 namespace gestell::coupling
 {
+
+/// Rates of held measures in v [n_u] become those they are held at, free of rounding: a motion that lets go there begins
+/// at the very zero of the guard by which it would stick again.
+void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v);
 
 /**
  * The acceleration that belongs to q and q' at an instant:
@@ -39,6 +44,14 @@ public:
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
+  /// The forces that hold measures, into local.p with u'' = 0 of these measures, at any instant of a motion: as solve(),
+  /// by as few products as there are held measures where neither joints nor forces that depend on u'' take part,
+  ///
+  ///     D_hh p_h = -(M^-1 W_h)^T (f_t - B q' - C q) - D_ho p_o.
+  ///
+  /// The branches must be those of the last solve().
+  void hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, LocalState &local, IntegrationWork &work);
+
   /// The position nearest to q with g(t, u) = 0, then the velocity nearest to v with G u' + rate = 0, both measured by
   /// their kinetic energy; local.u and local.v with them.
   /// @throws ConvergenceFailure if joints depend on each other or g cannot be closed
@@ -55,6 +68,7 @@ private:
   void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   bool              is_small(const Eigen::VectorXd &p);
   void              iterate(LocalState &local, IntegrationWork &work);
+  void              prepare_hold(double t);
   void              condense();
   void              iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
   void              factorise_sparse(double t);
@@ -71,6 +85,11 @@ private:
   std::unique_ptr<CondensedMatrix> matrix_;          ///< null: sparse
   std::unique_ptr<SaddleMatrix>    saddle_;          ///< null: condensed
   Eigen::VectorXd                  y_, load_;        ///< [n + n_c + n_h], [n]
+  bool                             linear_ = true;   ///< no force was seen to depend on u'' or multipliers
+  std::vector<int>                 holding_;         ///< measures that hold_f_ to delassus_ are made for
+  Eigen::MatrixXd                  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
+  Eigen::VectorXd                  held_p_, a_;               ///< [n_h], [n]
+  SmallLu                          delassus_;                 ///< D_hh
 };
 
 } // namespace gestell::coupling

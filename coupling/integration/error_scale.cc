@@ -14,6 +14,7 @@ namespace
 constexpr double rounding      = 8. * std::numeric_limits<double>::epsilon();
 constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
 constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
+constexpr double law_floor     = 1e-3;  ///< of what the excursions of other measures make of the law of a virtual one
 constexpr double terms         = 8.;    ///< rounding of numbers that are the sum of several, enlarged by levers
 constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
 constexpr double rigid         = 1e-7;  ///< modes below this part of the highest frequency are rigid motions
@@ -50,7 +51,7 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   const auto n = m_.size(), n_u = system.directions().cols(), n_ends = Eigen::Index(end_index_.size());
   for (Eigen::VectorXd *x : {&q_begin_, &v_begin_})
     x->setZero(n);
-  for (Eigen::VectorXd *x : {&u_begin_, &rate_begin_, &inverse_u_, &inverse_rate_})
+  for (Eigen::VectorXd *x : {&u_begin_, &rate_begin_, &inverse_u_, &inverse_rate_, &way_, &speed_, &size_, &rate_})
     x->setZero(n_u);
   for (Eigen::VectorXd *x : {&inverse_q_, &inverse_v_})
     x->setZero(n_groups_);
@@ -181,10 +182,37 @@ void ErrorScale::find_ends()
         mobility += it.value() * it.value() / m_[it.row()];
     root_mass_[j] = mobility > 0. ? 1. / std::sqrt(mobility) : 0.;
   }
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(W.rows()), product(W.rows());
   for (const int i : system_.virtual_coordinates())
+  {
+    unit[i] = 1.;
+    system_.damping_times(unit, product);
+    const double b = product[i];
+    system_.stiffness_times(unit, product);
+    const double c = product[i];
+    unit[i]        = 0.;
     for (int j = 0; j < W.outerSize(); ++j)
       if (W.coeff(i, j) != 0.)
-        virtual_measures_.push_back(j);
+        virtual_.push_back({j, c > 0. ? b / c : 0., c > 0. ? 1. / c : 0., Eigen::VectorXd::Zero(W.cols()),
+                            Eigen::VectorXd::Zero(W.cols())});
+  }
+}
+
+void ErrorScale::expect(double way, double speed)
+{
+  loads_way_   = way;
+  loads_speed_ = speed;
+}
+
+void ErrorScale::laws(const Eigen::MatrixXd &dp_du, const Eigen::MatrixXd &dp_dv)
+{
+  for (Virtual &z : virtual_)
+  {
+    z.by_u               = z.by_u.cwiseMax(z.part * dp_du.row(z.measure).cwiseAbs().transpose());
+    z.by_rate            = z.by_rate.cwiseMax(z.part * dp_dv.row(z.measure).cwiseAbs().transpose());
+    z.by_u[z.measure]    = 0.; // of itself
+    z.by_rate[z.measure] = 0.;
+  }
 }
 
 /// What joints and forces leave of the sizes of their terms in their own measures, from there in the coordinates, and
@@ -197,8 +225,8 @@ void ErrorScale::find_noise()
     own(block.first_measure, block.n_measures, block.size);
   for (const ForceBlock &block : system_.force_blocks())
     own(block.first_measure, block.n_measures, block.size);
-  for (const int j : virtual_measures_)
-    noise_[j] = 0.;
+  for (const Virtual &z : virtual_)
+    noise_[z.measure] = 0.;
 
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(ends_.rows()); // of the coordinates, as its root
   noise_of_groups_.assign(n_groups_, 0.);
@@ -239,7 +267,13 @@ void ErrorScale::begin(const Motion &at)
   rate_begin_ = at.u_rate;
   for (const auto x : all)
     (accepted_.*x).setZero();
-  expected_until_ = -std::numeric_limits<double>::infinity();
+  for (Virtual &z : virtual_)
+  {
+    z.by_u.setZero();
+    z.by_rate.setZero();
+  }
+  loads_way_ = loads_speed_ = 0.;
+  expected_until_           = -std::numeric_limits<double>::infinity();
 }
 
 void ErrorScale::accept()
@@ -283,25 +317,25 @@ bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &
   return true;
 }
 
+/// chi, and from it 1 / (scale chi), but not above what rounding leaves, which reaches velocities with the highest
+/// frequency that the step resolves; a motion that does not move has no error.
+void ErrorScale::invert(double h, double floor, double E, double V, double change_of_speed, double size, double rate,
+                        double &of_q, double &of_v) const
+{
+  const bool   moves     = E > 0. && V > 0.;
+  const double chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
+  const double frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
+  const double q         = std::max(E * chi, floor * std::max(size, h * rate));
+  const double v         = std::max(V * chi, floor * std::max(size * frequency, rate));
+  of_q                   = q > 0. ? 1. / q : 0.;
+  of_v                   = v > 0. ? 1. / v : 0.;
+}
+
 void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, const Vector &moved)
 {
   const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
   const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
-  // chi, and from it 1 / (scale chi), but not above what rounding leaves, which reaches velocities with the highest
-  // frequency that the step resolves; a motion that does not move has no error.
-  const auto invert =
-      [&](double E, double V, double change_of_speed, double size, double rate, double &of_q, double &of_v)
-  {
-    const bool   moves     = E > 0. && V > 0.;
-    const double chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
-    const double frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
-    const double q         = std::max(E * chi, floor * std::max(size, h * rate));
-    const double v         = std::max(V * chi, floor * std::max(size * frequency, rate));
-    of_q                   = q > 0. ? 1. / q : 0.;
-    of_v                   = v > 0. ? 1. / v : 0.;
-  };
-
-  double most = 0., fastest = 0.;
+  double       most = loads_way_, fastest = loads_speed_;
   for (int g = 0; g < n_groups_; ++g)
   {
     most    = std::max(most, bounded(scale_.q[g], scale_.v[g]));
@@ -318,7 +352,7 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
       largest         = std::max(largest, std::abs(moved[j]) * root_mass_[j]);
     }
   for (int g = 0; g < n_groups_; ++g)
-    invert(std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
+    invert(h, floor, std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
            std::max(scale_.v[g], group_floor * fastest), std::sqrt(changes_[g]),
            std::max({std::sqrt(sums_[g]), moved_[g], noise_of_groups_[g]}),
            std::max(std::sqrt(sums_v_[g]), moved_[g] / h), inverse_q_[g], inverse_v_[g]);
@@ -335,12 +369,28 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
       size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
       rate = std::max(rate, it.value() * std::abs(to.v[end_index_[it.row()]]));
     }
-    invert(std::max(bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way),
-           std::max(scale_.u_rate[j], measure_floor * speed), std::abs(to.u_rate[j] - from.u_rate[j]), size, rate,
-           inverse_u_[j], inverse_rate_[j]);
+    const double part = root_mass_[j] > 0. ? group_floor / root_mass_[j] : 0.;
+    way_[j]           = std::max({bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way, part * most});
+    speed_[j]         = std::max({scale_.u_rate[j], measure_floor * speed, part * fastest});
+    size_[j]          = size;
+    rate_[j]          = rate;
+    invert(h, floor, way_[j], speed_[j], std::abs(to.u_rate[j] - from.u_rate[j]), size, rate, inverse_u_[j],
+           inverse_rate_[j]);
   }
-  for (const int j : virtual_measures_)
+  set_scales_of_virtual(h, floor);
+}
+
+void ErrorScale::set_scales_of_virtual(double h, double floor)
+{
+  for (const Virtual &z : virtual_)
+  {
+    const int    j   = z.measure;
+    const double law = law_floor * (z.by_u.dot(way_) + z.by_rate.dot(speed_));
+    const double way = std::max(way_[j], law), speed = z.time > 0. ? std::max(speed_[j], law / z.time) : speed_[j];
+    const double size = std::max(size_[j], z.by_u.dot(size_) + z.by_rate.dot(rate_));
+    invert(h, floor, way, speed, 0., size, rate_[j], inverse_u_[j], inverse_rate_[j]);
     inverse_rate_[j] = 0.;
+  }
 }
 
 double ErrorScale::error_of_measures(const Vector &e_u, const Vector &e_rate) const

@@ -28,7 +28,13 @@ namespace gestell::coupling
  * the number of times the motion goes through its range, however many steps that takes: global errors are proportional
  * to the tolerance.  A method of order k has an error of order h^k in this measure.
  *
- * A group does not count for less than 1e-6 of the one that moves most: bodies at rest have no scale of their own.
+ * Bodies at rest have no scale of their own, and the motion of those that others set in motion, u ~ t^4, t^6, is small
+ * against itself with no step.  So neither a group nor a measure counts for less than 1e-6 of the group that moves most
+ * or, in the energy norm too, of the motion that the loads to come would bring (expect()).
+ *
+ * A virtual coordinate z has no mass.  It follows its law, T z' + z = p, and with the law the errors that its measures
+ * may have: z does not count for less than 1e-3 (sum_k |dp/du_k| U_k + |dp/du'_k| U'_k), nor z' than that per T.
+ *
  * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
  * what forces that balance each other would do alone, and the numbers whose difference a joint closes or a force
  * depends on: l - l cos(phi) knows an angle below 1e-8 no more.
@@ -50,6 +56,11 @@ public:
 
   /// The motion begins here.
   void begin(const Motion &at);
+
+  /// Loads to come would lead that far and make it that fast, sqrt(sum m_i x_i^2), in a short part of the run.
+  void expect(double way, double speed);
+  /// dp/du, dp/du' [n_u x n_u] of the laws, where they change.
+  void laws(const Eigen::MatrixXd &dp_du, const Eigen::MatrixXd &dp_dv);
 
   /// A step of length h [s] would lead from `from` to `to` at t: the scales for its errors.
   /// @param moved  [n_u] how far local forces alone move the measures in the step: a force that holds a body leaves
@@ -74,6 +85,13 @@ public:
   int massless() const { return massless_; }
 
 private:
+  /// A virtual coordinate's measure, its time constant [s], and by how much its law follows others, per u and u' [n_u].
+  struct Virtual
+  {
+    int             measure;
+    double          time, part; ///< part: 1/c of  b z' + c z = p
+    Eigen::VectorXd by_u, by_rate;
+  };
   /// Coordinates first .. first + size - 1 belong to one group.
   struct Run
   {
@@ -95,6 +113,9 @@ private:
   void        find_ends();
   void        find_noise();
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
+  void        invert(double h, double floor, double E, double V, double change_of_speed, double size, double rate,
+                     double &of_q, double &of_v) const;
+  void        set_scales_of_virtual(double h, double floor);
   void        set_scales(double h, const Motion &from, const Motion &to, const Vector &moved);
 
   const SecondOrderSystem    &system_;
@@ -105,13 +126,15 @@ private:
   Eigen::SparseMatrix<double> ends_;      ///< |W| on the coordinates that measures are made of [n_ends x n_u]
   std::vector<int>            end_index_; ///< those coordinates
   std::vector<int>            end_group_; ///< and their groups
-  std::vector<int>    virtual_measures_;  ///< their rates follow from them and are rounding in short steps: not judged
+  std::vector<Virtual>        virtual_;   ///< their rates follow from them and are rounding in short steps: not judged
   Eigen::VectorXd     root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
   Eigen::VectorXd     noise_; ///< of the numbers that leave rounding in the measures, times the number of terms [n_u]
   Eigen::VectorXd     q_begin_, v_begin_, u_begin_, rate_begin_;
   Excursions          accepted_, reached_; ///< before and after the step that is considered
   Excursions          expected_, scale_;   ///< of a step refused; reached or expected
   double              t_ = 0., expected_until_ = 0.;
+  double              loads_way_ = 0., loads_speed_ = 0.; ///< of expect()
+  Eigen::VectorXd     way_, speed_, size_, rate_;         ///< U, U' of the measures, and the numbers they are of [n_u]
   Eigen::VectorXd     inverse_q_, inverse_v_, inverse_u_, inverse_rate_; ///< 1 / (scale chi)
   std::vector<double> noise_of_groups_;                                  ///< as noise_, in the energy norm [groups]
   mutable std::vector<double> sums_, sums_v_, changes_, moved_;          // [groups]

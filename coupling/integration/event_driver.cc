@@ -1,5 +1,8 @@
 #include "coupling/integration/event_driver.h"
 
+#include "coupling/integration/error_control.h"
+#include "coupling/integration/loads_to_come.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +13,8 @@ namespace gestell::coupling
 namespace
 {
 constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
+constexpr double a_little =
+    0.1; ///< share of a step by which the force that holds a measure errs in the time of an event
 
 /// To what an event at t in a step of length h is located: far below what any step's error does to its time.
 double resolution(double t, double h)
@@ -43,8 +48,15 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   before_.p.setZero();
   system_.follow_history(false);
   system_.start(before_);
+  auto *const  control  = dynamic_cast<ErrorControl *>(&integrator_);
+  const bool   controls = control && control->controls_error();
+  LoadedMotion loaded;
+  if (controls)
+    loaded = loads_to_come(system_, before_, options_.end);
   system_.follow_history(options_.locate);
   integrator_.begin(t, q, v);
+  if (controls)
+    control->expect(loaded.way, loaded.speed);
   before_ = integrator_.local();
   detection_.begin(before_);
   window_begin_ = t;
@@ -56,6 +68,7 @@ void EventDriver::advance()
   if (!options_.locate)
   {
     step_over();
+    tell_events();
     return;
   }
   integrator_.advance();
@@ -78,6 +91,7 @@ void EventDriver::advance()
     return;
   }
   take(crossing);
+  tell_events();
   if (++in_window_ > options_.max_per_step && integrator_.time() < options_.end)
   {
     ++chattering_;
@@ -88,6 +102,7 @@ void EventDriver::advance()
     system_.follow_history(true);
     integrator_.restart();
     before_ = integrator_.local();
+    tell_events();
   }
 }
 
@@ -120,6 +135,13 @@ void EventDriver::observe() const
 {
   if (observer_)
     observer_();
+}
+
+void EventDriver::tell_events()
+{
+  for (; told_ < events_.size(); ++told_)
+    if (event_observer_)
+      event_observer_(events_[told_]);
 }
 
 double EventDriver::value_at(int guard, double t)
@@ -210,59 +232,91 @@ bool EventDriver::first_crossing(Crossing &first)
   first.t = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n; ++i)
   {
-    const double s = sign(i);
+    const auto look = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
+    if (first.t > begin && is_due_at_begin(i, look(0).g, look(1).g))
+      first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
     {
-      const double here = s * g_[k][i], next = s * g_[k + 1][i];
-      if (here >= 0. && next > 0. && k == 0)
-      {
-        first = {i, begin, 0.};
-        break;
-      }
-      if (here < 0. && next >= 0. && (next > 0. || k + 1 < last))
-      {
-        Crossing crossing;
-        crossing.slope = (next - here) / (t[k + 1] - t[k]);
-        locate(i, t[k], here, t[k + 1], next, crossing);
-        if (crossing.t < first.t)
-          first = crossing;
-        break;
-      }
-      if (k == 0)
+      const Look here = look(k), next = look(k + 1);
+      Look       low = here, high = next;
+      const bool crosses = here.g < 0. && next.g >= 0. && (next.g > 0. || k + 1 < last);
+      if (!crosses && !(k > 0 && turns_above_zero(i, look(k - 1), here, next, low, high)))
         continue;
-      // A guard that touches zero between samples: the vertex of the parabola through three of them.
-      const double left = s * g_[k - 1][i], curvature = left - 2. * here + next;
-      if (left < 0. && here < 0. && next < 0. && curvature < 0.)
-      {
-        const double shift = 0.5 * (left - next) / curvature;
-        if (std::abs(shift) < 1. && here - 0.5 * curvature * shift * shift > 0.)
-        {
-          const double vertex = t[k] + shift * (t[k + 1] - t[k]), top = value_at(i, vertex);
-          if (top > 0.)
-          {
-            const int from = shift < 0. ? k - 1 : k;
-            Crossing  crossing;
-            locate(i, t[from], s * g_[from][i], vertex, top, crossing);
-            if (crossing.t < first.t)
-              first = crossing;
-            break;
-          }
-        }
-      }
+      Crossing crossing;
+      crossing.slope = (high.g - low.g) / (high.t - low.t);
+      locate(i, low.t, low.g, high.t, high.g, crossing);
+      if (crossing.t < first.t)
+        first = crossing;
+      break;
     }
   }
   return first.guard >= 0;
+}
+
+/// Past zero at the begin of a step.  Behind a transition rounding may leave the guard there that would take it back;
+/// the force that holds a measure is known at once, and rounding is what would come back to the limit in no time.
+bool EventDriver::is_due_at_begin(int guard, double here, double next)
+{
+  constexpr double no_time = 1e-3; // of the way to the next look: what moves by then is a part in 10^9
+  return (here >= 0. && next > 0.) || (here > no_time * (here - next) && here > 0. && looks_at_held_force(guard));
+}
+
+/// At the begin of a step: the guard is another one without the forces that hold measures.
+bool EventDriver::looks_at_held_force(int guard)
+{
+  if (system_.held().empty())
+    return false;
+  between_ = before_;
+  for (const HeldMeasure &h : system_.held())
+    between_.p[h.measure] = 0.;
+  system_.guard_values(between_, probe_);
+  return probe_[guard] != g_[0][guard];
+}
+
+/// Whether a guard that is negative at three instants turns above zero between them: `top` there, `low` before it.
+/// Parabolas close in on the turn until their vertex is far below against what they err.
+bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top)
+{
+  constexpr double err = 0.1; // of the rise within a parabola: a sine bends its peak by 3 % at 0.8 rad between looks
+  if (!(a.g < 0. && b.g < 0. && c.g < 0.))
+    return false;
+  for (int k = 0; k < 8; ++k)
+  {
+    const double rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
+    const double t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+    if (!(curvature < 0. && t > a.t && t < c.t))
+      return false;
+    const double vertex = a.g + (t - a.t) * (rise + curvature * (t - b.t));
+    const double way    = std::max({a.g, b.g, c.g, vertex}) - std::min({a.g, b.g, c.g});
+    if (vertex < -err * way || t == b.t)
+      return false;
+    const Look seen{t, value_at(guard, t)};
+    if (seen.g > 0.)
+    {
+      low = t > b.t ? b : a;
+      top = seen;
+      return true;
+    }
+    // Of both ends the one that is farther away gives place.
+    const bool before = t < b.t;
+    if (t - a.t > c.t - t)
+      a = before ? seen : b, b = before ? b : seen;
+    else
+      c = before ? b : seen, b = before ? seen : b;
+  }
+  return false;
 }
 
 void EventDriver::take(const Crossing &crossing)
 {
   const int    guard = crossing.guard;
   const double begin = integrator_.step_begin(), end = integrator_.time();
-  double       t = crossing.t;
+  const double finest = resolution(end, end - begin);
+  const double most   = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
+  double       t      = crossing.t;
   integrator_.cut(t);
   // The state at the cut may be better than the dense output: move the cut until its own guard is zero.
-  const double finest = resolution(end, end - begin);
-  double       slope = crossing.slope, t_last = t, g_last = 0.;
+  double slope = crossing.slope, t_last = t, g_last = 0.;
   for (int k = 0; k < 6 && t > begin; ++k)
   {
     system_.guard_values(integrator_.local(), probe_);
@@ -270,7 +324,7 @@ void EventDriver::take(const Crossing &crossing)
     if (k > 0 && t != t_last)
       slope = (g - g_last) / (t - t_last);
     const double next = slope > 0. ? std::clamp(t - g / slope, begin, end) : t;
-    if (std::abs(next - t) <= finest)
+    if (std::abs(next - t) <= finest || std::abs(next - crossing.t) > most)
       break;
     t_last = t, g_last = g, t = next;
     integrator_.cut(t);

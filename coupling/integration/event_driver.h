@@ -23,10 +23,11 @@ struct EventOptions
  * Drives an integrator from event to event and keeps the history of the elements.
  *
  * Between events every law follows its branch, smoothly continued (SecondOrderSystem::follow_history), so that the
- * integrator keeps its order.  After each step the guards are looked at, at both ends, inside it, and where a parabola
- * through three of these values turns; the first zero in a guard's direction is located on the dense output, the step
- * is cut there, improved until the guard of the state itself is zero, the transition is taken and the integration
- * restarted.  A guard that is past its zero at the begin of a step and stays so is an event at that begin.
+ * integrator keeps its order.  After each step the guards are looked at, at both ends, inside it, and where parabolas
+ * through three of these values turn, drawn closer until they tell on which side of zero the guard turns; the first
+ * zero in a guard's direction is located on the dense output, the step is cut there, improved until the guard of the
+ * state itself is zero, the transition is taken and the integration restarted.  A guard that is past its zero at the
+ * begin of a step and stays so, or that looks at the force that holds a measure, is an event at that begin.
  *
  * Chatter (Zeno): after max_per_step events within one step's length, one step is taken with the laws following the
  * motion and events only told.
@@ -46,6 +47,9 @@ public:
   /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
   /// there: before anything of it is accepted and before the transition at its end.
   void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
+  /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events of
+  /// a step that was gone over at its end.
+  void on_event(std::function<void(const Event &)> observer) { event_observer_ = std::move(observer); }
 
   const std::vector<Event> &events() const { return events_; }
   long                      chattering_steps() const { return chattering_; }
@@ -58,7 +62,16 @@ private:
     double slope = 0.; ///< of the guard there
   };
 
+  /// A guard at an instant, turned so that it rises through its zero.
+  struct Look
+  {
+    double t, g;
+  };
+
   bool   first_crossing(Crossing &crossing);
+  bool   is_due_at_begin(int guard, double here, double next);
+  bool   looks_at_held_force(int guard);
+  bool   turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top);
   bool   far_from_zero() const;
   void   locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing);
   double value_at(int guard, double t);
@@ -67,6 +80,7 @@ private:
   void   step_over();
   bool   cut_at_end();
   void   observe() const;
+  void   tell_events();
   void   make_room();
 
   static constexpr int n_inside = 3; ///< samples inside a step
@@ -83,6 +97,8 @@ private:
   int                                       in_window_  = 0;
   long                                      chattering_ = 0;
   std::function<void()>                     observer_;
+  std::function<void(const Event &)>        event_observer_;
+  std::size_t                               told_ = 0; ///< events
 };
 
 } // namespace gestell::coupling

@@ -1,5 +1,7 @@
 #include "coupling/integration/exact.h"
 
+#include "coupling/integration/consistent_start.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -10,6 +12,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the grid is joined with the next step
+constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u moves too little for its rate to be read
 constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
 
 /// A step to begin with: an eighth of the longest period of the base system.
@@ -31,7 +34,8 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
                                                            : make_fused_step(context_, options.force);
   Q_             = reordered(modes_.Q, context_.measures.n_p);
   V_             = reordered(modes_.V, context_.measures.n_p);
-  step_          = options.step > 0. ? options.step : natural_step(modes_);
+  context_.error_tolerance = options.tolerance;
+  step_                    = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(system);
   local_begin_.resize(system);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
@@ -47,13 +51,17 @@ void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   local_.u.noalias() = system_.directions().transpose() * q;
   local_.v.noalias() = system_.directions().transpose() * v;
   local_.p.setZero();
-  context_.u_begin = local_.u;
-  context_.scale.setZero();
+  context_.begin(x_, local_.u);
   t_origin_ = t;
   tick_     = 0;
   on_grid_  = true;
   rung_     = 0;
   start_piece();
+}
+
+void Exact::expect(double way, double)
+{
+  context_.loads_way = way;
 }
 
 /// Harmonics of the load as they are at local_.t, in x_: what rounding did to them goes.
@@ -72,12 +80,18 @@ void Exact::start_piece()
 {
   t_begin_ = t_full_ = local_.t;
   stepped_ = cut_ = false;
-  now_known_      = false;
+  forget_inside();
   system_.local_force(local_, local_.p);
   ++context_.work.evaluations;
   context_.accelerate(x_, local_);
   force_->begin(x_, local_);
   local_begin_ = local_;
+}
+
+void Exact::forget_inside()
+{
+  now_known_ = false;
+  t_inside_  = t_begin_;
 }
 
 Exact::Target Exact::next_target() const
@@ -153,7 +167,7 @@ void Exact::advance()
     t_begin_     = local_.t;
     stepped_     = false;
   }
-  now_known_ = false;
+  forget_inside();
   for (;;)
   {
     const Target target = next_target();
@@ -182,8 +196,8 @@ void Exact::advance()
 
 void Exact::cut(double t)
 {
-  now_known_ = false;
-  cut_       = true;
+  forget_inside();
+  cut_ = true;
   if (!(t > t_begin_))
   {
     local_ = local_begin_;
@@ -194,6 +208,7 @@ void Exact::cut(double t)
   if (attempt(target))
   {
     local_.t = t;
+    keep_held_rates(system_, local_.v);
     return;
   }
   ++context_.work.rejected;
@@ -245,7 +260,21 @@ void Exact::interpolate(double t, LocalState &state) const
     return;
   }
   force_->interpolate((t - t_begin_) / h, state);
-  state.t = t;
+  state.t             = t;
+  const bool is_short = h < few_differences * step_, holds = !system_.held().empty();
+  if (!is_short && !holds)
+    return;
+  const Eigen::VectorXd &x = state_at(t);
+  if (is_short)
+  {
+    state.u.noalias() = context_.measures.read_u.transpose() * x;
+    state.v.noalias() = context_.measures.read_v.transpose() * x;
+  }
+  if (!holds)
+    return;
+  system_.local_force(state, state.p);
+  ++context_.work.evaluations;
+  context_.accelerate(x, state);
 }
 
 const Eigen::VectorXd &Exact::state_at(double t) const
@@ -259,12 +288,15 @@ const Eigen::VectorXd &Exact::state_at(double t) const
       force_->end_state(x_work_);
     return x_work_;
   }
+  if (t_inside_ > t_begin_ && t == t_inside_)
+    return x_inside_;
   force_->begin_state(x_inside_);
   if (t > t_begin_)
   {
     force_->forces(forces_);
     carry_inside(context_.measures, force_->basis(), t - t_begin_, h, forces_, x_inside_);
   }
+  t_inside_ = t;
   return x_inside_;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/error_control.h"
 #include "coupling/integration/force_step.h"
 #include "coupling/integration/time_integrator.h"
 
@@ -23,11 +24,13 @@ namespace gestell::coupling
  *     linear       order 2, one evaluation a step, stable up to omega_contact h = 2 sqrt(3)
  *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
  *
+ * The force that holds a measure follows from the equation of motion at x, at ends of steps and inside.
+ *
  * Steps lie on the grid t_begin + k h / 2^r: behind an event a shorter step leads back to it, so that all others share
  * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
  * the grid allows.
  */
-class Exact : public TimeIntegrator
+class Exact : public TimeIntegrator, public ErrorControl
 {
 public:
   struct Options
@@ -55,6 +58,8 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return context_.work; }
+  bool                   controls_error() const override { return options_.tolerance > 0.; }
+  void                   expect(double way, double speed) override;
 
 private:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone
@@ -76,13 +81,14 @@ private:
   bool                   attempt(const Target &target);
   void                   start_piece();
   void                   turn_harmonics();
+  void                   forget_inside();
   const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
   [[noreturn]] void      fail(const std::string &reason) const;
 
   const SecondOrderSystem   &system_;
   Options                    options_;
   ModalBlocks                modes_;
-  ExactContext               context_;
+  mutable ExactContext       context_;
   std::unique_ptr<ForceStep> force_;
   RowMatrix                  Q_, V_;  ///< [n x 2 n_p]
   std::map<int, StepTable>   tables_; ///< by rung
@@ -98,6 +104,7 @@ private:
   mutable Eigen::VectorXd    x_work_, x_inside_, forces_;
   mutable Instant            now_;
   mutable bool               now_known_ = false;
+  mutable double             t_inside_  = 0.; ///< of x_inside_, inside the last step; else it is not known
 };
 
 } // namespace gestell::coupling

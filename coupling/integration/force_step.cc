@@ -7,14 +7,56 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+/// Y_j^T M Y_j of the columns of Y.
+Eigen::VectorXd energies(const SecondOrderSystem &system, const Eigen::MatrixXd &Y)
+{
+  Eigen::VectorXd y(Y.rows()), product(Y.rows()), sums(Y.cols());
+  for (Eigen::Index j = 0; j < Y.cols(); ++j)
+  {
+    y = Y.col(j);
+    system.mass_times(y, product);
+    sums[j] = y.dot(product);
+  }
+  return sums;
+}
+} // namespace
+
 ExactContext::ExactContext(const SecondOrderSystem &machine, const ModalBlocks &modes, const NewtonOptions &options)
     : system(&machine), measures(modes, machine), newton(options)
 {
   const auto n_u = machine.directions().cols();
   u_begin.setZero(n_u);
   scale.setZero(n_u);
-  mobility = measures.read_v.transpose() * measures.put;
+  force.setZero(n_u);
+  mobility      = measures.read_v.transpose() * measures.put;
+  root_mobility = mobility.diagonal().cwiseMax(0.).cwiseSqrt();
   rate_.setZero(2 * measures.n_p);
+  mass_of_q_     = energies(machine, reordered(modes.Q, measures.n_p));
+  mass_of_v_     = energies(machine, reordered(modes.V, measures.n_p));
+  double omega_1 = 0.;
+  for (int b = 0; b < modes.n_modal; ++b)
+    if (modes.blocks[b].kind == ModalBlock::oscillating)
+      if (const double omega = std::hypot(modes.blocks[b].s, modes.blocks[b].w); omega_1 == 0. || omega < omega_1)
+        omega_1 = omega;
+  time_ = 1. / omega_1;
+}
+
+void ExactContext::begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u)
+{
+  x_begin_ = x;
+  u_begin  = u;
+  farthest = loads_way = 0.;
+  scale.setZero();
+  force.setZero();
+}
+
+double ExactContext::way(const Eigen::VectorXd &x) const
+{
+  const auto   moved = (x - x_begin_).array().square();
+  const double q = (mass_of_q_.array() * moved).sum(), v = (mass_of_v_.array() * moved).sum();
+  return std::sqrt(v > 0. ? std::min(q, v * time_ * time_) : q);
 }
 
 void ExactContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
@@ -72,6 +114,28 @@ void ExactContext::factorise_delassus(double t)
       delassus_.matrix()(i, j) = mobility(held[i].measure, held[j].measure);
   if (!delassus_.factorise())
     fail_singular(*system, t);
+}
+
+void ExactContext::mobile_parts(double t, Eigen::VectorXd &part)
+{
+  constexpr double rounding = 1e-12; // of the difference of two mobilities
+  const auto      &held     = system->held();
+  part.setOnes(mobility.rows());
+  if (held.empty())
+    return;
+  factorise_delassus(t);
+  for (Eigen::Index r = 0; r < part.size(); ++r)
+  {
+    if (!(mobility(r, r) > 0.))
+      continue;
+    for (std::size_t i = 0; i < held.size(); ++i)
+      rest_[Eigen::Index(i)] = mobility(held[i].measure, r);
+    delassus_.solve_in_place(rest_);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      part[r] -= rest_[Eigen::Index(i)] * mobility(held[i].measure, r) / mobility(r, r);
+    if (part[r] < rounding)
+      part[r] = 0.;
+  }
 }
 
 void ExactContext::project_held(Eigen::VectorXd &x, LocalState &local)

@@ -15,12 +15,22 @@ struct ExactContext
   const SecondOrderSystem *system = nullptr;
   ModalMeasures            measures;
   NewtonOptions            newton;
-  Eigen::VectorXd          u_begin, scale; ///< [n_u] largest excursion of every measure so far
+  Eigen::VectorXd          u_begin, scale;       ///< [n_u] largest excursion of every measure so far
+  Eigen::VectorXd          force;                ///< [n_u] largest force so far
+  double                   error_tolerance = 0.; ///< 0: steps are fixed
+  double                   farthest        = 0.; ///< way() so far, of methods that control their error
+  double                   loads_way       = 0.; ///< to which loads to come would lead
   IntegrationWork          work;
 
-  Eigen::MatrixXd mobility; ///< u'' of a force p: read_v^T put = W^T M^-1 W [n_u x n_u]
+  Eigen::MatrixXd mobility;      ///< u'' of a force p: read_v^T put = W^T M^-1 W [n_u x n_u]
+  Eigen::VectorXd root_mobility; ///< sqrt of its diagonal: u_j is at most that times the energy norm of a motion [n_u]
 
   ExactContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
+
+  /// A motion begins at x, u.
+  void begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u);
+  /// How far it has gone at x: min(|q - q_begin|, |q' - q'_begin|/omega_1), |q|^2 the sum of q^T M q of all states.
+  double way(const Eigen::VectorXd &x) const;
 
   /// Counts an excursion; floors: the way of one step, and what rounding in u leaves.
   void grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
@@ -29,6 +39,8 @@ struct ExactContext
   /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps
   /// their u'' zero.
   void accelerate(const Eigen::VectorXd &x, LocalState &local);
+  /// What is left of the mobility of each measure while others are held, as a part of it: 0 for one that is held too.
+  void mobile_parts(double t, Eigen::VectorXd &part);
   /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes
   /// only.
   void project_held(Eigen::VectorXd &x, LocalState &local);
@@ -38,6 +50,8 @@ private:
 
   Eigen::VectorXd rate_, rest_;
   SmallLu         delassus_;
+  Eigen::VectorXd x_begin_, mass_of_q_, mass_of_v_; ///< q^T M q and q'^T M q' of unit states [2 n_p]
+  double          time_;                            ///< 1/omega_1 of the slowest mode [s]; infinite if none oscillates
 };
 
 /**

@@ -39,7 +39,7 @@ public:
         basis_(average_ ? ForceBasis::constant() : ForceBasis::linear()), nodes_({0., 1.})
   {
     const Index n = 2 * context.measures.n_p;
-    for (VectorXd *x : {&y_begin_, &y_end_})
+    for (VectorXd *x : {&y_begin_, &y_end_, &x_held_})
       x->setZero(n);
     for (VectorXd *x : {&p_begin_, &p_, &change_, &p_before_})
       x->setZero(n_u_);
@@ -93,6 +93,11 @@ public:
     at_end_.u = end.u;
     at_end_.v = end.v;
     at_end_.p = end.p;
+    if (!context_.system->held().empty())
+    {
+      end_state(x_held_);
+      context_.accelerate(x_held_, end); // the force of the step is a mean or swings about the one that holds
+    }
     context_.grow_scale(context_.scale, end.u, end.v, h_);
     return true;
   }
@@ -341,7 +346,7 @@ private:
   HermiteNodes     nodes_;
   const StepTable *table_ = nullptr;
   double           h_ = 0., contraction_ = unknown_contraction;
-  VectorXd         y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, column_, moved_;
+  VectorXd         y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, x_held_, column_, moved_;
   MatrixXd         g_, F_, read_, S_u_, S_v_, dp_du_, dp_dv_, dp_of_u_, dp_of_v_;
   LocalState       at_begin_, at_end_, node_, way_, first_, end_;
   SmallLu          lu_;

@@ -15,6 +15,7 @@ constexpr double joint_rounding   = 8.;   ///< times that of one number: several
 constexpr double share_of_joints  = 1e-3; ///< of the tolerance
 constexpr double most_left        = 1e-7; ///< of the excursion of a measure, however large the local error is
 constexpr double finest_tolerance = 1e-13;
+constexpr int    most_usual       = 3;    ///< iterations
 constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
 } // namespace
 
@@ -45,6 +46,16 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
 
 namespace
 {
+/// Forces that balance each other leave rounding of what each would do alone.  A measure that others hold has no other
+/// scale; it is asked for only where corrections do not end.
+void allow_for_rounding(const ImplicitStep::Condensed &condensed, const Eigen::VectorXd &p, double tolerance,
+                        Eigen::VectorXd &scale)
+{
+  const double left = rounding / tolerance * std::abs(condensed.form.w_u);
+  for (Eigen::Index j = 0; j < scale.size(); ++j)
+    scale[j] = std::max(scale[j], left * condensed.S.row(j).cwiseAbs().dot(p.cwiseAbs()));
+}
+
 /// W acts on the coordinates N alone.
 bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
 {
@@ -295,6 +306,8 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       correction_[h.measure] = 0.;
     }
     grow_scale(form, local, iteration == 0);
+    if (iteration >= most_usual)
+      allow_for_rounding(condensed, local.p, options_.tolerance, scale_);
     const double size = size_of_correction();
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;

@@ -26,6 +26,26 @@ const Newmark::Options &checked(const Newmark::Options &o)
   return o;
 }
 
+/// A joint is a spring stiff without limit: its roots are those of omega h = infinity, which must be damped.
+void refuse_with_joints(const Newmark::Options &o)
+{
+  const std::string way = "; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0";
+  if (o.beta == 0.)
+    throw std::invalid_argument("central differences: the position of ideal joints depends on no unknown of the step; "
+                                "take bdf");
+  if (o.gamma <= 0.5)
+    throw std::invalid_argument("Newmark: without numerical damping the forces of ideal joints oscillate from step to "
+                                "step for ever" +
+                                way);
+  if (o.alpha_m == 0. && o.alpha_f == 0. && 2. * o.beta <= o.gamma)
+  {
+    std::ostringstream message;
+    message << "Newmark: beta is " << o.beta << ", and with ideal joints it must be above gamma/2 = " << 0.5 * o.gamma
+            << ": otherwise their forces grow, or oscillate from step to step for ever, at any step" << way;
+    throw std::invalid_argument(message.str());
+  }
+}
+
 } // namespace
 
 Newmark::Options Newmark::hht(double alpha)
@@ -61,12 +81,8 @@ Newmark::Options Newmark::central_difference()
 Newmark::Newmark(const SecondOrderSystem &system, const Options &options)
     : OneStep(system, "Newmark", checked(options).step, options.max_halvings, options.newton), options_(options)
 {
-  if (system.n_constraints() > 0 && (options.beta == 0. || options.gamma <= 0.5))
-    throw std::invalid_argument(
-        options.beta == 0.
-            ? "central differences: the position of ideal joints depends on no unknown of the step; take bdf"
-            : "Newmark: without numerical damping the forces of ideal joints oscillate from step to step "
-              "for ever; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0");
+  if (system.n_constraints() > 0)
+    refuse_with_joints(options);
   for (Eigen::VectorXd *x : {&f_, &mean_, &product_, &x_})
     x->setZero(system.size());
   base_.resize(system);

@@ -33,6 +33,8 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
                                 " is a state without mass; use bdf, which needs none");
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);
+  q_inside_.setZero(system.size());
+  v_inside_.setZero(system.size());
 }
 
 void OneStep::resize(Point &point) const
@@ -111,6 +113,8 @@ void OneStep::advance()
   ++work_.steps;
   // The grid is kept free of what many additions of h would leave.
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
+  if (!system_.held().empty())
+    start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
 }
 
 void OneStep::step_or_divide(const Point &from, double length, int halvings, Point &to)
@@ -156,6 +160,12 @@ void OneStep::interpolate(double t, LocalState &state) const
   state.a                   = L[0] * a.a + L[1] * b.a;
   state.p                   = L[0] * a.p + L[1] * b.p;
   state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
+  if (system_.held().empty())
+    return;
+  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  q_inside_ = L[0] * begin_.motion.q + L[1] * end_.motion.q;
+  v_inside_ = L[0] * begin_.motion.v + L[1] * end_.motion.v;
+  start_.hold(q_inside_, v_inside_, state, work_);
 }
 
 void OneStep::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
@@ -199,6 +209,7 @@ void OneStep::cut(double t)
   Instant &here = cut_point_.motion;
   interpolate(t, here.q, here.v);
   interpolate(t, here.local);
+  keep_held_rates(system_, here.local.v);
   here.t = t;
   cut_   = true;
   if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them

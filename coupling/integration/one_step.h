@@ -16,6 +16,8 @@ namespace gestell::coupling
  * - A step in which Newton fails is divided: two steps of half the length by the same formula, each divided again up to
  *   max_halvings times; the grid stays as it was.
  * - Dense output: cubic Hermite through q, q' at both ends (order 4 in the step), q' its derivative; a and p linear.
+ * - The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ *   (ConsistentStart::hold()).
  * - A cut takes the dense output; advance() after it begins anew there.
  */
 class OneStep : public TimeIntegrator
@@ -56,7 +58,7 @@ protected:
 
   const SecondOrderSystem &system_;
   ImplicitStep             implicit_;
-  IntegrationWork          work_;
+  mutable IntegrationWork  work_;
 
 private:
   const Point &present() const { return cut_ ? cut_point_ : end_; }
@@ -66,8 +68,9 @@ private:
 
   double             step_;
   int                max_halvings_;
-  ConsistentStart    start_;
+  mutable ConsistentStart start_;
   Point              begin_, end_, cut_point_;
+  mutable Eigen::VectorXd q_inside_, v_inside_;
   std::vector<Point> middle_; ///< of divided steps, by the number of halvings
   double             t_begin_ = 0.;
   long               index_   = 0;     ///< of the end of the last step, t = t_begin + index h

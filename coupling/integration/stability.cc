@@ -241,6 +241,29 @@ double spectral_radius(const MethodOptions &options, const TestOscillator &o)
   return step_properties(options, o).spectral_radius;
 }
 
+bool has_step_weights(const MethodOptions &options)
+{
+  return options.method == Method::newmark || options.method == Method::central_difference ||
+         options.method == Method::wilson;
+}
+
+StepWeights step_weights(const MethodOptions &options, double r)
+{
+  if (!has_step_weights(options))
+    throw std::invalid_argument("step_weights: " + method_name(options) + " has none");
+  const double d = r - 1.;
+  if (options.method == Method::wilson)
+  {
+    const double theta = options.theta, half = 0.5 * theta * theta; // see wilson_roots()
+    return {-(1. - theta + theta * r) * d * d, -(0.5 * (r + 1.) * d + (theta + half * d) * d * d),
+            -(0.5 * (r + 1.) + (1. / 3. + r / 6.) * d + 0.5 * theta * (r + 1.) * d + half * d * d +
+              theta * theta * theta / 6. * d * d * d)};
+  }
+  const NewmarkFamily f    = newmark_family(options);
+  const double        mean = 1. - f.gamma + f.gamma * r;
+  return {d * d, d * mean, mean + d * (0.5 - f.beta + f.beta * r)};
+}
+
 namespace
 {
 

@@ -56,6 +56,24 @@ double         spectral_radius(const MethodOptions &options, const TestOscillato
  */
 Eigen::MatrixXd amplification_matrix(const MethodOptions &options, const TestOscillator &oscillator);
 
+/**
+ * Weights of a motion x r^k in the balance of a one-step method that averages no forces: Newmark, central differences,
+ * Wilson.  Accelerations x, and with them velocities and displacements, fulfil
+ *
+ *     (mass(r) M + damping(r) h B + stiffness(r) h^2 C) x = 0.
+ *
+ * Their sign is chosen so that all are positive for large negative r.
+ * @throws std::invalid_argument for other methods
+ */
+struct StepWeights
+{
+  double mass, damping, stiffness;
+};
+StepWeights step_weights(const MethodOptions &options, double r);
+
+/// Whether step_weights() knows the method.
+bool has_step_weights(const MethodOptions &options);
+
 /// Largest |x| / x_0 or, for a start with velocity, |x| omega / v_0, and largest |x'| / omega likewise.
 struct Overshoot
 {

@@ -2,14 +2,18 @@
 
 #include "coupling/dense_modes.h"
 #include "coupling/mesh_extrapolation.h"
+#include "coupling/modes.h"
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/team_assembly.h"
+#include "fem/curved_sides.h"
 #include "fem/discretisation.h"
 #include "fem/hexahedral_mesh.h"
+#include "fem/memory_estimate.h"
 #include "fem/mesh_error.h"
 #include "fem/mesher.h"
 #include "fem/size_field.h"
 #include "fem/two_pi.h"
+#include "fem/vector3.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -92,8 +96,7 @@ std::vector<Watched> watch_frequencies(const ReducedFrame &frame, int count)
   { return j < modes.omega.size() && j < frame.frequency_error.size() && !std::isnan(frame.frequency_error[j]); };
   for (Eigen::Index j = n_rigid; known(j) && j < n_rigid + count; ++j)
     result.push_back({"frequency " + std::to_string(j - n_rigid + 1), "Hz", modes.V.col(j),
-                      modes.omega[j] * modes.omega[j], frame.frequencies_hz[j] / (1. + frame.frequency_error[j]),
-                      true});
+                      modes.omega[j] * modes.omega[j], refined_hz(frame, j), true});
   return result;
 }
 
@@ -255,6 +258,26 @@ void check(const Computed &first, const ConvergenceOptions &options)
                                           "), or keep more modes ([reduction] modes).");
 }
 
+double skin_area(const fem::Mesh &mesh)
+{
+  using fem::operator-;
+  double area = 0.;
+  for (const auto &[a, b, c] : mesh.skin)
+    area += 0.5 * fem::norm(fem::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
+  return area;
+}
+
+/// Nodes that interfaces average: two to a triangle.
+double averaged_nodes(const fem::Mesh &mesh, const fem::FrameSpecification &specification)
+{
+  double n = 0.;
+  for (const auto &interface : specification.interfaces)
+    if (interface.coupling == fem::InterfaceCoupling::average)
+      for (const std::string &surface : interface.surfaces)
+        n += 2. * double(mesh.surfaces.at(surface).size());
+  return n;
+}
+
 /// The meshes of a convergence, one after the other.
 class Meshes
 {
@@ -272,6 +295,9 @@ public:
   {
     fem::Mesh mesh = fem::make_mesh(specification_, progress, {});
     n_nodes_       = fem::number_of_nodes(mesh);
+    compactness_   = fem::compactness(fem::curved_volume(mesh), skin_area(mesh));
+    n_averaged_    = averaged_nodes(mesh, specification_);
+    n_first_       = 3. * n_nodes_;
     return mesh;
   }
 
@@ -285,7 +311,8 @@ public:
   {
     const double last_size = specification_.mesh.size;
     const double n0        = last.level.n_coordinates;
-    const double room      = filled * options_.max_coordinates;
+    const double allowed   = std::min<double>(options_.max_coordinates, fitting());
+    const double room      = filled * allowed;
     double       wanted    = (by_itself ? growth : std::min(growth, greatest_graded)) * n0;
     double       ratio     = wanted / n0;
     for (int trial = 1;; ++trial)
@@ -293,7 +320,7 @@ public:
       fem::Mesh    mesh  = by_itself ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
       const double nodes = fem::number_of_nodes(mesh);
       const double n     = n0 * nodes / n_nodes_; // some nodes are held, and have no coordinates
-      const bool   fits  = n <= options_.max_coordinates;
+      const bool   fits  = n <= allowed;
       if (fits && n >= (trial > 1 ? distinctly_finer : clearly_finer) * n0)
       {
         n_nodes_ = nodes;
@@ -304,7 +331,10 @@ public:
         stopped_ =
             fits ? "gmsh makes no mesh with distinctly more than " + std::to_string(std::lround(n0)) + " coordinates"
                  : "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
-                       std::to_string(options_.max_coordinates) + " allowed";
+                       (allowed < options_.max_coordinates
+                            ? std::to_string(std::lround(allowed)) + " that the available memory of " +
+                                  fem::memory_text(available()) + " allows"
+                            : std::to_string(options_.max_coordinates) + " allowed");
         return {};
       }
       // n = n0 ratio^a
@@ -331,10 +361,25 @@ private:
     return fem::make_mesh(specification_, progress, {});
   }
 
+  double available() const { return options_.memory > 0. ? options_.memory : fem::available_memory(); }
+
+  /// Coordinates whose reduction fits into the memory; nodes on a surface grow like n^(2/3).
+  double fitting() const
+  {
+    const auto memory = [&](double n)
+    { return fem::reduction_memory(n, compactness_, n_averaged_ * std::pow(n / n_first_, 2. / 3.)); };
+    double n = options_.max_coordinates;
+    while (n > n_first_ && memory(n) > available())
+      n *= 0.95;
+    return n;
+  }
+
   fem::FrameSpecification   specification_;
   const ConvergenceOptions &options_;
   double                    first_size_;
-  double                    n_nodes_ = 0.; // of the last mesh
+  double                    n_nodes_     = 0.; // of the last mesh
+  double                    n_first_     = 1.; // coordinates of the first mesh
+  double                    compactness_ = 0., n_averaged_ = 0.;
   std::string               stopped_;
 };
 
@@ -371,6 +416,8 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
     result.quantities  = extrapolate_all(result.levels, last.watched);
     const double bound = worst(result.quantities).bound();
     result.converged   = converged(result.quantities, options.tolerance);
+    if (options.after_mesh)
+      options.after_mesh(result);
     if (result.converged)
       break;
     if (number++ == options.max_meshes)

@@ -10,6 +10,9 @@
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace gestell::coupling
 {
 
@@ -21,6 +24,25 @@ std::string counted(std::size_t n, const std::string &thing)
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
+/// Of the surfaces of an interface, weighted by area; of one at a node, which may have no surface, nothing.
+std::optional<fem::Vector3> centroid_of(const fem::InterfaceSpecification &interface,
+                                        const fem::GeometryReport         &geometry)
+{
+  fem::Vector3 moment{};
+  double       area = 0.;
+  for (const std::string &surface : interface.surfaces)
+    for (const fem::Face &face : geometry.faces)
+      if (const auto &tags = geometry.surfaces.at(surface); std::count(tags.begin(), tags.end(), face.tag))
+      {
+        area += face.area;
+        for (int d = 0; d < 3; ++d)
+          moment[d] += face.area * face.centre[d];
+      }
+  if (!(area > 0.))
+    return std::nullopt;
+  return fem::Vector3{moment[0] / area, moment[1] / area, moment[2] / area};
+}
+
 class Service final : public MeshService
 {
 public:
@@ -28,8 +50,13 @@ public:
   {
     fem::require_valid(frame.masses, frame.interfaces);
     const fem::GeometryReport geometry = fem::inspect_geometry(frame);
-    Inspection  result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
-                      geometry.notes, geometry.statements};
+    Inspection result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
+                      geometry.notes,
+                      geometry.statements,
+                      {}};
+    for (const fem::InterfaceSpecification &interface : frame.interfaces)
+      if (const auto centroid = centroid_of(interface, geometry))
+        result.centroids[interface.name] = *centroid;
     std::string between = "; surfaces: ";
     for (const auto &[name, faces] : geometry.surfaces)
     {
@@ -57,7 +84,7 @@ public:
         craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
     if (progress)
       progress("mesh error", -1.);
-    auto [text, warns] = mesh_statement(reduced, *discretisation.mesh_error, mesh);
+    auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);
     (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
     return {std::move(discretisation.matrices), std::move(reduced.frame)};
   }

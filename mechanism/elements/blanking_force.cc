@@ -52,7 +52,7 @@ void BlankingForce::accept(const LocalMotion &motion, double *history) const
 {
   // At a located contact the punch is a rounding error inside: no penetration to remember before the transition.
   const Branch branch = branch_of(history);
-  if (motion.by_history && (branch == elastic || branch == apart || branch == through))
+  if (motion.by_history && (branch == elastic || branch == apart))
     return;
   history[0] = std::max(history[0], motion.u[0] - parameters_.contact_at);
 }
@@ -153,7 +153,8 @@ std::vector<Quantity> BlankingForce::quantities() const
 
 double BlankingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  return i == 0 ? resistance(motion, history) : i == 1 ? motion.u[0] - parameters_.contact_at : history[0];
+  const double z = motion.u[0] - parameters_.contact_at;
+  return i == 0 ? resistance(motion, history) : i == 1 ? z : std::max(history[0], z);
 }
 
 } // namespace gestell::mechanism

@@ -76,6 +76,8 @@ public:
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
+  void                  open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  bool                  stiffens() const override { return parameters_.exponent > 1.; }
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
   double                stored_power(const LocalMotion &motion, const double *history) const override;
   double                penetration(const LocalMotion &motion) const override;

@@ -33,16 +33,26 @@ void ConnectingRod::start(const LocalMotion &motion, double *history) const
   history[0] = branch_at(compression(motion.u, gradient));
 }
 
-void ConnectingRod::engaged(const double *u, double *K, double *D) const
+void ConnectingRod::chain_matrices(const double *u, double stiffness, double damping, double *K, double *D) const
 {
   double g[3];
   compression(u, g);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
     {
-      K[i + 3 * j] = parameters_.stiffness * g[i] * g[j];
-      D[i + 3 * j] = (parameters_.damping + parameters_.oil_damping) * g[i] * g[j];
+      K[i + 3 * j] = stiffness * g[i] * g[j];
+      D[i + 3 * j] = damping * g[i] * g[j];
     }
+}
+
+void ConnectingRod::engaged(const double *u, double *K, double *D) const
+{
+  chain_matrices(u, parameters_.stiffness, parameters_.damping + parameters_.oil_damping, K, D);
+}
+
+void ConnectingRod::open_branch(const double *u, double *K, double *D) const
+{
+  chain_matrices(u, 0., parameters_.oil_damping, K, D);
 }
 
 bool ConnectingRod::closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const

@@ -58,6 +58,7 @@ public:
   int    n_history() const override { return 1; }
   void   start(const LocalMotion &motion, double *history) const override;
   void   engaged(const double *u, double *K, double *D) const override;
+  void   open_branch(const double *u, double *K, double *D) const override; ///< the oil film
   bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
   double size_of_terms() const override { return parameters_.crank_radius + parameters_.length; }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
@@ -131,6 +132,8 @@ private:
 
   double rate(const LocalMotion &motion) const;
   double deflection(const LocalMotion &motion, const double *history) const;
+  /// K and D of a spring and a damper along the chain.
+  void chain_matrices(const double *u, double stiffness, double damping, double *K, double *D) const;
 
   Parameters parameters_;
 };

@@ -24,6 +24,7 @@ public:
   }
 
   void                  engaged(const double *u, double *K, double *D) const override;
+  bool                  stiffens() const override { return parameters_.cubic > 0.; }
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
   double                stored_power(const LocalMotion &motion, const double *history) const override;
   std::vector<Quantity> quantities() const override;

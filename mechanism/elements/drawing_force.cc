@@ -41,7 +41,7 @@ void DrawingForce::accept(const LocalMotion &motion, double *history) const
 
 double DrawingForce::stored_energy(const LocalMotion &motion, const double *history) const
 {
-  const double d      = parameters_.stiffness * (path(motion) - history[0]);
+  const double d      = elastic_force(path(motion), history);
   const Branch branch = motion.by_history ? branch_of(history) : branch_at(d, history);
   const double F      = branch == elastic ? d : branch == flow ? parameters_.force : 0.;
   return 0.5 * F * F / parameters_.stiffness;
@@ -127,7 +127,11 @@ std::vector<Quantity> DrawingForce::quantities() const
 
 double DrawingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  return i == 0 ? resistance(motion, history) : i == 1 ? path(motion) : history[0];
+  if (i < 2)
+    return i == 0 ? resistance(motion, history) : path(motion);
+  const double z      = path(motion);
+  const Branch branch = motion.by_history ? branch_of(history) : branch_at(elastic_force(z, history), history);
+  return branch == flow ? z - rise() : history[0];
 }
 
 } // namespace gestell::mechanism

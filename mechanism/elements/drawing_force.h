@@ -38,9 +38,9 @@ public:
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    const Number elastic_force = parameters_.stiffness * (m.u[0] - parameters_.contact_at - history[0]);
-    const Branch branch        = m.by_history ? branch_of(history) : branch_at(value(elastic_force), history);
-    p[0] = branch == elastic ? Number(-elastic_force) : branch == flow ? Number(-parameters_.force) : Number(0.);
+    const Number d      = elastic_force(Number(m.u[0] - parameters_.contact_at), history);
+    const Branch branch = m.by_history ? branch_of(history) : branch_at(value(d), history);
+    p[0]                = branch == elastic ? Number(-d) : branch == flow ? Number(-parameters_.force) : Number(0.);
   }
 
   /// c, that of loading and unloading.
@@ -75,6 +75,12 @@ private:
            : elastic_force <= 0.                ? apart
            : elastic_force <= parameters_.force ? elastic
                                                 : flow;
+  }
+  /// c (z - z_p)
+  template <typename Number>
+  Number elastic_force(const Number &z, const double *history) const
+  {
+    return parameters_.stiffness * (z - history[0]);
   }
   double path(const LocalMotion &motion) const { return motion.u[0] - parameters_.contact_at; }
   double rise() const { return parameters_.force / parameters_.stiffness; }

@@ -30,29 +30,38 @@ void FormulaForce::engaged(const double *u, double *K, double *D) const
   structure(*u, nullptr, *K, *D);
 }
 
-void FormulaForce::stiffest(const double *u, double *K, double *D) const
+/// Each kink in turn on the side where K, or D, is larger, or smaller.
+void FormulaForce::extreme(bool largest, double u, double &K, double &D) const
 {
-  const double zero = 0.;
-  const int    n    = n_kinks();
+  const double zero = 0., sign = largest ? 1. : -1.;
+  const int    n = n_kinks();
   for (const bool damping : {false, true})
   {
-    double sides[Formula::max_kinks + 1], stiffness, rate;
-    start({0., u, &zero, &zero}, sides);
-    structure(*u, sides, stiffness, rate);
-    double &largest = damping ? rate : stiffness;
+    double sides[Formula::max_kinks + 1], both[2];
+    start({0., &u, &zero, &zero}, sides);
+    structure(u, sides, both[0], both[1]);
+    double best = both[damping];
     for (int i = 0; i < n; ++i)
     {
-      const double before = largest;
-      double       other[2];
       sides[i] = -sides[i];
-      structure(*u, sides, other[0], other[1]);
-      if (other[damping] > before)
-        largest = other[damping];
+      structure(u, sides, both[0], both[1]);
+      if (sign * both[damping] > sign * best)
+        best = both[damping];
       else
         sides[i] = -sides[i];
     }
-    (damping ? *D : *K) = largest;
+    (damping ? D : K) = best;
   }
+}
+
+void FormulaForce::stiffest(const double *u, double *K, double *D) const
+{
+  extreme(true, *u, *K, *D);
+}
+
+void FormulaForce::open_branch(const double *u, double *K, double *D) const
+{
+  extreme(false, *u, *K, *D);
 }
 
 // --- kinks

@@ -51,6 +51,9 @@ public:
   void engaged(const double *u, double *K, double *D) const override;
   /// Each kink in turn on the side where K, or D, is larger: right for a sum of terms with a kink each.
   void stiffest(const double *u, double *K, double *D) const override;
+  /// The same where they are least: of c max(0, u) + d u' the damper.
+  void open_branch(const double *u, double *K, double *D) const override;
+  bool stiffens() const override { return true; } ///< maybe; a formula may be anything
 
   /// history: side of each kink, -1 or 1; then 0, or no number once an accepted motion has left the range of a root:
   /// roots go on below zero beyond a kink, but not for good.
@@ -69,6 +72,7 @@ private:
   int          n_kinks() const { return parameters_.force.n_kinks(); }
   FormulaKinks kinks() const { return FormulaKinks(parameters_.force); }
   void         structure(double u, const double *sides, double &K, double &D) const;
+  void         extreme(bool largest, double u, double &K, double &D) const;
 
   Parameters parameters_;
 };

@@ -63,6 +63,8 @@ public:
   int  n_history() const override { return normal_.n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
   void engaged(const double *u, double *K, double *D) const override;
+  void open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  bool stiffens() const override { return normal_.stiffens(); }
 
   double             stored_energy(const LocalMotion &motion, const double *history) const override;
   double             stored_power(const LocalMotion &motion, const double *history) const override;

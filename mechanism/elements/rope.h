@@ -37,6 +37,7 @@ public:
   }
 
   void engaged(const double *u, double *K, double *D) const override;
+  void open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
 
   /// history: 1 taut, 0 slack.
   int                   n_history() const override { return 1; }

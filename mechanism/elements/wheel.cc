@@ -24,6 +24,14 @@ void Wheel::engaged(const double *, double *K, double *D) const
   D[0] = parameters_.damping;
 }
 
+void Wheel::open_branch(const double *u, double *K, double *D) const
+{
+  if (parameters_.bilateral)
+    engaged(u, K, D);
+  else
+    no_structure(K, D);
+}
+
 double Wheel::stored_energy(const LocalMotion &motion, const double *) const
 {
   const double d = deflection(motion);

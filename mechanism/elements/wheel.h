@@ -43,6 +43,7 @@ public:
   int    n_history() const override { return 1; }
   void   start(const LocalMotion &motion, double *history) const override;
   void   engaged(const double *u, double *K, double *D) const override;
+  void   open_branch(const double *u, double *K, double *D) const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   double stored_power(const LocalMotion &motion, const double *history) const override;
 

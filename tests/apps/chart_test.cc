@@ -280,6 +280,25 @@ TEST(OwnReference, HoldsForAMachineWithEventsToo)
   EXPECT_LT(reference.error, 0.01 * step_error);
 }
 
+// From 0.25 s on the force is no number: no method gets to the end.
+TEST(OwnReference, IsMissingWithAWordWhereNoMethodGetsToTheEnd)
+{
+  const Folder folder("no_reference");
+  folder.file("tiny.toml", tiny_scene("method = \"bdf\"\nstep = \"1 ms\"\n", false) +
+                               "[element.f]\ntype = \"formula force\"\nfrom = \"frame.a\"\ndirection = [1, 0, 0]\n"
+                               "force = \"1 N * sqrt(1 - 4*t/(1 s))\"\n");
+  const Scene                  scene   = read_scene((folder / "tiny.toml").string());
+  coupling::Machine            machine = build_machine(scene);
+  const coupling::InitialState initial = initial_state(scene, machine);
+  WorkProblem                  problem{machine, initial};
+  problem.signals = scene_signals(scene, machine);
+  problem.samples = {0.1, 0.5};
+  std::vector<std::string> notes;
+  EXPECT_EQ(own_reference(problem, notes).values.size(), 0);
+  ASSERT_GT(notes.size(), 2u); // each that was tried, and what is missing
+  EXPECT_NE(notes.back().find("no reference: errors are not known"), std::string::npos) << notes.back();
+}
+
 TEST(Measurement, OfAPeerGivesTheSameSignalsAsOurMethods)
 {
   if (!peers::peers_available())

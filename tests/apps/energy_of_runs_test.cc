@@ -68,21 +68,22 @@ std::vector<double> dissipated(const SceneRun &motion)
 
 TEST(EnergyOfRuns, AnIdealJointDissipatesNothingWhateverTheMethodErrs)
 {
-  for (const Settings &method : {Settings{"run.order=1"}, Settings{"run.order=2"}, Settings{"run.order=4"},
-                                 Settings{"run.method=generalised-alpha"}, Settings{"run.method=hht"}})
+  for (const char *method :
+       {"run.order=1", "run.order=2", "run.order=4", "run.method=generalised-alpha", "run.method=hht"})
   {
-    const SceneRun motion = run(pendulum, method);
+    const SceneRun motion = run(pendulum, {method, "run.force_unstable=true"}); // BDF 4 grows
     const auto    &energy = motion.result.energy;
-    EXPECT_EQ(energy.input, 0.) << method[0];
-    EXPECT_EQ(energy.dissipated, 0.) << method[0];
-    EXPECT_GE(energy.residual, std::abs(energy.stored)) << method[0];
+    EXPECT_EQ(energy.input, 0.) << method;
+    EXPECT_EQ(energy.dissipated, 0.) << method;
+    EXPECT_GE(energy.residual, std::abs(energy.stored)) << method;
   }
 }
 
 TEST(EnergyOfRuns, AMethodThatMakesEnergyEndsTheRunAndIsNamed)
 {
-  const SceneRun motion = run(pendulum, {"run.order=3"});
-  EXPECT_NE(motion.result.failure.find("came from nowhere: BDF 3 with a step of 0.1 s"), std::string::npos)
+  const SceneRun motion = run(ball, {"run.method=newmark"});
+  EXPECT_NE(motion.result.failure.find("came from nowhere: Newmark 0.25, 0.5 with a step of 0.001 s"),
+            std::string::npos)
       << motion.result.failure;
   EXPECT_NE(motion.result.failure.find("take a smaller step"), std::string::npos) << motion.result.failure;
   EXPECT_FALSE(motion.result.rows.empty());
@@ -104,8 +105,9 @@ TEST(EnergyOfRuns, AnElasticStopDissipatesNothingWhereTheStepGoesOverIt)
   for (const char *method : {"bdf", "newmark", "hht", "wilson"})
   {
     const SceneRun motion = run(ball, {std::string("run.method=") + method});
-    EXPECT_EQ(motion.result.energy.dissipated, 0.) << method;
-    EXPECT_GT(motion.result.energy.residual, 1.) << method;
+    const auto    &energy = motion.result.energy;
+    EXPECT_LE(energy.dissipated, 1e-12 * energy.exchanged) << method; // rounding of -p u' - dE/dt, step by step
+    EXPECT_GT(energy.residual, 1.) << method;
   }
 }
 

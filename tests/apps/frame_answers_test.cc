@@ -11,6 +11,23 @@ namespace gestell::tests
 namespace
 {
 
+// The crank turns about the middle of its bearing, which the CAD file tells.
+TEST(Portal, ClosesAtEveryAngleWhereItsInterfacesAre)
+{
+  for (int k = 0; k < 8; ++k)
+  {
+    const Answer answer = gestell("check " + scene("portal_slider_crank.toml") + " --set start.q.crank='\"" +
+                                  std::to_string(45 * k) + " deg\"'");
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    EXPECT_FALSE(answer.says("warning")) << answer.text;
+    EXPECT_FALSE(answer.says("closed when the frame is made")) << answer.text;
+  }
+  const Answer open =
+      gestell("check " + scene("portal_slider_crank.toml") + " --set parameters.l='\"60 mm\"'"); // below r
+  EXPECT_EQ(open.exit_code, 2) << open.text;
+  EXPECT_TRUE(open.says("stays open")) << open.text;
+}
+
 /// A block of 0.2 x 0.1 x 1 m with a mass of 8 kg on a spring above.
 std::string block(const std::string &more)
 {
@@ -81,6 +98,19 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }
 
+TEST_F(FrameAnswers, AFrameThatNothingHoldsIsToldToFall)
+{
+  const Answer falls = ask("run", block(""));
+  ASSERT_EQ(falls.exit_code, 0) << falls.text;
+  EXPECT_EQ(count(falls.text, "scene.toml:3: frame: nothing holds the frame as a whole at the start, so that it falls"),
+            1)
+      << falls.text;
+  const std::string springs = "[element.z]\ntype = \"spring-damper\"\nfrom = \"frame.top\"\nto = \"ground\"\n"
+                              "direction = [0, 0, 1]\nstiffness = \"1 kN/mm\"\n";
+  EXPECT_TRUE(ask("run", block(springs)).says("nothing holds the frame as a whole")); // five ways are left
+  EXPECT_FALSE(ask("run", block(support)).says("nothing holds"));
+}
+
 TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
 {
   std::string scene = block(support);
@@ -129,6 +159,33 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
   const Answer broken = ask("check", scene);
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_TRUE(broken.says("block.step")) << broken.text;
+}
+
+TEST_F(FrameAnswers, AScriptThatRunsProgramsIsRefusedUnlessItIsTrusted)
+{
+  const std::string did   = (folder_ / "did").string();
+  std::string       scene = block(support);
+  scene.replace(scene.find("block.geo"), 9, "other.geo");
+  const std::string script =
+      folder_.file("other.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n"
+                                "SystemCall \"touch '" +
+                                    did + "'\";\n");
+  for (const Answer &answer : {ask("check", scene), ask("run", scene), gestell("mesh " + script)})
+  {
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says("other.geo:3: SystemCall runs a program")) << answer.text;
+    EXPECT_FALSE(std::filesystem::exists(did));
+  }
+  const Answer trusted = ask("check", scene, " --trust-scripts");
+  EXPECT_EQ(trusted.exit_code, 0) << trusted.text;
+  EXPECT_TRUE(std::filesystem::exists(did));
+}
+
+TEST_F(FrameAnswers, AConvergenceKeepsTheRowsOfItsMeshes)
+{
+  const Answer answer = ask("modes", block(support), " --converge 1e-4 --max-coordinates 6000");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_GE(count(read(folder_.results() / "mesh_convergence.csv"), "\n"), 3);
 }
 
 TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)

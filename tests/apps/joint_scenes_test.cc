@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 
 namespace gestell::tests
 {
@@ -48,6 +49,36 @@ TEST(DoubleFourBar, RockersStandWhereTheLoopsCloseAndEnergyIsKept)
   EXPECT_GT(run.signal("crank").max, 6. * M_PI); // three turns and more
   EXPECT_LT(error, 1e-9);
   EXPECT_LT(run.result.energy.residual, 1e-5 * run.result.energy.input);
+}
+
+TEST(ShippedScenes, CloseAtEveryAngleOfTheirCrankAndWarnOfNothing)
+{
+  namespace fs = std::filesystem;
+  int scenes   = 0;
+  for (const auto &entry : fs::recursive_directory_iterator(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes"))
+  {
+    if (entry.path().extension() != ".toml")
+      continue;
+    SCOPED_TRACE(entry.path().filename());
+    const auto check = [&](const std::vector<std::string> &settings)
+    {
+      const apps::Scene        scene    = apps::read_scene(entry.path().string(), settings);
+      std::vector<std::string> warnings = scene.warnings, found = apps::check_scene(scene);
+      warnings.insert(warnings.end(), found.begin(), found.end());
+      EXPECT_EQ(warnings, std::vector<std::string>{});
+      const bool prescribed =
+          std::any_of(scene.joints.begin(), scene.joints.end(), [](const auto &joint) { return joint.law != nullptr; });
+      return !prescribed && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                        [](const auto &body)
+                                        { return body.name == "crank" && body.kind == coupling::BodyKind::rotor; });
+    };
+    if (!check({}))
+      continue;
+    ++scenes;
+    for (int k = 0; k < 8; ++k)
+      EXPECT_NO_THROW(check({"start={rule=\"given\", q={crank=\"" + std::to_string(45 * k) + " deg\"}}"})) << k;
+  }
+  EXPECT_GE(scenes, 7);
 }
 
 TEST(Crane, IsDrawnWithARopeAndACylinderOfTheirLengths)

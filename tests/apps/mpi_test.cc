@@ -98,7 +98,8 @@ double difference(const coupling::ReducedFrame &frame, const coupling::ReducedFr
                   (frame.omega0.cwiseQuotient(alone.omega0).array() - 1.).abs().maxCoeff());
 }
 
-constexpr double same = 1e-10; // rounding of factors made in another order, amplified by the condition of C22
+constexpr double same =
+    1e-9; // rounding of factors made in another order, amplified by the condition of C22, 1e6 and more
 
 /// A block with a bore and a pad, whose cells have curved sides.
 std::string bored(const Folder &folder)
@@ -203,7 +204,7 @@ TEST(Mpi, WrongInputIsToldOnceAndEndsAllRanks)
   const Answer answer = call(folder, ranks(2), "reduce " + plate(folder) + " --set reduction.modes=-3");
   EXPECT_EQ(answer.exit_code, 2) << answer.text;
   EXPECT_EQ(count(answer.text, "gestell: "), 1) << answer.text;
-  EXPECT_EQ(count(call(folder, ranks(2), "dance").text, "Run with --help"), 1);
+  EXPECT_EQ(count(call(folder, ranks(2), "dance").text, "there is no command 'dance'"), 1);
 }
 
 TEST(Mpi, AFrameWithALoosePartIsToldOnceAndEndsAllRanks)

@@ -1,6 +1,7 @@
 // Matrices of other programs: what a table of nodes adds, and what is refused or warned of.
 
 #include "apps/scene/build_machine.h"
+#include "apps/scene/matrix_units.h"
 #include "coupling/dense_frame.h"
 #include "scene_text.h"
 
@@ -147,6 +148,74 @@ TEST_F(NodeTable, UnitsThatCannotBeAreWarnedOf)
   expect(warning(at("2"), scaled(0.5, 1e5)), {"lighter than the air", "tonnes"}); // 1 kg in 2 m^3
   expect(warning(at("2"), scaled(5e4, 1e5)), {"heavier than any metal"});
   expect(warning(at("2"), scaled(500., 1e11)), {"interface top", "N mm"});
+}
+
+/// A steel rod of 0.01 m^2 in pieces of 0.1 m, clamped at one end, free at the other; units of mass and stiffness.
+fem::FrameMatrices rod(double kg, double newton_per_metre, std::vector<fem::Interface> &nodes)
+{
+  constexpr int      n = 30;
+  fem::FrameMatrices frame;
+  frame.M.resize(n, n);
+  frame.C.resize(n, n);
+  for (int i = 0; i < n; ++i)
+  {
+    frame.M.insert(i, i) = 7.85 * (i < n - 1 ? 1. : 0.5) / kg;
+    frame.C.insert(i, i) = 2.1e10 * (i < n - 1 ? 2. : 1.) / newton_per_metre;
+    if (i > 0)
+      frame.C.insert(i - 1, i) = frame.C.insert(i, i - 1) = -2.1e10 / newton_per_metre;
+    nodes.push_back({"", {0.1 * (i + 1), 0., 0.}, {i, -1, -1, -1, -1, -1}});
+  }
+  frame.interfaces = {nodes.back()};
+  frame.picture.points.resize(1); // the clamped end
+  return frame;
+}
+
+TEST_F(NodeTable, SpeedOfWavesAndTheLowestFrequencyTellMassesInTonnes)
+{
+  for (const double kg : {1., 1000.})
+  {
+    std::vector<fem::Interface> nodes;
+    const fem::FrameMatrices    frame = rod(kg, 1., nodes);
+    const auto                  units = apps::suspect_units(frame, nodes);
+    // A rod is the stiffest body of its length: its lowest frequency is c / 4 L, and 32 times that none has.
+    coupling::ReducedFrame reduced;
+    reduced.points              = frame.picture.points;
+    reduced.interfaces          = frame.interfaces;
+    reduced.frequencies_hz      = Eigen::Vector2d(0., std::sqrt(2.1e11 / 7850. * kg) / 12.);
+    const std::string frequency = apps::suspect_frequency(reduced);
+    EXPECT_EQ(units.size(), kg > 1. ? 1u : 0u);
+    EXPECT_EQ(frequency.empty(), kg == 1.) << frequency;
+    if (kg > 1.)
+    {
+      expect(units.at(0), {"waves", "tonnes"});
+      expect(frequency, {"tonnes"});
+    }
+  }
+  // Tonnes and N/mm fit: frequencies are right, and so is the speed.
+  std::vector<fem::Interface> nodes;
+  const fem::FrameMatrices    consistent = rod(1000., 1000., nodes);
+  EXPECT_TRUE(apps::suspect_units(consistent, nodes).empty());
+}
+
+TEST_F(NodeTable, MassAndStiffnessExchangedAreToldByFrequenciesNoFrameHas)
+{
+  const auto warnings = read(table, "nodes = \"nodes.csv\"\n",
+                             "stiffness = [[100, 0, 0, 0], [0, 5, 0, 0], [0, 0, 100, 0], [0, 0, 0, 5]]\n"
+                             "mass      = [[2e6, 0, -1e6, 0], [0, 3e5, 0, 0], [-1e6, 0, 1e6, 0], [0, 0, 0, 2e5]]\n")
+                            .warnings;
+  ASSERT_FALSE(warnings.empty());
+  expect(warnings[0], {"0.00159 Hz", "exchanged"});
+}
+
+TEST_F(NodeTable, AMassThatCountsNamedRowsOnlyIsNotThatOfTheFrame)
+{
+  const std::string some = "[frame.interface.top]\nrows = { uz = 3 }\n";
+  const auto        part = read(table, some).frame.matrices;
+  EXPECT_EQ(part.mass, 0.);
+  ASSERT_EQ(part.statements.size(), 1u);
+  expect(part.statements[0], {"not known", "translations", "total_mass"});
+  EXPECT_EQ(read(table, "total_mass = \"250 kg\"\n" + some).frame.matrices.mass, 250.);
+  EXPECT_EQ(read(table).frame.matrices.mass, 200.) << "every row is that of a node";
 }
 
 } // namespace

@@ -134,12 +134,15 @@ TEST(Tables, ModesOfFrameAndMachineAreNumberedSeparately)
 {
   Result result                         = example_result();
   result.coupled_modes[0].damping_ratio = std::nan("");
+  result.frame_modes[1].refined_hz      = 84.5;
   const auto lines                      = lines_of(modes_csv(result));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0], "mode,frequency [Hz],damped frequency [Hz],damping ratio,effective mass x [kg],effective mass y "
-                      "[kg],effective mass z [kg],kind,growth [1/s]");
+                      "[kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]");
   EXPECT_EQ(lines[2].substr(0, 5), "2,85,");
   EXPECT_EQ(lines[3].substr(0, 19), "1,11.58486756566711");
+  EXPECT_EQ(lines[2].substr(lines[2].rfind(',')), ",84.5");
+  EXPECT_EQ(lines[3].substr(lines[3].rfind(',')), ",nan") << "of the coupled machine none is known";
   EXPECT_NE(lines[3].find(",nan,100,0,0.6666666666666666,coupled"), std::string::npos);
 }
 
@@ -148,9 +151,18 @@ TEST(Tables, SummaryHasEveryMemberOfTheContractEvenWithoutARun)
   Result result = example_result();
   result.run.reset();
   const std::string json = summary_json(result);
-  for (const char *member : {"scene", "version", "model", "frequencies_hz", "signals", "events", "method", "accuracy",
-                             "work", "wall_s", "energy", "warnings"})
+  for (const char *member : {"scene", "version", "commit", "asked", "model", "frequencies_hz", "signals", "events",
+                             "method", "accuracy", "work", "wall_s", "energy", "warnings"})
     EXPECT_NE(json.find("\n  \"" + std::string(member) + "\": "), std::string::npos) << member;
+}
+
+TEST(Tables, RefinedFrequenciesStandBesideTheReducedOnes)
+{
+  Result result                    = example_result();
+  result.frame_modes[1].refined_hz = 84.5;
+  const std::string json           = summary_json(result);
+  EXPECT_NE(json.find("\"frame_frequencies_hz\": [\n    20,\n    85\n  ]"), std::string::npos);
+  EXPECT_NE(json.find("\"frame_refined_frequencies_hz\": [\n    null,\n    84.5\n  ]"), std::string::npos);
 }
 
 TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)

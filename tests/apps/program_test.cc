@@ -182,6 +182,51 @@ TEST(Program, MissingSceneIsWrongInput)
   EXPECT_EQ(gestell("dance").exit_code, 2);
 }
 
+TEST(Program, ASlipOnTheCommandLineIsAnsweredWithTheNearestWord)
+{
+  const auto expect = [](const std::string &arguments, const std::string &message)
+  {
+    const Answer answer = gestell(arguments);
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says(message)) << answer.text;
+  };
+  expect("chekc a.toml", "there is no command 'chekc'; did you mean 'check'?");
+  expect("foo", "there is no command 'foo'; valid: 'run', 'modes'");
+  expect("check --qiuet a.toml", "there is no option --qiuet; did you mean '--quiet'?");
+  expect("check a.toml b.toml", "'b.toml' is one input too many");
+}
+
+/// The text behind "name": in the object that `of` opens.
+std::string member(const std::string &json, const std::string &of, const std::string &name)
+{
+  const auto        object = json.find("\n  \"" + of + "\": {");
+  const std::string key    = "\n    \"" + name + "\": ";
+  const auto        begin  = json.find(key, object) + key.size();
+  return object == std::string::npos ? "no " + of : json.substr(begin, json.find_first_of("\n", begin) - begin);
+}
+
+TEST(Program, SummaryTellsWhatWasAskedAndWhatWasRun)
+{
+  const Folder folder("asked");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() +
+                    "--set run.end=0.25 --set run.step='\"0.25 ms\"'")
+                .exit_code,
+            0);
+  const std::string json = read(folder.results() / "summary.json");
+  EXPECT_NE(member(json, "asked", "file").find("press_minimal.toml\","), std::string::npos);
+  EXPECT_NE(json.find("\"set\": [\n      \"run.end=0.25\",\n      \"run.step=\\\"0.25 ms\\\"\"\n    ]"),
+            std::string::npos);
+  EXPECT_EQ(member(json, "asked", "method"), "\"BDF 2\",");
+  EXPECT_EQ(member(json, "asked", "tolerance"), "null,");
+  EXPECT_EQ(member(json, "asked", "step"), "0.00025,");
+  EXPECT_EQ(member(json, "asked", "end"), "0.25,");
+  EXPECT_EQ(member(json, "asked", "events"), "true");
+  EXPECT_EQ(member(json, "outcome", "end"), "0.25,");
+  EXPECT_EQ(member(json, "outcome", "complete"), "true,");
+  EXPECT_EQ(member(json, "outcome", "failure"), "null");
+  EXPECT_NE(json.find("\n  \"commit\": "), std::string::npos);
+}
+
 TEST(Program, FolderThatCannotBeWrittenIsToldBeforeComputing)
 {
   const Folder      folder("unwritable");
@@ -323,6 +368,11 @@ x = "-frame.top.uz"
   EXPECT_TRUE(answer.says("residual")) << answer.text;
   EXPECT_TRUE(answer.says("frame.top.uz")) << answer.text;
   EXPECT_GT(read(folder.results() / "history.csv").size(), 200u);
+  const std::string summary = read(folder.results() / "summary.json");
+  EXPECT_EQ(member(summary, "outcome", "complete"), "false,");
+  EXPECT_NE(member(summary, "outcome", "failure").find("t = "), std::string::npos);
+  EXPECT_LT(std::stod(member(summary, "outcome", "end")), 1.);
+  EXPECT_EQ(member(summary, "asked", "end"), "1,");
 }
 
 } // namespace

@@ -173,6 +173,7 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                                                   {"max(1)", "arguments"},
                                                                   {"1/0", "zero"},
                                                                   {"sqrt(-1)", "negative"},
+                                                                  {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
                                                                   {"2 $ 3", "'$'"},
                                                                   {"1e999", "range"},
                                                                   {"10^400", "finite"},
@@ -211,11 +212,120 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
 TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
 {
   EXPECT_NE(complaint("5 Hz", kind::angular_speed).find("turns"), std::string::npos);
-  EXPECT_NE(complaint("30/min", kind::angular_speed).find("turns"), std::string::npos);
   EXPECT_NE(complaint("30 rad/s", kind::frequency).find("radians"), std::string::npos);
+  EXPECT_NE(complaint("3 N m/Hz", kind::torsional_damping).find("turns"), std::string::npos);
   EXPECT_EQ(complaint("30 rad/s", kind::angular_speed), "no error");
   EXPECT_EQ(complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "no error");
   EXPECT_EQ(complaint("50 Hz", kind::frequency), "no error");
+}
+
+class TurnsPerMinute : public ::testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(TurnsPerMinute, AreTheSameTurnsOfAShaftInEverySpelling)
+{
+  const std::string text = GetParam();
+  EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 50. * pi, 1e-13 * 50. * pi);
+  EXPECT_NEAR(value_as(read(text), kind::frequency, text), 25., 1e-13 * 25.);
+  EXPECT_NE(complaint(text, kind::number), "no error");
+}
+
+INSTANTIATE_TEST_SUITE_P(Spellings, TurnsPerMinute,
+                         ::testing::Values("1500 1/min", "1500/min", "1500 /min", "1500/(min)", "1500/(1 min)",
+                                           "1500 min^-1", "1500 min⁻¹", "1500 · min⁻¹", "1500 * min^-1", "1500*(1/min)",
+                                           "1500 rpm", "1500 r/min", "1500 rev/min", "1500 U/min", "1500 U / min",
+                                           "25 r/s", "25 U/s", "3*500/min", "3*(500 1/min)", "1e3 1/min + 500 rpm",
+                                           "max(0, 1500/min)", "if(m1 > 1 t, 1500 rpm, 0)", "500*plain/min",
+                                           "plain*(500 1/min)", "3000 1/min/s * 0.5 s"));
+
+/// 1500 per minute could be 25 turns or 25 radians a second; 2 pi decides, and no check of dimensions sees it.
+TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
+{
+  for (const std::string text :
+       {"1500/min*crank_radius", "crank_radius*1500 rpm", "3 N m/(1500/min)", "3 N m/rpm", "2*pi*(1500/min)",
+        "(2*pi*1500) 1/min", "1/(1500/min)", "(1500/min)^2", "sqrt(9 1/min)", "exp(1500/min * 1 s)", "3/min + 2 Hz",
+        "3/min + 2 1/s", "sin((2 s)*1500/min)", "(3 rpm)*(2 rpm)", "2 rad * 3 rpm"})
+    EXPECT_NE(complaint(text), "no error") << text;
+  for (const std::string text : {"2*pi*1500/min", "pi/30*1500/min", "1500/(2 min)", "2 s * 1500/(1 s min)"})
+    EXPECT_NE(complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
+  EXPECT_NE(complaint("(3 s)*1500/min", kind::angle).find("may count turns"), std::string::npos);
+  EXPECT_NE(complaint("3 N m/min^-1", kind::torsional_damping).find("may count turns"), std::string::npos);
+  EXPECT_EQ(complaint("100 mm/min", kind::speed), "no error");
+  EXPECT_EQ(complaint("2 rad/min", kind::angular_speed), "no error");
+  EXPECT_EQ(complaint("1500/(2 min)", kind::frequency), "no error"); // turns or not
+  EXPECT_EQ(complaint("(3 min)/(2 min)", kind::number), "no error");
+  EXPECT_EQ(complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "no error");
+  EXPECT_NE(complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "no error");
+}
+
+TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
+{
+  EXPECT_NEAR(read("(1500 rpm)/(50 rad/s)").value, pi, 1e-14); // a ratio of speeds
+  EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);
+  EXPECT_NEAR(read("sin(15 rpm * 1 s)").value, 1., 1e-14); // a quarter of a turn
+  EXPECT_NEAR(value_as(read("30 rpm + 1 rad/s"), kind::angular_speed, ""), pi + 1., 1e-14);
+  EXPECT_NE(complaint("30 rpm + 1 rad/s", kind::frequency).find("radians"), std::string::npos);
+  EXPECT_NEAR(value_as(read("30 1/min * 2 s"), kind::angle, ""), 2. * pi, 1e-14);
+}
+
+TEST(Quantity, SignsOfATypesetTextMeanWhatTheyShow)
+{
+  EXPECT_DOUBLE_EQ(read("3 m·s⁻²").value, 3.);
+  EXPECT_DOUBLE_EQ(read("2×3 mm²").value, 6e-6);
+  EXPECT_DOUBLE_EQ(read("30 μm").value, 30e-6); // the Greek letter
+  EXPECT_DOUBLE_EQ(read("−3 mm").value, -3e-3);
+  EXPECT_DOUBLE_EQ(read("2*π").value, 2. * pi);
+  EXPECT_DOUBLE_EQ(read("3\u00a0mm").value, 3e-3); // a space that does not break
+  EXPECT_NE(complaint("3 mm⁻").find("raised sign"), std::string::npos);
+  EXPECT_NE(complaint("3 Ω").find("'Ω', which has no meaning"), std::string::npos); // the whole character
+}
+
+TEST(Quantity, ADecimalCommaIsNamed)
+{
+  EXPECT_NE(complaint("1,5 mm").find("has a decimal comma; write 1.5 (character 2)"), std::string::npos);
+  EXPECT_NE(complaint("2*(1,5 mm)").find("decimal comma"), std::string::npos);
+  EXPECT_DOUBLE_EQ(read("max(1,5)").value, 5.); // two arguments
+}
+
+TEST(Quantity, AProposedUnitMakesSenseInItsPlace)
+{
+  const auto proposed = [](const std::string &text, const Kind &kind)
+  {
+    try
+    {
+      parse_quantity(text, parameter, {}, &kind);
+    }
+    catch (const std::invalid_argument &e)
+    {
+      const std::string message = e.what(), before = "did you mean '";
+      const auto        begin = message.find(before);
+      return begin == std::string::npos
+                 ? message
+                 : message.substr(begin + before.size(),
+                                  message.find('\'', begin + before.size()) - begin - before.size());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(proposed("3 KJ", kind::torque), "kJ");
+  EXPECT_EQ(proposed("3 Mn", kind::force), "MN");
+  EXPECT_NE(proposed("3 Mn", kind::length), "MN"); // the nearest, but no length
+  EXPECT_EQ(proposed("3 N/mm2", kind::pressure), "mm^2");
+  EXPECT_EQ(proposed("3 Nmm", kind::torque), "N mm");
+  EXPECT_NE(proposed("3 parsec", kind::length).find("unknown unit 'parsec'; a length is given as \"40 mm\""),
+            std::string::npos);
+  EXPECT_NE(proposed("3 RPM", kind::angular_speed).find("rpm"), std::string::npos);
+}
+
+TEST(Quantity, UnitsOfTheWorkshopAreThoseOfTheirStandards)
+{
+  EXPECT_DOUBLE_EQ(read("3 in").value, 0.0762);
+  EXPECT_DOUBLE_EQ(read("3 kp").value, 29.41995);
+  EXPECT_DOUBLE_EQ(read("3 lb").value, 1.36077711);
+  EXPECT_NEAR(read("3 lbf").value, 13.3446648458, 1e-9);
+  EXPECT_NEAR(read("3 psi").value, 20684.27188, 1e-5);
+  EXPECT_NEAR(read("3 PS").value, 2206.49625, 1e-9);
+  EXPECT_NE(complaint("3 lb", kind::force), "no error"); // a mass
 }
 
 TEST(Quantity, MatrixEntriesMayCarryPowersOfAMetreForRotations)

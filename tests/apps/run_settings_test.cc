@@ -139,5 +139,38 @@ TEST(RunSettings, AStepLongerThanTheLoadsPeriodIsToldByCheck)
   EXPECT_NE(told.find("400 Hz"), std::string::npos) << told;
 }
 
+coupling::MethodOptions overridden(const std::string &run, const std::vector<std::string> &overrides)
+{
+  const test::SceneFolder folder;
+  return apps::read_scene(folder.write("scene.toml", small_scene("step = \"10 us\"", run)), overrides)
+      .run.options.method;
+}
+
+// The tolerance and its largest step belong to the method that controls its step.
+TEST(RunSettings, AToleranceGoesWithTheMethodThatCanHoldIt)
+{
+  const std::string controlled = "method = \"exact\"\ntolerance = 1e-6\nstep = \"1 ms\"";
+  for (const std::string &method : {"newmark", "wilson", "hht", "generalised-alpha", "central-difference"})
+  {
+    const auto o = overridden(controlled, {"run.method=" + method, "run.step=20 us"});
+    EXPECT_EQ(o.tolerance, 0.) << method;
+    EXPECT_DOUBLE_EQ(o.step, 2e-5) << method;
+    EXPECT_DOUBLE_EQ(overridden(controlled, {"run.step=20 us", "run.method=" + method}).step, 2e-5) << method;
+    try
+    {
+      overridden(controlled, {"run.method=" + method});
+      ADD_FAILURE() << method << " without a step";
+    }
+    catch (const std::invalid_argument &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("needs 'step'"), std::string::npos) << error.what();
+    }
+  }
+  const auto bdf = overridden(controlled, {"run.method=bdf"});
+  EXPECT_EQ(bdf.tolerance, 1e-6);
+  EXPECT_DOUBLE_EQ(bdf.step, 1e-3);
+  EXPECT_DOUBLE_EQ(overridden("method = \"bdf\"\nstep = \"30 us\"", {"run.method=newmark"}).step, 3e-5);
+}
+
 } // namespace
 } // namespace gestell::tests

@@ -1,10 +1,13 @@
 // The guard before a run: modes of small machines laid over the unstable intervals of the methods.
 
 #include "coupling/integration/stability.h"
+#include "coupling/simulation.h"
 #include "coupling/stability_guard.h"
 #include "fem/two_pi.h"
 #include "mechanism/elements/clearance.h"
+#include "tests/coupling/linear_joint.h"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +74,8 @@ std::string refusal(const Machine &machine, const MethodOptions &options)
 {
   try
   {
-    check_stability(mode_accuracy(machine, at_rest(machine), options), options);
+    const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
+    StabilityGuard(spectrum, options).check();
   }
   catch (const std::invalid_argument &error)
   {
@@ -105,8 +109,8 @@ TEST(StabilityGuard, TheStepItOffersWorks)
   const Machine machine = sliders({{40., 0.02}, {150., 0.01}, {700., 0.015}});
   for (const MethodOptions &o : {bdf(3, 1e-3), bdf(4, 1e-3), bdf(6, 2e-3), of(Method::central_difference, 1e-3)})
   {
-    const auto   modes = mode_accuracy(machine, at_rest(machine), o);
-    const double step  = largest_stable_step(modes, o);
+    const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
+    const double         step     = StabilityGuard(spectrum, o).largest_stable_step();
     ASSERT_GT(step, 0.) << method_name(o);
     ASSERT_LT(step, o.step);
     EXPECT_FALSE(refusal(machine, o).empty());
@@ -178,9 +182,10 @@ TEST(StabilityGuard, ClosedContactsCountToo)
   EXPECT_EQ(refusal(machine, of(Method::central_difference, 1.99 / closed)), "");
 
   // Exact propagation: a warning only, and only for a force that is not the mean one.  The contact alone counts.
-  MethodOptions exact = of(Method::exact, 3.47 / std::sqrt(5e7));
-  exact.force         = ForceRule::linear;
-  const auto warnings = [&] { return stability_warnings(mode_accuracy(machine, at_rest(machine), exact), exact); };
+  MethodOptions exact           = of(Method::exact, 3.47 / std::sqrt(5e7));
+  exact.force                   = ForceRule::linear;
+  const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
+  const auto           warnings = [&] { return StabilityGuard(spectrum, exact).warnings(); };
   EXPECT_EQ(refusal(machine, exact), "");
   ASSERT_EQ(warnings().size(), 1u);
   EXPECT_TRUE(says(warnings()[0], "omega h > 3.46")) << warnings()[0];
@@ -193,8 +198,9 @@ TEST(StabilityGuard, ClosedContactsCountToo)
 
 TEST(StabilityGuard, AccuracyOfEveryMode)
 {
-  const Machine machine = sliders({{20., 0.02}, {300., 0.01}}, 1e8);
-  const auto    modes   = mode_accuracy(machine, at_rest(machine), bdf(2, 1e-4));
+  const Machine        machine  = sliders({{20., 0.02}, {300., 0.01}}, 1e8);
+  const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
+  const auto           modes    = StabilityGuard(spectrum, bdf(2, 1e-4)).modes();
   ASSERT_EQ(modes.size(), 4u); // two open, two closed
   EXPECT_NEAR(modes[0].mode.omega, two_pi * 20., 1e-9);
   EXPECT_NEAR(modes[1].omega_h, two_pi * 0.03, 1e-12);
@@ -205,11 +211,177 @@ TEST(StabilityGuard, AccuracyOfEveryMode)
   // Under exact propagation the open machine has no error at all, the closed one that of its contact.
   MethodOptions exact = of(Method::exact, 1e-4);
   exact.force         = ForceRule::average;
-  const auto carried  = mode_accuracy(machine, at_rest(machine), exact);
+  const auto carried  = StabilityGuard(spectrum, exact).modes();
   EXPECT_EQ(carried[0].period_error, 0.);
   EXPECT_EQ(carried[1].numerical_damping, 0.);
   EXPECT_NEAR(carried[2].period_error, 0., 1e-12); // 300 Hz takes no part in the contact
   EXPECT_GT(carried[3].period_error, 1e-3);
+}
+
+// --- joints
+
+/// A slider of 1 kg on a spring, geared to another one: their motions are alike but for the sign.
+Machine geared(double stiffness, double other_mass)
+{
+  Machine   machine;
+  const int a = machine.add_slider("a", {1., 0., 0.}, 1., "ground"),
+            b = machine.add_slider("b", {1., 0., 0.}, other_mass, "ground");
+  machine.add_linear("spring", {{a, 1.}}, stiffness, 0., 0., 0., "N");
+  machine.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., 1.}), {{{a, 1.}}, {{b, 1.}}});
+  machine.finish();
+  return machine;
+}
+
+TEST(StabilityGuard, TakesTheModesThatIdealJointsLeave)
+{
+  const Machine        machine  = geared(1e8, 99.); // 1591.5 Hz without its gear, 159.15 Hz with it
+  const double         omega    = std::sqrt(1e8 / 100.);
+  const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
+  const auto           modes    = StabilityGuard(spectrum, bdf(2, 1e-5)).modes();
+  ASSERT_EQ(modes.size(), 1u);
+  EXPECT_NEAR(modes[0].mode.omega, omega, 1e-9 * omega);
+
+  // BDF 3 grows for 0 < omega h < 1.936: with its gear the machine grows where it would not without, and is stable
+  // where it would grow.
+  EXPECT_TRUE(says(refusal(machine, bdf(3, 1. / omega)), "(159.15 Hz, damping ratio 0)"));
+  EXPECT_EQ(refusal(machine, bdf(3, 2. / omega)), "");
+  EXPECT_EQ(refusal(geared(1e4, 0.01), bdf(3, 0.0196)), "");
+  EXPECT_TRUE(says(refusal(geared(1e4, 0.01), bdf(3, 0.0193)), "unstable"));
+}
+
+TEST(StabilityGuard, NewmarkNeedsDampedJoints)
+{
+  const Machine machine = geared(1e8, 99.);
+  MethodOptions newmark = of(Method::newmark, 1e-5);
+  newmark.gamma         = 0.7;
+  newmark.beta          = 0.36;
+  EXPECT_NO_THROW(make_integrator(machine, newmark));
+  for (const double beta : {0.2, 0.35})
+  {
+    newmark.beta = beta;
+    EXPECT_THROW(make_integrator(machine, newmark), std::invalid_argument) << beta;
+  }
+}
+
+// --- dampers
+
+/// Two sliders of 1 kg on springs of 100 Hz with another between them; the first one has a damper.
+Machine one_damped(double damping)
+{
+  Machine   machine;
+  const int a    = machine.add_slider("a", {1., 0., 0.}, 1., "ground"),
+            b    = machine.add_slider("b", {1., 0., 0.}, 1., "ground");
+  const double c = std::pow(two_pi * 100., 2);
+  machine.add_linear("spring a", {{a, 1.}}, c, damping, 0., 0., "N");
+  machine.add_linear("spring b", {{b, 1.}}, c, 0., 0., 0., "N");
+  machine.add_linear("spring", {{a, 1.}, {b, -1.}}, 0.2 * c, 0., 0., 0., "N");
+  machine.finish();
+  return machine;
+}
+
+TEST(StabilityGuard, ADamperDoesNotReachWhatItHoldsStill)
+{
+  // A strong damper holds the first mass; the second one swings undamped against it, while v^T B v gives both modes a
+  // high damping ratio.
+  const Machine machine = one_damped(1e6);
+  const double  omega   = two_pi * 100. * std::sqrt(1.2);
+
+  MethodOptions wilson = of(Method::wilson, 0.);
+  wilson.theta         = 1.2;
+  const auto limit     = unstable_intervals(wilson, 0.).at(0).from;
+  wilson.step          = 1.01 * limit / omega;
+  EXPECT_TRUE(says(refusal(machine, wilson), "unstable"));
+  wilson.step = 0.99 * limit / omega;
+  EXPECT_EQ(refusal(machine, wilson), "");
+
+  MethodOptions newmark = of(Method::newmark, 0.);
+  newmark.gamma         = 0.45; // grows from omega h = 2 zeta / 0.05 on: with all of the damping at 250
+  newmark.step          = 0.1 / omega;
+  EXPECT_TRUE(says(refusal(machine, newmark), "unstable"));
+  EXPECT_TRUE(says(refusal(machine, bdf(4, 1. / omega)), "unstable"));
+}
+
+TEST(DampedModes, AreThoseOfTheWholeStateMatrix)
+{
+  // Eight modes, in pairs that dampers couple hardly, strongly, and so that they do not vibrate.
+  const Eigen::Index p = 8;
+  DenseModes         modes{Eigen::VectorXd(p), Eigen::MatrixXd::Identity(p, p), Eigen::VectorXd::Zero(p)};
+  modes.omega << 0., 10., 11., 50., 200., 201., 3000., 1e5;
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(p, 3);
+  w.col(0) << 0., 1., 1., 0.1, 0.1, 0., 1., 1.;
+  w.col(1) << 0., 0., 0., 5., 5., -5., 0., 0.;
+  w.col(2) << 0.2, 0., 0., 0., 0., 30., 30., 2.;
+  const Eigen::MatrixXd B = w * w.transpose();
+
+  Eigen::MatrixXd A(2 * p, 2 * p);
+  A << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd(modes.omega.asDiagonal()),
+      Eigen::MatrixXd((-modes.omega).asDiagonal()), -B;
+  std::vector<std::complex<double>> whole;
+  for (const auto &s : A.eigenvalues())
+    if (s.imag() > 1e-6 * std::abs(s))
+      whole.push_back(s);
+  std::sort(whole.begin(), whole.end(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+
+  const auto found = damped_modes(modes, B, {1e-6, 1e-4});
+  ASSERT_EQ(found.size(), whole.size());
+  for (std::size_t j = 0; j < found.size(); ++j)
+  {
+    EXPECT_NEAR(found[j].line.omega, std::abs(whole[j]), 2e-6 * std::abs(whole[j])) << j;
+    const double zeta = -whole[j].real() / std::abs(whole[j]);
+    EXPECT_NEAR(found[j].line.zeta, zeta, 2e-4 * zeta) << j;
+  }
+}
+
+// --- laws that stiffen
+
+/// A ball of 1 kg that meets a stop after Hertz with 10 m/s.
+Machine ball_and_stop(double stiffness)
+{
+  Machine                          machine;
+  const Measure                    u = {{machine.add_slider("ball", {1., 0., 0.}, 1., "ground"), 1.}};
+  mechanism::Clearance::Parameters stop;
+  stop.gap       = 0.1;
+  stop.stiffness = stiffness;
+  stop.exponent  = 1.5;
+  stop.stops     = mechanism::Clearance::Stops::above;
+  machine.attach("stop", std::make_shared<mechanism::Clearance>(stop), {u});
+  machine.finish();
+  return machine;
+}
+
+RunResult thrown(const MethodOptions &method, bool forced = false)
+{
+  Machine    machine = ball_and_stop(1e10);
+  RunOptions run;
+  run.method         = method;
+  run.end            = 0.04;
+  run.force_unstable = forced;
+  return simulate(machine, {0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 10.)}, run,
+                  {machine.signal("v", "ball.velocity")});
+}
+
+TEST(StiffnessWatch, EndsARunInAContactThatBecomesTooStiffForItsStep)
+{
+  const auto                 rebound = [](const RunResult &run) { return std::abs(run.signals.at(0).final); };
+  std::vector<MethodOptions> methods(3, of(Method::central_difference, 1e-4));
+  methods[1].method = Method::newmark;
+  methods[1].beta   = 0.1;
+  methods[2].method = Method::wilson;
+  methods[2].theta  = 1.2;
+  for (MethodOptions method : methods)
+  {
+    method.step           = 1e-3;
+    const RunResult ended = thrown(method);
+    EXPECT_TRUE(says(ended.failure, "\"stop\"")) << method_name(method) << ended.failure;
+    const auto at = ended.failure.find("take run.step = ");
+    ASSERT_NE(at, std::string::npos);
+    method.step           = std::stod(ended.failure.substr(at + 16));
+    const RunResult taken = thrown(method);
+    EXPECT_EQ(taken.failure, "") << method_name(method);
+    EXPECT_LT(rebound(taken), 10.5) << method_name(method); // it came with 10 m/s
+  }
+  MethodOptions always = of(Method::newmark, 1e-3);
+  EXPECT_EQ(thrown(always).failure, ""); // average acceleration stands any stiffness
 }
 
 TEST(StabilityGuard, DampersThatJoinModesAreSeenByBdf)

@@ -89,6 +89,61 @@ TEST(BoxMesh, AreaVectorOfAFaceIsItsAreaTimesTheOutwardNormal)
   EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 0.6}), 0., 1e-12);
 }
 
+/// A disc of radius 0.5 m and 0.1 m thick with so many sides.
+std::string disc_of_sides(int n)
+{
+  return draw("disc.step",
+              [n]
+              {
+                namespace occ = gmsh::model::occ;
+                std::vector<int> points, sides;
+                for (int i = 0; i < n; ++i)
+                  points.push_back(
+                      occ::addPoint(500. * std::cos(2. * M_PI * i / n), 500. * std::sin(2. * M_PI * i / n), 0.));
+                for (int i = 0; i < n; ++i)
+                  sides.push_back(occ::addLine(points[i], points[(i + 1) % n]));
+                gmsh::vectorpair solid;
+                occ::extrude({{2, occ::addPlaneSurface({occ::addCurveLoop(sides)})}}, 0., 0., 100., solid);
+              });
+}
+
+/// Rings of elements around the rim, each 1 + size_growth times the one outside it, hold fewer than 1 / size_growth
+/// times the elements of the rim; without them the size holds.
+TEST(ManyShortEdges, AroundADiscDoNotMakeItsInsideFine)
+{
+  const int            n      = 120;
+  const GeometryReport report = report_geometry(specification(disc_of_sides(n), 0.2));
+  const double         side = 2. * 0.5 * std::sin(M_PI / n), prisms = 0.1 / side; // elements through the thickness
+  EXPECT_LT(report.n_cells, report.expected_cells + 10. * n * prisms / size_growth);
+  EXPECT_NEAR(report.volume, 0.1 * 0.5 * n * 0.25 * std::sin(2. * M_PI / n), 1e-9);
+  EXPECT_GT(report.worst_quality, 0.1);
+  EXPECT_TRUE(std::any_of(report.notes.begin(), report.notes.end(),
+                          [](const std::string &note)
+                          { return note.find("elements grow from them to the size") != std::string::npos; }));
+}
+
+TEST(ManyShortEdges, ThatTheSizeAsksForAreNoneToBeTold)
+{
+  const GeometryReport report = report_geometry(specification(disc_of_sides(120), 0.04));
+  EXPECT_TRUE(report.notes.empty()) << report.notes[0];
+}
+
+TEST(Circles, HaveTwelveElementsAtLeast)
+{
+  const std::string cad             = draw("bore.step",
+                                           []
+                                           {
+                                 namespace occ = gmsh::model::occ;
+                                 gmsh::vectorpair              left;
+                                 std::vector<gmsh::vectorpair> map;
+                                 occ::addBox(-500., -500., 0., 1000., 1000., 100., 1);
+                                 occ::addCylinder(0., 0., -1., 0., 0., 200., 50., 2);
+                                 occ::cut({{3, 1}}, {{3, 2}}, left, map);
+                               });
+  const double      sides_of_twelve = 0.1 * 0.5 * 12. * 0.05 * 0.05 * std::sin(2. * M_PI / 12.); // of six: 0.87 of it
+  EXPECT_NEAR((0.1 - report_geometry(specification(cad, 0.1)).volume) / sides_of_twelve, 1., 0.03);
+}
+
 TEST(BoxMesh, UnitOverridesTheMillimetreOfAStepFile)
 {
   FrameSpecification s = specification(draw("box.step", [] { gmsh::model::occ::addBox(0., 0., 0., 2., 1., 1.); }), 0.5);

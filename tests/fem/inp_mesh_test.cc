@@ -11,12 +11,14 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <sstream>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -116,6 +118,39 @@ TEST(InpMesh, OfQuadraticTetrahedraComesInTheOrderOfGmsh)
   EXPECT_NEAR(volume_of_cells(make_mesh(specification(path, 0.))), 1. / 6., 1e-15);
 }
 
+/// Two tetrahedra with a curved edge between corners 2 and 3, their middle nodes in the order given for each.
+std::string curved_tetrahedra(const std::array<std::string, 2> &middles)
+{
+  return "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,.5,0,0\n6,.6,.6,0\n7,0,.5,0\n8,0,0,.5\n9,.5,0,.5\n10,0,.5,.5\n"
+         "11,0,0,-1\n12,0,0,-.5\n13,.5,0,-.5\n14,0,.5,-.5\n*ELEMENT, TYPE=C3D10, ELSET=UP\n1, 1,2,3,4," +
+         middles[0] + "\n*ELEMENT, TYPE=C3D10, ELSET=DOWN\n2, 1,3,2,11," + middles[1] + "\n";
+}
+
+TEST(InpMesh, WithMiddleNodesInTheOrderOfAnotherProgramTakesThemForTheEdgesTheyLieOn)
+{
+  const std::array<std::string, 2> of_abaqus = {"5,6,7,8,9,10", "7,6,5,12,14,13"},
+                                   of_gmsh   = {"5,6,7,8,10,9", "7,6,5,12,13,14"};
+  const auto report_of                       = [](const std::string &text)
+  { return report_geometry(specification(write_text("middles.inp", text), 0.)); };
+  const GeometryReport right = report_of(curved_tetrahedra(of_abaqus)), other = report_of(curved_tetrahedra(of_gmsh));
+  EXPECT_GT(right.volume, 1.1 / 3.); // of straight tetrahedra it is 1/3
+  EXPECT_EQ(other.volume, right.volume);
+  EXPECT_THAT(other.notes, ElementsAre(HasSubstr("in the order of another program than Abaqus")));
+  EXPECT_TRUE(right.notes.empty());
+  EXPECT_NEAR(right.solids.at(0).volume + right.solids.at(1).volume, right.volume, 1e-15);
+  EXPECT_THAT(told_of(curved_tetrahedra({of_abaqus[0], of_gmsh[1]})),
+              AllOf(HasSubstr("middle nodes of element 2"), HasSubstr("no order that all elements share")));
+}
+
+TEST(InpMesh, TellsTheKeywordsThatAreNotRead)
+{
+  const std::string path = write_text("steps.inp", cube() + "*BOUNDARY\nFOOT, 1, 3\n*STEP\n*STATIC\n*END STEP\n");
+  EXPECT_THAT(
+      read_inp({path, 0., "here"}).notes,
+      ElementsAre("*BOUNDARY, *ELASTIC, *END STEP, *MATERIAL, *STATIC, *STEP are not read: a mesh is taken from "
+                  "the file, material, supports and loads from the scene"));
+}
+
 TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
 {
   const std::string brick = nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D8R\n1, 1,2,4,3,5,6,8,7\n";
@@ -213,7 +248,10 @@ TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
   EXPECT_THAT(told_of(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
   EXPECT_THAT(told_of("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
   EXPECT_THAT(told_of("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
+  EXPECT_THAT(told_of("*NODE\n1, 0, NaN, 0\n"), HasSubstr("\"NaN\" is no coordinate"));
   EXPECT_THAT(told_of(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=S4, ELSET=A\n1, 1,2,4,3\n2, 5,6,8,7\n"),
+              AllOf(HasSubstr("no tetrahedra"), HasSubstr("a plate is taken as a solid")));
 }
 
 TEST(InpMesh, TakesLinesOfOtherFiles)

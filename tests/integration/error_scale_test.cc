@@ -138,6 +138,104 @@ TEST(ErrorScale, AMotionFromRestIsMeasuredByWhereARefusedStepWouldHaveLed)
   EXPECT_DOUBLE_EQ(other.error(motion(e, rest)), after);
 }
 
+// The mass at the far end of a chain starts like t^4 and later, however strongly its measure is looked at by itself.
+TEST(ErrorScale, AMeasureDoesNotCountForLessThanAMillionthOfItsGroup)
+{
+  Matrix C(2, 2);
+  C << 2., -1., -1., 1.;
+  ModalSystem system(Matrix::Identity(2, 2), Matrix::Zero(2, 2), C);
+  system.set_law(Eigen::Vector2d(0., 1.),
+                 [](double, double, double &p, double &dp_du, double &dp_dv) { p = dp_du = dp_dv = 0.; });
+  const Vector rest = Vector::Zero(2), still = Vector::Zero(1);
+  const auto   measured = [&](double far)
+  {
+    ErrorScale   scale(system, system.spectrum(), 1e-6);
+    const Vector q = Eigen::Vector2d(1e-3, far), v = 20. * q, u = q.tail(1), rate = v.tail(1),
+                 e = Vector::Constant(1, 1e-12);
+    scale.begin({rest, rest, still, still});
+    EXPECT_TRUE(scale.consider(0.1, 0.1, {rest, rest, still, still}, {q, v, u, rate}, still));
+    return scale.error({rest, rest, e, still});
+  };
+  EXPECT_NEAR(measured(1e-15), measured(1e-13), 1e-3 * measured(1e-13));
+  EXPECT_GT(measured(1e-15), 100. * measured(1e-3));
+  EXPECT_NEAR(measured(1e-15), 1e-12 / (1e-6 * 1e-3), 1e-5); // 1e-6 of 1 mm; chi is one
+}
+
+/// A rotor J with the law  T z' + z = k (w_r - phi') + z  of a drive: z has no mass.
+class ControlledRotor : public SmallSystem
+{
+public:
+  ControlledRotor(double J, double T, double gain)
+      : SmallSystem(Eigen::Vector2d(J, 0.).asDiagonal(), Eigen::Vector2d(0., T).asDiagonal(),
+                    Eigen::Vector2d(0., 1.).asDiagonal()),
+        dp_du(Matrix::Zero(2, 2)), dp_dv(dp_du)
+  {
+    W           = Matrix(Matrix::Identity(2, 2)).sparseView();
+    dp_dv(0, 0) = dp_dv(1, 0) = -gain;
+    dp_du(0, 1) = dp_du(1, 1) = 1.;
+  }
+  const std::vector<int> &virtual_coordinates() const override { return z_; }
+
+  Matrix dp_du, dp_dv;
+
+private:
+  std::vector<int> z_{1};
+};
+
+/// Error 1e-6 k of z after a step in which the rotor left the speed of 100 rad/s by `way`, and z nothing.
+double error_of_torque(double J, double T, double gain, double way)
+{
+  ControlledRotor system(J, T, gain);
+  ErrorScale      scale(system, system.spectrum(), 1e-6);
+  const double    h = 1e-3, speed = 100.;
+  const Vector    q = Vector::Zero(2), v = Eigen::Vector2d(speed, 0.), to_q = Eigen::Vector2d(speed * h, 0.),
+               to_v = Eigen::Vector2d(speed + way, 0.), e = Eigen::Vector2d(0., 1e-6 * gain), none_moved = q;
+  scale.begin({q, v, q, v});
+  scale.laws(system.dp_du, system.dp_dv);
+  EXPECT_TRUE(scale.consider(h, h, {q, v, q, v}, {to_q, to_v, to_q, to_v}, none_moved));
+  return scale.error({q, q, e, q});
+}
+
+// A drive holds its speed: nothing moves but what rounding makes of k (w_r - phi'), and no torque is told more exactly.
+TEST(ErrorScale, VirtualCoordinatesAreMeasuredByWhatTheirLawFollows)
+{
+  const double at_rest = error_of_torque(2., 0.1, 40., 0.), disturbed = error_of_torque(2., 0.1, 40., 1.);
+  EXPECT_TRUE(std::isfinite(at_rest));
+  // rounding / tolerance of k w: 8 eps / 1e-6 of 40 * 100 against 4e-5
+  EXPECT_NEAR(at_rest, 4e-5 / (8. * 2.22e-16 / 1e-6 * 4000.), 0.01 * at_rest);
+  EXPECT_LT(disturbed, 0.1 * at_rest);
+}
+
+// Torques in N m or kN m: the unit of z takes the gain with it.
+TEST(ErrorScale, VirtualCoordinatesDoNotDependOnUnits)
+{
+  for (const double way : {0., 1.})
+    EXPECT_NEAR(error_of_torque(2e-3, 0.1, 40e-3, way), error_of_torque(2., 0.1, 40., way),
+                1e-9 * error_of_torque(2., 0.1, 40., way));
+}
+
+// A pulse that is to come moves 1 mm: what is a billionth of that today need not be exact against itself; a bystander
+// changes nothing.
+TEST(ErrorScale, MotionsAreMeasuredByThoseThatLoadsToComeWouldBring)
+{
+  const auto measured = [](double expected, int bystanders)
+  {
+    const int         n = 1 + bystanders;
+    const ModalSystem system(Matrix::Identity(n, n), Matrix::Zero(n, n), Matrix(900. * Matrix::Identity(n, n)));
+    ErrorScale        scale(system, system.spectrum(), 1e-6);
+    const Vector      rest = Vector::Zero(n);
+    Vector            q = rest, v = rest, e = rest;
+    q[0] = 1e-15, v[0] = 1e-12, e[0] = 1e-16;
+    scale.begin(motion(rest, rest));
+    scale.expect(expected, 30. * expected);
+    EXPECT_TRUE(scale.consider(1e-3, 1e-3, motion(rest, rest), motion(q, v), none));
+    return scale.error(motion(e, rest));
+  };
+  EXPECT_GT(measured(0., 0), 0.05);
+  EXPECT_NEAR(measured(1e-3, 0), 1e-16 / (1e-6 * 1e-3) / (30. * 1e-3), 1e-2 * measured(1e-3, 0)); // chi = 30/s 1 ms
+  EXPECT_DOUBLE_EQ(measured(1e-3, 3), measured(1e-3, 0));
+}
+
 TEST(ErrorScale, TellsOfMotionsThatAreNotFinite)
 {
   const ModalSystem system(Matrix::Identity(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2));

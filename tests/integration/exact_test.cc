@@ -262,6 +262,34 @@ double energy_after(ForceRule force, double omega_h, int steps)
   return (omega_h * omega_h * u * u + v * v) / (omega_h * omega_h * 1e-6 + 1.);
 }
 
+// Over 1e-13 s the mass moves by less than its place is rounded to: a rate read from that would err by 2e-3 m/s.
+TEST(Exact, DenseOutputOfAShortStepLosesNothingToRounding)
+{
+  for (const ForceRule rule : {ForceRule::collocation, ForceRule::linear, ForceRule::average})
+  {
+    SmallSystem system(one(1.), one(0.), one(0.));
+    system.set_law(Vector::Ones(1),
+                   [](double u, double, double &p, double &dp_du, double &dp_dv)
+                   {
+                     p     = -100. * u;
+                     dp_du = -100.;
+                     dp_dv = 0.;
+                   });
+    Exact exact(system, fixed(0.01, rule));
+    exact.begin(0., Vector::Constant(1, 1.1), Vector::Constant(1, 0.1));
+    exact.advance();
+    exact.cut(1e-13);
+    LocalState inside;
+    inside.resize(system);
+    for (const double share : {0.2, 0.5, 0.8})
+    {
+      exact.interpolate(share * 1e-13, inside);
+      EXPECT_NEAR(inside.v[0], 0.1, 1e-10);
+      EXPECT_NEAR(inside.u[0], 1.1, 1e-14);
+    }
+  }
+}
+
 TEST(Exact, AverageForceConservesTheEnergyOfAContactAtAnyStep)
 {
   for (const double omega_h : {0.1, 3., 100.})
@@ -302,6 +330,42 @@ TEST(Exact, LinearForceIsStableUpToTwoRootThree)
   const double limit = 2. * std::sqrt(3.);
   EXPECT_LT(energy_after(ForceRule::linear, 0.99 * limit, 2000), 1e3);
   EXPECT_GT(energy_after(ForceRule::linear, 1.01 * limit, 2000), 1e6);
+}
+
+// --- Newton
+
+/// End of x'' + x + x^3 = 0 from x = 1.
+double end_of_duffing(const Exact::Options &options)
+{
+  SmallSystem system(one(1.), one(0.), one(1.));
+  system.set_law(Vector::Ones(1),
+                 [](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   p     = -u * u * u;
+                   dp_du = -3. * u * u;
+                   dp_dv = 0.;
+                 });
+  Exact exact(system, options);
+  exact.begin(0., Vector::Ones(1), Vector::Zero(1));
+  run_to(exact, 40., options.step);
+  return exact.instant().q[0];
+}
+
+// What Newton leaves of a force counts (omega h)^-2 times more than what it moves in one step.
+TEST(Exact, NewtonLeavesLittleBesideTheErrorOfFixedSteps)
+{
+  for (const int order : {6, 8})
+    for (const double h : {0.1, 0.05, 0.025})
+    {
+      Exact::Options fine      = fixed(0.02, ForceRule::collocation, 8);
+      fine.newton.tolerance    = 1e-13;
+      Exact::Options tight     = fixed(h, ForceRule::collocation, order);
+      tight.newton.tolerance   = 1e-13;
+      const double truth       = end_of_duffing(fine);
+      const double own         = std::abs(end_of_duffing(tight) - truth);
+      const double as_it_comes = std::abs(end_of_duffing(fixed(h, ForceRule::collocation, order)) - truth);
+      EXPECT_LT(as_it_comes, 2. * own + 1e-9) << order << " " << h;
+    }
 }
 
 } // namespace

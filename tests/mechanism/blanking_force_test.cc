@@ -94,6 +94,23 @@ TEST(BlankingForce, TellsEveryStageOfTheCut)
   EXPECT_EQ(sheet.n_guards(history.data()), 0);
 }
 
+TEST(BlankingForce, LargestPenetrationIsThatOfTheInstant)
+{
+  constexpr int       largest = 2;
+  const BlankingForce sheet(press);
+  Eigen::VectorXd     history = fresh(sheet);
+  const auto          told    = [&](double z) { return sheet.quantity(largest, at(z).motion(true), history.data()); };
+  sheet.transition(0, at(0.).motion(true), history.data());
+  EXPECT_NEAR(told(5e-4), 5e-4, 1e-15) << "ahead of the last accepted motion";
+  sheet.accept(at(5e-4).motion(true), history.data());
+  EXPECT_NEAR(told(4e-4), 5e-4, 1e-15) << "behind it";
+  for (const double z : {0.0014, 0.0024, 0.004})
+    sheet.transition(1, at(z).motion(true), history.data());
+  EXPECT_NEAR(told(0.006), 0.006, 1e-15) << "through the sheet";
+  sheet.accept(at(0.006).motion(true), history.data());
+  EXPECT_NEAR(told(0.001), 0.006, 1e-15);
+}
+
 TEST(BlankingForce, NeedsAnUnloadingLineSteeperThanTheRise)
 {
   auto wrong              = press;

@@ -9,6 +9,7 @@
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 #include "mechanism/elements/table_force.h"
+#include "tests/mechanism/branch_samples.h"
 #include "tests/mechanism/prescribed_path.h"
 
 #include <gtest/gtest.h>
@@ -24,17 +25,12 @@ namespace
 
 using namespace mechanism;
 
-const ConnectingRod::Parameters rod{0.08, 0.8, 9e8, 1.8e5, 1e-4, 4e-4, 5e4};
-const Clearance::Parameters     play{5e-5, 1e9, 4.};
-const CuttingForce::Parameters  tool{5e3, 6e-4, 4e-4, 0.02};
+const CuttingForce::Parameters tool{5e3, 6e-4, 4e-4, 0.02};
 
 BlankingForce::Parameters sheet(double exponent)
 {
   return {0.004, 0.8, 3.2e8, 0.35, exponent, 0.25, 0.08, 9e9, 0.152};
 }
-
-const SlidingFriction            rubbing{0.1, 2e-2, 0.2, 0.05, 1.};
-const JournalBearing::Parameters bearing{5e-5, 0.03, 1e9, 4., 1., rubbing};
 
 /// A journal that moves along a slanted radius while it turns.
 Probe journal_probe(const Probe &radial)
@@ -61,21 +57,6 @@ Formula kinked_force()
 {
   const Formula t = Formula::variable(0), u = Formula::variable(1), v = Formula::variable(2);
   return conditional(u - 0.2, Relation::below, 3. * abs(v) - u, max(u, 0.5) * sign(v)) + step(t - 0.70007);
-}
-
-double rod_position(double phi)
-{
-  const double c = rod.crank_radius * std::sin(phi);
-  return -rod.crank_radius * std::cos(phi) + std::sqrt(rod.length * rod.length - c * c) -
-         (rod.length - rod.crank_radius);
-}
-
-/// The rod with the compression delta at its rate, the crank nearly at rest.
-Probe rod_probe(double delta, double rate)
-{
-  const double phi = 2.5;
-  return {0., Eigen::Vector3d(phi, delta - rod_position(phi), 0.), Eigen::Vector3d(1e-3, rate, 0.),
-          Eigen::Vector3d::Zero()};
 }
 
 Probe sheet_probe(double z, double v, double a = 0.)

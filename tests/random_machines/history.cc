@@ -80,13 +80,26 @@ void History::extremes()
     const int column = dense_.column(signal.name);
     if (held(signal.name))
       continue; // may rest: joints() judges it
-    extreme(column, 1., signal.max);
-    extreme(column, -1., signal.min);
+    extreme(column, 1., signal.max, signal.t_max);
+    extreme(column, -1., signal.min, signal.t_min);
   }
 }
 
+/// A phase from one event to another, shorter than two rows are apart, begins or ends at t.
+bool History::between_rows(double t) const
+{
+  const double apart = 2. * dense_.at(1, 0), same = 1e-12 * machine_.end;
+  const auto   near = [&](double from, double to)
+  {
+    return std::any_of(summary_.run.events.begin(), summary_.run.events.end(),
+                       [&](const coupling::Event &event) { return event.t >= from && event.t <= to; });
+  };
+  return near(t - same, t + same) ? near(t + same, t + apart) || near(t - apart, t - same)
+                                  : near(t - apart, t) && near(t, t + apart);
+}
+
 /// The maximum of sign * signal, against the largest row and what the motion may do between two rows.
-void History::extreme(int column, double sign, double told)
+void History::extreme(int column, double sign, double told, double t_told)
 {
   const int  n     = dense_.n_rows();
   const auto value = [&](int i) { return sign * dense_.at(std::clamp(i, 0, n - 1), column); };
@@ -101,8 +114,8 @@ void History::extreme(int column, double sign, double told)
   const double      size = std::max(range(column), at_rest * size_of(machine_, dense_.run.columns[column]));
   const double      t    = dense_.at(top, 0);
   const std::string what = at_time(std::string(sign > 0. ? "max" : "min") + " of " + dense_.run.columns[column], t);
-  if (sign * told > value(top) + 2. * step + 1e-6 * size)
-    find("extreme beyond the history", what, told, sign * value(top));
+  if (sign * told > value(top) + 2. * step + 1e-6 * size && !between_rows(t_told))
+    find("extreme beyond the history", at_time(what + ", told", t_told), told, sign * value(top));
   if (sign * told < value(top) - 1e-4 * size)
     find("extreme short of the history", what, told, sign * value(top));
 }

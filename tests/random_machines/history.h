@@ -20,13 +20,14 @@ private:
   void   find(const std::string &kind, const std::string &what, double value, double bound);
   void   finite();
   void   extremes();
-  void   extreme(int column, double sign, double told);
+  void   extreme(int column, double sign, double told, double t_told);
   void   frictions();
   void   contacts();
   void   joints(bool accurate);
   void   energy(bool accurate);
   double range(int column) const;
   bool   held(const std::string &signal) const;
+  bool   between_rows(double t) const;
 
   const RandomMachine &machine_;
   std::string          way_;

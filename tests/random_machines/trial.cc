@@ -26,9 +26,10 @@ double cpu_seconds()
 double fastest_mode(const coupling::Machine &machine, const coupling::InitialState &initial, double end)
 {
   coupling::MethodOptions bdf;
-  bdf.step       = end / 1000.;
-  double fastest = 0.;
-  for (const coupling::ModeAccuracy &mode : coupling::mode_accuracy(machine, initial, bdf))
+  bdf.step                                = end / 1000.;
+  double                         fastest  = 0.;
+  const coupling::LinearSpectrum spectrum = coupling::linear_spectrum(machine, initial);
+  for (const coupling::ModeAccuracy &mode : coupling::StabilityGuard(spectrum, bdf).modes())
     fastest = std::max(fastest, mode.mode.omega);
   return fastest;
 }

@@ -82,6 +82,32 @@ TEST(ConvergeMesh, RefinesDistinctlyAndStatesLimitsOnTheirSide)
   EXPECT_THAT(result.stopped, AllOf(HasSubstr("4 meshes were allowed; "), HasSubstr(" would need about ")));
 }
 
+TEST(ConvergeMesh, TellsEachMeshAsItIsMade)
+{
+  coupling::ConvergenceOptions options;
+  options.tolerance  = 1e-4; // not to be met
+  options.max_meshes = 3;
+  std::vector<std::size_t> levels;
+  options.after_mesh = [&](const coupling::MeshConvergence &so_far)
+  {
+    EXPECT_EQ(so_far.quantities.size(), so_far.levels.back().values.size());
+    levels.push_back(so_far.levels.size());
+  };
+  coupling::converge_mesh(block(), {}, options);
+  EXPECT_EQ(levels, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+TEST(ConvergeMesh, MakesNoMeshThatTheMemoryDoesNotHold)
+{
+  coupling::ConvergenceOptions options;
+  options.tolerance = 1e-4;                         // not to be met
+  options.memory    = 0.25 * 1024. * 1024. * 1024.; // 0.22 GiB are taken by the libraries
+  const auto result = coupling::converge_mesh(block(), {}, options);
+  EXPECT_FALSE(result.converged);
+  EXPECT_THAT(result.stopped, HasSubstr("that the available memory of 0.25 GiB allows"));
+  EXPECT_LT(result.levels.back().n_coordinates, 20000); // 0.37 GiB for 100 000
+}
+
 /// block() by a script that meshes by itself.
 fem::FrameSpecification block_by_script(const std::string &mesh)
 {

@@ -2,6 +2,7 @@
 
 #include "coupling/dense_base.h"
 #include "coupling/dense_modes.h"
+#include "coupling/modes.h"
 #include "coupling/reduction/held_frame.h"
 #include "coupling/reduction/supported_modes.h"
 #include "lattice.h"
@@ -166,6 +167,22 @@ TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
     const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
     EXPECT_LE(reduced.frequency_error(j), error * (1. + 1e-6) + 1e-10); // the refined ones come from above too
     EXPECT_GE(reduced.frequency_error(j), 0.5 * error - 1e-10);
+  }
+}
+
+TEST(ErrorEstimate, GivesRefinedFrequenciesBetweenThoseOfTheFullFrameAndTheReducedOnes)
+{
+  const auto        frame   = frame_of(Lattice());
+  const VectorXd    exact   = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
+  const auto        reduced = craig_bampton(frame, with_modes(12));
+  coupling::Machine machine;
+  machine.set_frame(reduced);
+  machine.finish();
+  const auto modes = coupling::frame_modes(machine, 100);
+  for (int j = 0; j < 10; ++j)
+  {
+    EXPECT_GE(modes[j].refined_hz, exact(j) * (1. - 1e-10));
+    EXPECT_LE(modes[j].refined_hz - exact(j), 0.5 * (modes[j].frequency_hz - exact(j)) + 1e-10 * exact(j));
   }
 }
 

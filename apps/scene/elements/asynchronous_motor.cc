@@ -1,5 +1,6 @@
 #include "mechanism/elements/kloss_motor.h"
 
+#include "apps/scene/read_share.h"
 #include "apps/scene/relative_motion.h"
 
 namespace gestell::apps
@@ -9,7 +10,7 @@ mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table)
 {
   mechanism::KlossMotor::Parameters motor;
   motor.breakdown_torque  = table.positive("breakdown_torque", kind::torque);
-  motor.breakdown_slip    = table.positive("breakdown_slip", kind::number);
+  motor.breakdown_slip    = read_share(table, "breakdown_slip");
   motor.synchronous_speed = table.number("synchronous_speed", kind::angular_speed);
   motor.ratio             = table.positive("ratio", kind::number, motor.ratio);
   return motor;

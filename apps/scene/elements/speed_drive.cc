@@ -9,7 +9,7 @@ namespace gestell::apps
 /// Measures: angle of the shaft, against the stator; the integral, a lag.
 void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const Kind gain{"gain over a speed", "40 N m s/rad", {2, 1, -1}},
+  const Kind gain{"gain over a speed", "40 N m s/rad", {2, 1, -1}, Counts::turns},
       gain_of_angle{"gain over an angle", "300 N m/rad", {2, 1, -2}};
   const auto                        shaft = read_shaft(table, names);
   mechanism::SpeedDrive::Parameters drive;

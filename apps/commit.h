@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// The commit this program was built from, "7c48666a1b2c", with "-dirty" where sources differed from it; empty if it
+/// was built without a repository.
+std::string commit();
+
+} // namespace gestell::apps

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fem/cad_model.h"
+#include "fem/frame_specification.h"
+#include "fem/gmsh_session.h"
+#include "fem/mesh_size.h"
+#include "fem/size_field.h"
+
+#include <optional>
+#include <string>
+
+namespace gestell::fem
+{
+
+/// Place and file of a frame, which head its messages.
+std::string head_of(const FrameSpecification &specification);
+
+/// @param what  "the mesh has 30000 cells", which begins the message
+/// @throws std::invalid_argument for more than mesh.max_cells
+void require_cells(double n, const std::string &what, const MeshOptions &options);
+
+/// Meshes the surfaces; again with sizes that grow from short edges where those make far more triangles than wanted.
+/// @param refined           sizes of a refinement
+/// @param script_has_sizes  whether a script has drawn sizes of its own
+/// @throws std::invalid_argument where gmsh cannot, or if the triangles tell of too many cells
+void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
+                   const MeshOptions &options, const GmshSession &session, const std::optional<SizeField> &refined,
+                   bool script_has_sizes);
+
+/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
+void mesh_volumes(const FrameSpecification &specification, const GmshSession &session);
+
+} // namespace gestell::fem
