@@ -29,7 +29,8 @@ double fastest_mode(const coupling::Machine &machine, const coupling::InitialSta
   bdf.step                                = end / 1000.;
   double                         fastest  = 0.;
   const coupling::LinearSpectrum spectrum = coupling::linear_spectrum(machine, initial);
-  for (const coupling::ModeAccuracy &mode : coupling::StabilityGuard(spectrum, bdf).modes())
+  const coupling::StabilityGuard guard(spectrum, bdf);
+  for (const coupling::ModeAccuracy &mode : guard.modes())
     fastest = std::max(fastest, mode.mode.omega);
   return fastest;
 }
