@@ -279,9 +279,6 @@ public:
 
   /// Contacts that are closed at a motion, in words: by how much they lie inside.
   std::vector<std::string> closed_contacts(const LocalState &state) const;
-  /// Something that sticks is held by more than its limit: it slips at this instant, and what its force is told to be
-  /// never acts.
-  bool overloaded(const LocalState &state) const;
   /// @param a  q'' [n]; only signals that reads_acceleration() look at it
   double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
                   const LocalState &local) const;

@@ -122,22 +122,4 @@ void Machine::Parts::find_stopped(const LocalState &state)
     }
 }
 
-bool Machine::overloaded(const LocalState &state) const
-{
-  std::vector<double> g;
-  for (const auto &part : parts_->placed)
-  {
-    if (!part.holds)
-      continue;
-    const double *history = parts_->history_of(part);
-    const auto    guards  = part.element->guards(history);
-    g.resize(guards.size());
-    part.element->guard_values(part.motion(state, parts_->by_history), history, g.data());
-    for (std::size_t i = 0; i < guards.size(); ++i)
-      if (guards[i].crossing == mechanism::Crossing::rising ? g[i] > 0. : g[i] < 0.)
-        return true;
-  }
-  return false;
-}
-
 } // namespace gestell::coupling
