@@ -2,6 +2,7 @@
 
 #include "coupling/accelerations.h"
 #include "coupling/energy_guard.h"
+#include "coupling/signal_extremes.h"
 #include "coupling/simulation.h"
 
 #include <optional>
@@ -20,21 +21,18 @@ std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signal
 /**
  * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
  *
- * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes are looked for at the end of
- * every step, before and after every event, at every row, and between: where a parabola through three samples turns
- * beyond what was seen, the dense output itself is evaluated and the parabola drawn closer.  Samples are the ends of
- * the steps, or, where steps are long against the motion, several in each.
+ * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes count at every row besides
+ * where SignalExtremes looks.
  *
  * An instant with events has two motions that count: the one just before the first event, and the one behind the last,
  * which is told with the step that goes on from there.  What lies between them lasts for no time: a rod without play is
  * slack between thrust and pull, and what sticks under more than its limit slips at once.
  */
-class Recorder
+class Recorder : private SampledRun
 {
 public:
-  /// @param samples  per step, >= 1
   Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
-           const std::vector<Signal> &signals, int samples, RunResult &result);
+           const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result);
 
   void begin(); ///< at the start, after the integrator began
   void step();  ///< a step was made; its dense output and the history that holds on it are there
@@ -43,26 +41,15 @@ public:
   void finish(); ///< the last instant always has a row
 
 private:
-  struct Sample
-  {
-    double              t;
-    std::vector<double> values;
-  };
-
-  void evaluate(double t, Sample &sample);
-  void tell(double t, const LocalState &local, Sample &sample);
-  void settle();
-  void follow_briefly();
-  void look_anew(std::size_t signal);
-  void extremes(const Sample &sample);
-  void extreme(std::size_t signal, double t, double value);
-  void turn(const Sample &a, const Sample &b, const Sample &c);
-  void search(std::size_t signal, double sign, const Sample &a, const Sample &b, const Sample &c);
-  void rows();
-  void row(double t, const Sample &sample, const EnergySummary &energy);
+  void          evaluate(double t, SignalSample &sample) override;
+  void          tell(double t, const LocalState &local, SignalSample &sample);
+  void          settle();
+  void          follow_briefly();
+  void          rows();
+  void          row(double t, const SignalSample &sample, const EnergySummary &energy);
   EnergySummary energy_inside(double t);
-  void pictures();
-  void balance();
+  void          pictures();
+  void          balance();
 
   const Machine               &machine_;
   const TimeIntegrator        &integrator_;
@@ -71,19 +58,17 @@ private:
   RunResult                   &result_;
   StateKeeper                  keeper_;
   EnergyBalance                energy_;
+  PowerRule                    power_rule_;
   EnergyGuard                  guard_;
   std::vector<int>             coordinates_; ///< that signals read
   Instant                      between_;
   Eigen::VectorXd              a_;
-  std::optional<Accelerations> accelerations_;         ///< if a signal reads any
-  std::vector<Sample>          samples_;               ///< of the last step, both ends included
-  Sample                       earlier_, probe_;       ///< end of the step before the last one; scratch
-  std::vector<char>            watched_;               ///< signals whose extremes count already
-  std::vector<char>            anew_;                  ///< those that count from the instant that is pending on
-  LocalState                   behind_;                ///< the motion behind the last event
-  bool                         pending_       = false; ///< and it has not been told yet
-  bool                         earlier_known_ = false; ///< and nothing jumped since
-  double                       length_   = 0.; ///< of the last step that was told
+  std::optional<Accelerations> accelerations_; ///< if a signal reads any
+  SignalExtremes               extremes_;
+  SignalSample                 probe_;            ///< scratch
+  LocalState                   behind_;           ///< the motion behind the last event
+  bool                         pending_  = false; ///< and it has not been told yet
+  double                       length_   = 0.;    ///< of the last step that was told
   double                       row_step_ = 0., picture_step_ = 0.;
   long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
 };

@@ -27,7 +27,7 @@ namespace
 {
 
 constexpr double most_steps = 1e10, most_bytes = 1e9;
-constexpr int    most_samples = 8;
+constexpr double samples_of_period = 32.;
 
 /// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
 /// plane, die away to such numbers, on which a processor is seven times slower.
@@ -126,23 +126,18 @@ MethodOptions with_largest_step(const Machine &machine, const RunOptions &option
   return method;
 }
 
-/**
- * Into how many parts a step is divided to see the extremes inside it.  Fixed steps of implicit methods are short
- * against what they show; exact propagation shows modes far above its step, and controlled steps are as long as their
- * order allows.
- */
-int samples_per_step(const Machine &machine, const MethodOptions &method)
+/// Fixed steps of implicit methods are short against what they show; controlled ones are as long as their order allows.
+/// Exact propagation shows modes far above its step: 32 samples in a period show them.
+Sampling sampling(const Machine &machine, const MethodOptions &method)
 {
-  if (controlled(method))
-    return 4;
+  Sampling sampling;
+  sampling.inside = controlled(method) || method.method == Method::exact;
   if (method.method != Method::exact)
-    return 1;
-  double highest = 0.;
+    return sampling;
   for (const SpectrumLine &mode : machine.spectrum())
-    highest = std::max(highest, mode.omega);
-  // Up to 0.8 rad between samples parabolas find the peak.
-  const double wanted = std::ceil(highest * method.step / 0.8);
-  return static_cast<int>(std::clamp(wanted, 1., double(most_samples)));
+    if (mode.omega > 0.)
+      sampling.shortest = std::min(sampling.shortest, 2. * M_PI / (samples_of_period * mode.omega));
+  return sampling;
 }
 
 void take_work(const IntegrationWork &work, long chatter, bool controlled, RunResult &result)
@@ -335,7 +330,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
 
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
   EventDriver                           driver     = event_driver(machine, *integrator, options);
-  Recorder recorder(machine, *integrator, options, signals, samples_per_step(machine, method), result);
+  Recorder recorder(machine, *integrator, options, signals, sampling(machine, method), result);
   try
   {
     driver.begin(options.begin, initial.q, initial.v);
@@ -345,9 +340,9 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     fail_at_start(failure, result);
     return result;
   }
-  CylinderWatch cylinders(machine, *integrator);
+  CylinderWatch  cylinders(machine, *integrator);
   StiffnessWatch stiffness(machine, initial, method);
-  FastForces fast_forces(machine, *integrator);
+  FastForces     fast_forces(machine, *integrator);
   driver.on_step(
       [&]
       {

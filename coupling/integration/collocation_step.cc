@@ -34,7 +34,7 @@ CollocationStep::CollocationStep(ExactContext &context, int stages)
   V_.setZero(n_u_, s_ + 2);
   dp_du_.setZero(n_u_, n_u_);
   dp_dv_.setZero(n_u_, n_u_);
-  for (VectorXd *x : {&P_end_, &defect_, &largest_defect_})
+  for (VectorXd *x : {&P_end_, &defect_, &defect_begin_, &largest_defect_})
     x->setZero(n_u_);
   for (Reach *reach : {&reached_, &expected_})
   {
@@ -46,7 +46,10 @@ CollocationStep::CollocationStep(ExactContext &context, int stages)
   sound_.resize(s_ * n_u_);
   extrapolate_.setZero(s_, s_);
   for (int j = 0; j < s_; ++j)
+  {
+    at_begin_.push_back(basis_.value(j, 0.));
     at_end_.push_back(basis_.value(j, 1.));
+  }
 }
 
 void CollocationStep::begin(const VectorXd &x, const LocalState &at)

@@ -18,11 +18,12 @@ namespace gestell::coupling
  * forces are met to newton_share times the square of the relative defect of the polynomial at the end of the step
  * before.
  *
- * Error.  The defect d of the law at the end of the step would, acting all the step, move the measures by S d.  A tenth
- * of that is compared with their largest excursions, which do not count for less than least_part of how far the motion
- * as a whole has gone, or loads to come would lead it, in the norm of the energy.  What sticks holds others too: S is
- * what is left of the mobility then.  A measure that sticks does not move: its force is as good as it should be if it
- * errs little beside its own largest value, or if the error moves little beside the motion as a whole.
+ * Error.  The defect d of the law at the ends of the step, the larger one, would, acting all the step, move the
+ * measures by S d.  A tenth of that is compared with their largest excursions, which do not count for less than
+ * least_part of how far the motion as a whole has gone, or loads to come would lead it, in the norm of the energy. What
+ * sticks holds others too: S is what is left of the mobility then.  A measure that sticks does not move: its force is
+ * as good as it should be if it errs little beside its own largest value, or if the error moves little beside the
+ * motion as a whole.
  */
 class CollocationStep final : public ForceStep
 {
@@ -86,6 +87,8 @@ private:
 
   void finish(const StepTable &table, LocalState &end);
 
+  void find_defect(const LocalState &end);
+
   /// How far the measures and their forces go in the step.
   void reach(const LocalState &end);
 
@@ -103,7 +106,7 @@ private:
   int                 s_, n_u_;
   ForceBasis          basis_;
   HermiteNodes        nodes_;
-  Eigen::VectorXd     x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_;
+  Eigen::VectorXd     x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_, defect_begin_;
   Eigen::VectorXd     mobile_; ///< what is left of the mobility of a measure while others are held [n_u]
   Eigen::VectorXd     scale_;  ///< of the measures in the step in work [n_u]
   long                age_of_way_ = 0;
@@ -114,7 +117,7 @@ private:
   double              defect_part_ = 1.;      ///< the largest of them, as a part of the largest force
   const StepTable    *tried_       = nullptr; ///< of a step from the present begin
   Eigen::MatrixXd     U_, V_, dp_du_, dp_dv_, extrapolate_;
-  std::vector<double> at_end_;
+  std::vector<double> at_begin_, at_end_;
   LocalState          begin_at_, node_;
   SmallLu             lu_, sound_;
   const StepTable    *factors_   = nullptr;

@@ -1,6 +1,7 @@
 #include "coupling/integration/energy_balance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::coupling
 {
@@ -10,6 +11,10 @@ namespace
 /// Gauss and Legendre, four points on (0, 1).
 constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+
+constexpr double closed      = 1e-7; ///< share of the energy exchanged, for one step
+constexpr double converged   = 0.5;  ///< of what was open, that twice as many panels leave
+constexpr int    most_panels = 4096;
 } // namespace
 
 EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
@@ -66,8 +71,8 @@ void EnergyBalance::begin(const Instant &instant)
   work_begin_ = work_ = Power();
   first_ = last_ = power(instant);
   in_elements_   = system_.local_stored_energy(instant.local);
-  stored_begin_  = stored(instant, in_elements_);
-  kinetic_begin_ = kinetic_;
+  stored_ = stored_begin_ = stored(instant, in_elements_);
+  kinetic_begin_          = kinetic_;
 }
 
 void EnergyBalance::jump(const Instant &instant)
@@ -75,6 +80,7 @@ void EnergyBalance::jump(const Instant &instant)
   const double before = in_elements_;
   in_elements_        = system_.local_stored_energy(instant.local);
   work_.dissipated += std::max(0., before - in_elements_);
+  stored_ += in_elements_ - before;
   last_ = power(instant);
 }
 
@@ -89,35 +95,100 @@ void EnergyBalance::step(const Instant &instant)
   work_        = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
 }
 
-void EnergyBalance::step(const TimeIntegrator &integrator, PowerRule rule)
+void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule, double exchanged)
 {
+  stored_last_ = stored_;
   step(integrator.instant());
-  if (rule == PowerRule::trapezoidal)
+  panels_.clear();
+  if (!rule.gauss)
     return;
-  work_ = work_begin_;
+  integrate(integrator, 1);
+  if (!(t_ - t_begin_ > rule.shortest))
+    return;
+  stored_            = stored(integrator.instant(), in_elements_);
+  const double small = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
+  for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
+  {
+    const double before = open();
+    if (before <= small)
+      return;
+    integrate(integrator, panels);
+    if (open() > converged * before)
+      return; // the method's own
+  }
+}
+
+/// |input - dissipated - change of stored| over the last step.
+double EnergyBalance::open() const
+{
+  return std::abs(work_.input - work_begin_.input - (work_.dissipated - work_begin_.dissipated) -
+                  (stored_ - stored_last_));
+}
+
+void EnergyBalance::integrate(const TimeIntegrator &integrator, int panels)
+{
+  const double h = (t_ - t_begin_) / panels;
+  panels_.assign(1, work_begin_);
+  for (int i = 0; i < panels; ++i)
+    panels_.push_back(sum(1., panels_.back(), 1., integral(integrator, t_begin_ + i * h, t_begin_ + (i + 1) * h)));
+  work_ = panels_.back();
+}
+
+EnergyBalance::Power EnergyBalance::integral(const TimeIntegrator &integrator, double from, double to)
+{
+  Power work;
   for (int i = 0; i < 4; ++i)
   {
-    between_.t = t_begin_ + gauss_points[i] * (t_ - t_begin_);
+    between_.t = from + gauss_points[i] * (to - from);
     integrator.interpolate(between_.t, between_.q, between_.v);
     integrator.interpolate(between_.t, between_.local);
     system_.local_force(between_.local, between_.local.p);
-    work_ = sum(1., work_, gauss_weights[i] * (t_ - t_begin_), power(between_));
+    work = sum(1., work, gauss_weights[i] * (to - from), power(between_));
   }
+  return work;
+}
+
+/// Cubic through both ends and their powers.  Where the integral grows and both powers are positive it grows all the
+/// way if no slope exceeds three times the mean one.
+EnergyBalance::Power EnergyBalance::between(double t) const
+{
+  const double h = t_ - t_begin_, s = (t - t_begin_) / h, r = 1. - s,
+               mean = (work_.dissipated - work_begin_.dissipated) / h;
+  Power first = first_, last = last_;
+  if (mean >= 0. && first.dissipated >= 0. && last.dissipated >= 0.)
+  {
+    first.dissipated = std::min(first.dissipated, 3. * mean);
+    last.dissipated  = std::min(last.dissipated, 3. * mean);
+  }
+  return sum(1., sum(r * r * (1. + 2. * s), work_begin_, s * s * (1. + 2. * r), work_), 1.,
+             sum(h * s * r * r, first, -h * s * s * r, last));
+}
+
+EnergyState EnergyBalance::at(const Instant &instant, const Power &work)
+{
+  const double in_elements = instant.t < t_ ? system_.local_stored_energy(instant.local) : in_elements_;
+  const double now         = stored(instant, in_elements);
+  const auto   exchange    = (kinetic_ - kinetic_begin_).array();
+  if (!(instant.t < t_))
+    stored_ = now;
+  return {work.input, now - stored_begin_, work.dissipated, std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()),
+          forces_};
 }
 
 EnergyState EnergyBalance::state(const Instant &instant)
 {
-  Power work = work_;
-  if (instant.t < t_)
-  {
-    const double h = t_ - t_begin_, s = (instant.t - t_begin_) / h, r = 1. - s;
-    work = sum(1., sum(r * r * (1. + 2. * s), work_begin_, s * s * (1. + 2. * r), work_), 1.,
-               sum(h * s * r * r, first_, -h * s * s * r, last_));
-  }
-  const double in_elements = instant.t < t_ ? system_.local_stored_energy(instant.local) : in_elements_;
-  const double change      = stored(instant, in_elements) - stored_begin_;
-  const auto   exchange    = (kinetic_ - kinetic_begin_).array();
-  return {work.input, change, work.dissipated, std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()), forces_};
+  return at(instant, instant.t < t_ ? between(instant.t) : work_);
+}
+
+EnergyState EnergyBalance::state(const TimeIntegrator &integrator, const Instant &instant)
+{
+  const auto panels = int(panels_.size()) - 1;
+  if (panels < 1 || !(instant.t < t_))
+    return state(instant);
+  const double h    = (t_ - t_begin_) / panels;
+  const int    i    = std::clamp(int((instant.t - t_begin_) / h), 0, panels - 1);
+  const Power  work = sum(1., panels_[i], 1., integral(integrator, t_begin_ + i * h, instant.t));
+  return at(instant, work);
 }
 
 } // namespace gestell::coupling
