@@ -2,6 +2,7 @@
 
 #include "coupling/integration/force_step.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace gestell::coupling
@@ -43,6 +44,7 @@ public:
   void   forces(Eigen::VectorXd &p) const override { p = P_; }
   double error() const override { return error_; }
   int    error_order() const override { return s_ + 2; }
+  double interpolation_error(double phase) const override { return std::min(1., nodes_.error(phase)); }
 
   void interpolate(double sigma, LocalState &state) const override;
 

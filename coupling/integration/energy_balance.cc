@@ -13,7 +13,7 @@ constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.66
 constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
 
 constexpr double closed      = 1e-7; ///< share of the energy exchanged, for one step
-constexpr double converged   = 0.5;  ///< of what was open, that twice as many panels leave
+constexpr double converged   = 0.1;  ///< of what is open: what twice as many panels change
 constexpr int    most_panels = 4096;
 } // namespace
 
@@ -109,12 +109,13 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
   const double small = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
   for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
   {
-    const double before = open();
-    if (before <= small)
+    if (open() <= small)
       return;
+    const Power before = work_;
     integrate(integrator, panels);
-    if (open() > converged * before)
-      return; // the method's own
+    const double change = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
+    if (change < converged * open())
+      return; // what is open is the method's own
   }
 }
 

@@ -15,6 +15,15 @@ constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the g
 constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u moves too little for its rate to be read
 constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
 
+constexpr double of_tolerance = 0.1, of_fixed = 1e-6; ///< share of the excursions by which dense output may err
+constexpr double rounding = 1e-14;
+
+/// How fast the motions of a block turn or die away [1/s].
+double rate_of(const ModalBlock &block)
+{
+  return block.kind == ModalBlock::free ? 0. : std::max(std::abs(block.s), std::abs(block.w));
+}
+
 /// A step to begin with: an eighth of the longest period of the base system.
 double natural_step(const ModalBlocks &modes)
 {
@@ -91,6 +100,7 @@ void Exact::start_piece()
 void Exact::forget_inside()
 {
   now_known_ = false;
+  h_smooth_  = 0.;
   t_inside_  = t_begin_;
 }
 
@@ -260,12 +270,12 @@ void Exact::interpolate(double t, LocalState &state) const
     return;
   }
   force_->interpolate((t - t_begin_) / h, state);
-  state.t             = t;
-  const bool is_short = h < few_differences * step_, holds = !system_.held().empty();
-  if (!is_short && !holds)
+  state.t            = t;
+  const bool is_read = h < few_differences * step_ || !is_smooth(h), holds = !system_.held().empty();
+  if (!is_read && !holds)
     return;
   const Eigen::VectorXd &x = state_at(t);
-  if (is_short)
+  if (is_read)
   {
     state.u.noalias() = context_.measures.read_u.transpose() * x;
     state.v.noalias() = context_.measures.read_v.transpose() * x;
@@ -275,6 +285,30 @@ void Exact::interpolate(double t, LocalState &state) const
   system_.local_force(state, state.p);
   ++context_.work.evaluations;
   context_.accelerate(x, state);
+}
+
+/// The interpolation of the measures over the last step is as good as their integration: what modes that turn far move
+/// in them is small beside their largest excursions.
+bool Exact::is_smooth(double h) const
+{
+  if (h_smooth_ == h)
+    return smooth_;
+  h_smooth_                     = h;
+  smooth_                       = true;
+  const double         share    = options_.tolerance > 0. ? of_tolerance * options_.tolerance : of_fixed;
+  const ModalMeasures &measures = context_.measures;
+  force_->end_state(x_work_);
+  for (int b = 0; b < measures.n_p && smooth_; ++b)
+  {
+    const double error = force_->interpolation_error(h * rate_of(measures.blocks[b]));
+    if (error < rounding)
+      continue;
+    for (const int row : {b, measures.n_p + b})
+      smooth_ = smooth_ && (error * std::abs(x_work_[row]) * measures.read_u.row(row).cwiseAbs().transpose().array() <=
+                            share * context_.scale.array())
+                               .all();
+  }
+  return smooth_;
 }
 
 const Eigen::VectorXd &Exact::state_at(double t) const

@@ -24,6 +24,9 @@ namespace gestell::coupling
  *     linear       order 2, one evaluation a step, stable up to omega_contact h = 2 sqrt(3)
  *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
  *
+ * Inside a step the measures are interpolated, or, where modes that move them turn too far in a step for that, read
+ * from the modes.
+ *
  * The force that holds a measure follows from the equation of motion at x, at ends of steps and inside.
  *
  * Steps lie on the grid t_begin + k h / 2^r: behind an event a shorter step leads back to it, so that all others share
@@ -82,6 +85,7 @@ private:
   void                   start_piece();
   void                   turn_harmonics();
   void                   forget_inside();
+  bool                   is_smooth(double h) const;
   const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
   [[noreturn]] void      fail(const std::string &reason) const;
 
@@ -104,6 +108,8 @@ private:
   mutable Eigen::VectorXd    x_work_, x_inside_, forces_;
   mutable Instant            now_;
   mutable bool               now_known_ = false;
+  mutable double             h_smooth_  = 0.; ///< of the last step, once is_smooth() looked at it; else 0
+  mutable bool               smooth_    = true;
   mutable double             t_inside_  = 0.; ///< of x_inside_, inside the last step; else it is not known
 };
 

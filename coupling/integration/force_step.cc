@@ -171,6 +171,24 @@ HermiteNodes::HermiteNodes(std::vector<double> sigma)
         inverse_[i] /= sigma_[i] - sigma_[j];
         own_slope_[i] += 1. / (sigma_[i] - sigma_[j]);
       }
+  constexpr int samples = 200;
+  for (int k = 0; k < samples; ++k)
+  {
+    double product = 1., slope = 0., factorial = 1.;
+    for (std::size_t i = 0; i < sigma_.size(); ++i)
+    {
+      const double d = (k + 0.5) / samples - sigma_[i];
+      slope          = slope * d + product;
+      product *= d;
+      factorial *= double(2 * i + 1) * double(2 * i + 2);
+    }
+    error_ = std::max(error_, 2. * std::abs(product * slope) / factorial);
+  }
+}
+
+double HermiteNodes::error(double phase) const
+{
+  return error_ * std::pow(phase, 2 * size() - 1);
 }
 
 void HermiteNodes::weights(double sigma, double *value, double *slope, double *rate_value, double *rate_slope) const

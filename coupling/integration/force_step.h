@@ -79,6 +79,8 @@ public:
   virtual int error_order() const { return 1; }
   /// u, v, p inside the step solved last, sigma in [0, 1].
   virtual void interpolate(double sigma, LocalState &state) const = 0;
+  /// Relative error of interpolate() for a free motion that turns by `phase` [rad] in the step; at most 1.
+  virtual double interpolation_error(double /*phase*/) const { return 0.; }
   /// p_j of the basis in the step solved last [n_basis n_u].
   virtual void forces(Eigen::VectorXd &p) const = 0;
 };
@@ -95,11 +97,15 @@ public:
   /// Weights of values and slopes (in sigma) for the value and its slope at sigma; each [n nodes].
   void weights(double sigma, double *value, double *slope, double *rate_value, double *rate_slope) const;
   int  size() const { return static_cast<int>(sigma_.size()); }
+  /// Largest error of the slope of a sine that turns by `phase` [rad] from sigma 0 to 1, relative to its own; that of
+  /// the value is smaller:  phase^(2 n - 1)/(2 n)! max |d/dsigma prod (sigma - sigma_i)^2|.
+  double error(double phase) const;
 
   static constexpr int max_nodes = 8;
 
 private:
   std::vector<double> sigma_, inverse_, own_slope_; ///< 1/prod (sigma_i - sigma_j), L_i'(sigma_i)
+  double              error_ = 0.;                  ///< of error(1)
 };
 
 } // namespace gestell::coupling

@@ -5,11 +5,12 @@ namespace gestell::tests
 
 namespace
 {
-void contact_loss(Draft &draft, const Link &link)
+/// @return whether it loses energy
+bool contact_loss(Draft &draft, const Link &link)
 {
   const double speed = link.scale.speed();
   if (draft.dice.chance(0.3))
-    return;
+    return false;
   lossy(draft);
   if (draft.dice.chance(0.5))
   {
@@ -18,6 +19,7 @@ void contact_loss(Draft &draft, const Link &link)
   }
   else
     draft.number("dissipation", draft.dice.log_between(0.01, 2.) / speed);
+  return true;
 }
 
 void contact_stiffness(Draft &draft, const Link &link)
@@ -44,8 +46,8 @@ void add_stop(Draft &draft, const Link &link)
   draft.number("gap", link.scale.length * draft.dice.between(0.05, 1.));
   if (below)
     draft.text("side", "below");
-  contact_loss(draft, link);
-  draft.machine.contacts.push_back({name, below ? -1 : 1});
+  const bool loses = contact_loss(draft, link);
+  draft.machine.contacts.push_back({name, below ? -1 : 1, loses});
   draft.watch(name + ".force");
 }
 
@@ -55,8 +57,8 @@ void add_clearance(Draft &draft, const Link &link)
   nonlinear(draft);
   contact_stiffness(draft, link);
   draft.number("gap", draft.dice.chance(0.1) ? 0. : link.scale.length * draft.dice.between(0.02, 0.8));
-  contact_loss(draft, link);
-  draft.machine.contacts.push_back({name, 0});
+  const bool loses = contact_loss(draft, link);
+  draft.machine.contacts.push_back({name, 0, loses});
   draft.watch(name + ".force");
   draft.watch(name + ".displacement");
 }

@@ -12,9 +12,10 @@ class History
 public:
   /// @param dense    with many rows
   /// @param summary  of the same run with few rows, whose extremes are judged
-  History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary);
+  /// @param accurate with a tolerance, not with fixed steps
+  History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary, bool accurate);
 
-  std::vector<Finding> judge(bool accurate);
+  std::vector<Finding> judge();
 
 private:
   void   find(const std::string &kind, const std::string &what, double value, double bound);
@@ -23,15 +24,17 @@ private:
   void   extreme(int column, double sign, double told, double t_told);
   void   frictions();
   void   contacts();
-  void   joints(bool accurate);
-  void   energy(bool accurate);
+  void   joints();
+  void   energy();
   double range(int column) const;
+  bool   rests() const;
   bool   held(const std::string &signal) const;
   bool   between_rows(double t) const;
 
   const RandomMachine &machine_;
   std::string          way_;
   const Told          &dense_, &summary_;
+  bool                 accurate_;
   std::vector<Finding> findings_;
 };
 

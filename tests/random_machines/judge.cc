@@ -68,7 +68,7 @@ bool begins(const std::string &text, const std::string &words)
 }
 
 /// The start lies inside the contact that is named; of fixed steps the balance is open, or Newton failed.
-bool has_cause(const std::string &warning, const Told &told, bool accurate)
+bool has_cause(const RandomMachine &machine, const std::string &warning, const Told &told, bool accurate)
 {
   if (!accurate && begins(warning, "the energy balance is open"))
     return told.run.energy.residual > 0.01 * told.run.energy.exchanged;
@@ -77,9 +77,11 @@ bool has_cause(const std::string &warning, const Told &told, bool accurate)
   const std::string words = "the start lies inside the contact of \"";
   if (!begins(warning, words))
     return false;
-  const int force =
-      told.column(warning.substr(words.size(), warning.find('"', words.size()) - words.size()) + ".force");
-  return force >= 0 && told.at(0, force) != 0.;
+  const std::string name = warning.substr(words.size(), warning.find('"', words.size()) - words.size());
+  for (const ContactFact &contact : machine.contacts)
+    if (contact.name == name)
+      return contact.loses || told.at(0, told.column(name + ".force")) != 0.;
+  return false;
 }
 
 class Judge
@@ -133,10 +135,10 @@ private:
     if (!dense.complete())
       return {};
     for (const std::string &warning : dense.run.warnings)
-      if (!has_cause(warning, dense, accurate))
+      if (!has_cause(machine_, warning, dense, accurate))
         find({"warning", way.name, warning});
     const Told summary = run(way.method, 1);
-    for (const Finding &finding : History(machine_, way.name, dense, summary).judge(accurate))
+    for (const Finding &finding : History(machine_, way.name, dense, summary, accurate).judge())
       find(finding);
     return dense;
   }

@@ -44,6 +44,7 @@ void add_cutting(Draft &draft, const Link &link)
   draft.number("contact_at", link.scale.length * draft.dice.between(0., 0.5));
   draft.number("speed", link.scale.speed() * draft.dice.log_between(0.01, 0.3));
   draft.watch(name + ".force");
+  draft.machine.passive = false; // smooth in speed, it pushes a tool that turns back
 }
 
 void add_drawing(Draft &draft, const Link &link)

@@ -22,7 +22,8 @@ struct FrictionFact
 struct ContactFact
 {
   std::string name; ///< signals "NAME.force", "NAME.displacement"
-  int         side = 1;
+  int         side  = 1;
+  bool        loses = false; ///< energy: bodies that part fast are not pushed
 };
 
 /// Two points, one on either body, that a joint holds together.
