@@ -27,6 +27,8 @@ namespace
 {
 
 constexpr double most_steps = 1e10, most_bytes = 1e9;
+constexpr double seldom            = 1e-4; ///< share of a run whose events need not be located
+constexpr double often             = 0.1;  ///< share of controlled steps that go over events
 constexpr double samples_of_period = 32.;
 
 /// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
@@ -140,15 +142,20 @@ Sampling sampling(const Machine &machine, const MethodOptions &method)
   return sampling;
 }
 
-void take_work(const IntegrationWork &work, long chatter, bool controlled, RunResult &result)
+void take_work(const IntegrationWork &work, const EventDriver &driver, const RunOptions &options, RunResult &result)
 {
   static_cast<IntegrationWork &>(result.work) = work;
-  result.work.chatter                         = chatter;
-  if (work.rejected > 0 && !controlled)
+  result.work.chatter                         = driver.chattering_steps();
+  const double share                          = driver.chattering_time() / (options.end - options.begin);
+  if (work.rejected > 0 && !controlled(options.method))
     result.warnings.push_back("Newton failed in " + std::to_string(work.rejected) + " steps; they were divided");
-  if (chatter > 0)
-    result.warnings.push_back("chatter: " + std::to_string(chatter) +
-                              " steps had more events than are located; they were gone over");
+  // Controlled steps that go over events still keep their tolerance.
+  if (controlled(options.method) ? result.work.chatter < often * double(work.steps) : share < seldom)
+    return;
+  std::ostringstream text;
+  text << "chatter: " << result.work.chatter << " steps, " << 100. * share
+       << " % of the run, had more events than are located; they were gone over";
+  result.warnings.push_back(text.str());
 }
 
 /// Refuses an unstable method, or tells of it if it was forced.
@@ -388,7 +395,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   recorder.finish();
   result.events = driver.events();
   warn_of_switches(machine, options.begin, result);
-  take_work(integrator->work(), driver.chattering_steps(), controlled(method), result);
+  take_work(integrator->work(), driver, options, result);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   for (const std::string &warning : cylinders.warnings())
     result.warnings.push_back(warning);

@@ -13,6 +13,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
+constexpr double nearby     = 0.25; ///< share of its length by which a parabola errs about a turn at its end
 constexpr double a_little =
     0.1; ///< share of a step by which the force that holds a measure errs in the time of an event
 
@@ -99,6 +100,7 @@ void EventDriver::advance()
     system_.follow_history(false);
     detection_.begin(integrator_.local());
     step_over();
+    chattering_time_ += integrator_.time() - before_.t;
     system_.follow_history(true);
     integrator_.restart();
     before_ = integrator_.local();
@@ -283,13 +285,18 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
   for (int k = 0; k < 8; ++k)
   {
     const double rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
-    const double t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
-    if (!(curvature < 0. && t > a.t && t < c.t))
+    double       t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+    if (!(curvature < 0. && t > a.t - nearby * (c.t - a.t) && t < c.t + nearby * (c.t - a.t)))
       return false;
     const double vertex = a.g + (t - a.t) * (rise + curvature * (t - b.t));
     const double way    = std::max({a.g, b.g, c.g, vertex}) - std::min({a.g, b.g, c.g});
     if (vertex < -err * way || t == b.t)
       return false;
+    // A turn that seems to lie outside is looked for at the end, from inside.
+    if (t >= c.t)
+      t = 0.25 * b.t + 0.75 * c.t;
+    else if (t <= a.t)
+      t = 0.25 * b.t + 0.75 * a.t;
     const Look seen{t, value_at(guard, t)};
     if (seen.g > 0.)
     {
@@ -297,12 +304,13 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
       top = seen;
       return true;
     }
-    // Of both ends the one that is farther away gives place.
-    const bool before = t < b.t;
-    if (t - a.t > c.t - t)
-      a = before ? seen : b, b = before ? b : seen;
-    else
-      c = before ? b : seen, b = before ? seen : b;
+    // The highest of the four stays with its neighbours.
+    Look four[] = {a, b, c, seen};
+    std::sort(four, four + 4, [](const Look &x, const Look &y) { return x.t < y.t; });
+    const auto highest =
+        std::max_element(four, four + 4, [](const Look &x, const Look &y) { return x.g < y.g; }) - four;
+    const Look *middle = four + std::clamp<std::ptrdiff_t>(highest, 1, 2);
+    a = middle[-1], b = middle[0], c = middle[1];
   }
   return false;
 }

@@ -47,12 +47,14 @@ public:
   /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
   /// there: before anything of it is accepted and before the transition at its end.
   void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
-  /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events of
-  /// a step that was gone over at its end.
+  /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events
+  /// of a step that was gone over at its end.
   void on_event(std::function<void(const Event &)> observer) { event_observer_ = std::move(observer); }
 
   const std::vector<Event> &events() const { return events_; }
   long                      chattering_steps() const { return chattering_; }
+  /// [s] that those steps took.
+  double chattering_time() const { return chattering_time_; }
 
 private:
   struct Crossing
@@ -94,8 +96,9 @@ private:
   std::array<Eigen::VectorXd, n_inside + 2> g_; ///< guards at the samples of the step
   Eigen::VectorXd                           probe_;
   double                                    window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
-  int                                       in_window_  = 0;
-  long                                      chattering_ = 0;
+  int                                       in_window_       = 0;
+  long                                      chattering_      = 0;
+  double                                    chattering_time_ = 0.;
   std::function<void()>                     observer_;
   std::function<void(const Event &)>        event_observer_;
   std::size_t                               told_ = 0; ///< events

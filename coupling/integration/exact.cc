@@ -47,6 +47,7 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
   step_                    = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(system);
   local_begin_.resize(system);
+  held_.resize(system);
   for (Eigen::VectorXd *x : {&x_, &x_work_, &x_inside_})
     x->setZero(2 * context_.measures.n_p);
   forces_.setZero(force_->basis().size() * n_u);
@@ -282,6 +283,7 @@ void Exact::interpolate(double t, LocalState &state) const
   }
   if (!holds)
     return;
+  keep_held_rates(system_, state.v);
   system_.local_force(state, state.p);
   ++context_.work.evaluations;
   context_.accelerate(x, state);
@@ -311,6 +313,16 @@ bool Exact::is_smooth(double h) const
   return smooth_;
 }
 
+/// Collocation meets the rates that are held at its nodes only.
+void Exact::hold_rates(double t, Eigen::VectorXd &x) const
+{
+  if (system_.held().empty())
+    return;
+  held_.t           = t;
+  held_.v.noalias() = context_.measures.read_v.transpose() * x;
+  context_.project_held(x, held_);
+}
+
 const Eigen::VectorXd &Exact::state_at(double t) const
 {
   const double h = local_.t - t_begin_;
@@ -329,6 +341,7 @@ const Eigen::VectorXd &Exact::state_at(double t) const
   {
     force_->forces(forces_);
     carry_inside(context_.measures, force_->basis(), t - t_begin_, h, forces_, x_inside_);
+    hold_rates(t, x_inside_);
   }
   t_inside_ = t;
   return x_inside_;

@@ -86,6 +86,7 @@ private:
   void                   turn_harmonics();
   void                   forget_inside();
   bool                   is_smooth(double h) const;
+  void                   hold_rates(double t, Eigen::VectorXd &x) const;
   const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
   [[noreturn]] void      fail(const std::string &reason) const;
 
@@ -106,6 +107,7 @@ private:
   LocalState                 local_, local_begin_;
   Eigen::VectorXd            x_;
   mutable Eigen::VectorXd    x_work_, x_inside_, forces_;
+  mutable LocalState         held_; ///< scratch of hold_rates()
   mutable Instant            now_;
   mutable bool               now_known_ = false;
   mutable double             h_smooth_  = 0.; ///< of the last step, once is_smooth() looked at it; else 0

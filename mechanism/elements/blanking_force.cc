@@ -44,7 +44,7 @@ double BlankingForce::lift_off(double z_max) const
 void BlankingForce::start(const LocalMotion &motion, double *history) const
 {
   const double z = motion.u[0] - parameters_.contact_at;
-  history[0]     = std::max(0., z);
+  history[0]     = std::clamp(z, 0., parameters_.thickness);
   history[1]     = virgin_branch(z);
 }
 
@@ -54,7 +54,7 @@ void BlankingForce::accept(const LocalMotion &motion, double *history) const
   const Branch branch = branch_of(history);
   if (motion.by_history && (branch == elastic || branch == apart))
     return;
-  history[0] = std::max(history[0], motion.u[0] - parameters_.contact_at);
+  history[0] = std::max(history[0], std::min(motion.u[0] - parameters_.contact_at, parameters_.thickness));
 }
 
 double BlankingForce::stored_energy(const LocalMotion &motion, const double *history) const
@@ -133,7 +133,7 @@ void BlankingForce::transition(int i, const LocalMotion &motion, double *history
     history[0] = std::max(history[0], z);
     history[1] = i == 0 ? elastic : after[branch_of(history)];
     if (branch_of(history) == through) // severed for good, though located a rounding error before z = h
-      history[0] = std::max(history[0], parameters_.thickness);
+      history[0] = parameters_.thickness;
     break;
   case elastic:
     history[1] = i == 0 ? apart : furthest;
@@ -154,7 +154,7 @@ std::vector<Quantity> BlankingForce::quantities() const
 double BlankingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
   const double z = motion.u[0] - parameters_.contact_at;
-  return i == 0 ? resistance(motion, history) : i == 1 ? z : std::max(history[0], z);
+  return i == 0 ? resistance(motion, history) : i == 1 ? z : std::max(history[0], std::min(z, parameters_.thickness));
 }
 
 } // namespace gestell::mechanism

@@ -18,7 +18,7 @@ namespace gestell::mechanism
  *     z_d <= z < h    F_v = rho F_max [1 - (3 xi^2 - 2 xi^3)],        xi = (z - z_d)/(h - z_d)            slug friction
  *     else            F_v = 0
  *
- * and with the largest penetration z_max so far
+ * and with the largest penetration z_max <= h so far, h of a sheet that is severed,
  *
  *     F = F_v(z) if z >= z_max, else max(0, F_v(z_max) - c_el (z_max - z));      0 for good once z reached h.
  *

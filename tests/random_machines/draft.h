@@ -90,6 +90,7 @@ void write_framed(Draft &draft);
 void write_linkage(Draft &draft);
 void write_gears(Draft &draft);
 void write_spatial(Draft &draft);
+void write_press(Draft &draft);
 
 /// What the scale says of a machine as a whole, and how long it runs.
 void set_times(Draft &draft, const Scale &scale, double fewest, double most_periods);

@@ -125,7 +125,7 @@ void History::extreme(int column, double sign, double told, double t_told)
   const double beyond = sign * told - std::max(value(beside), value(beside + 1));
   const double noise  = (accurate_ ? 1e-6 : 1e-4) * size + tolerance * size_of(machine_, name);
   if (beyond > 2. * step + noise && !between_rows(t_told))
-    find("extreme beyond the history", at_time(what + ", told", t_told), told, sign * value(beside));
+    find(beyond_history, at_time(what + ", told", t_told), told, sign * value(beside));
 }
 
 void History::frictions()

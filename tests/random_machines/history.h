@@ -6,6 +6,8 @@
 namespace gestell::tests
 {
 
+constexpr char beyond_history[] = "extreme beyond the history"; ///< a kind of finding
+
 /// What is judged of one motion by itself: signals, extremes, friction, contacts, joints, energy.
 class History
 {

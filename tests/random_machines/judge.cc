@@ -67,13 +67,16 @@ bool begins(const std::string &text, const std::string &words)
   return text.compare(0, words.size(), words) == 0;
 }
 
-/// The start lies inside the contact that is named; of fixed steps the balance is open, or Newton failed.
+/// The start lies inside the contact that is named; of fixed steps the balance is open, Newton failed, or events were
+/// more than are located.
 bool has_cause(const RandomMachine &machine, const std::string &warning, const Told &told, bool accurate)
 {
   if (!accurate && begins(warning, "the energy balance is open"))
     return told.run.energy.residual > 0.01 * told.run.energy.exchanged;
   if (!accurate && begins(warning, "Newton failed"))
     return told.run.work.rejected > 0;
+  if (!accurate && begins(warning, "chatter"))
+    return told.run.work.chatter > 0;
   const std::string words = "the start lies inside the contact of \"";
   if (!begins(warning, words))
     return false;
@@ -137,10 +140,19 @@ private:
     for (const std::string &warning : dense.run.warnings)
       if (!has_cause(machine_, warning, dense, accurate))
         find({"warning", way.name, warning});
-    const Told summary = run(way.method, 1);
-    for (const Finding &finding : History(machine_, way.name, dense, summary, accurate).judge())
+    for (const Finding &finding : judged(way, dense, accurate))
       find(finding);
     return dense;
+  }
+
+  /// A peak that no row shows may be too narrow for them.
+  std::vector<Finding> judged(const Way &way, const Told &dense, bool accurate)
+  {
+    const Told                 summary = run(way.method, 1);
+    const std::vector<Finding> found   = History(machine_, way.name, dense, summary, accurate).judge();
+    if (std::none_of(found.begin(), found.end(), [](const Finding &f) { return f.kind == beyond_history; }))
+      return found;
+    return History(machine_, way.name, run(way.method, 32 * dense_rows), summary, accurate).judge();
   }
 
   /// Histories must agree as well as either agrees with itself at a tenth of its tolerance, and as well as the machine

@@ -19,6 +19,9 @@ double size_of(const RandomMachine &machine, const std::string &signal)
   return machine.length;
 }
 
+/// Machines that found something are kept by their seeds; what is new is made from later ones.
+constexpr std::uint64_t last_without_presses = 2000;
+
 RandomMachine random_machine(std::uint64_t seed)
 {
   RandomMachine machine;
@@ -27,7 +30,9 @@ RandomMachine random_machine(std::uint64_t seed)
   machine.seed      = seed;
   machine.scene     = "name = \"random_" + std::to_string(seed) + "\"\n";
   const double kind = dice.share();
-  if (kind < 0.45)
+  if (seed > last_without_presses && dice.chance(0.25))
+    write_press(draft);
+  else if (kind < 0.45)
     write_train(draft);
   else if (kind < 0.65)
     write_framed(draft);
