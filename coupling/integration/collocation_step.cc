@@ -201,10 +201,11 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
   for (const HeldMeasure &held : system.held())
     for (int i = 0; i < s_; ++i)
     {
+      // Per h: S_v ~ h W^T M^-1 W, and a step to an event may be as short as the clock tells.
       const int row  = i * n_u_ + held.measure;
-      residual_[row] = held.rate - V_(held.measure, i + 1);
+      residual_[row] = (held.rate - V_(held.measure, i + 1)) / table.h;
       if (jacobian)
-        lu_.matrix().row(row) = table.S_v.row(row);
+        lu_.matrix().row(row) = table.S_v.row(row) / table.h;
     }
   if (!jacobian)
     return true;
