@@ -206,15 +206,30 @@ private:
   /// What the cells add beside A, the frame's own, in its coordinates.
   SparseMatrix extended(const BlockMatrix &cells, const SparseMatrix &A) const
   {
-    Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(cells);
-    sum.prune([&](Eigen::Index i, Eigen::Index j, double) { return is_added(i) || is_added(j); });
-    Eigen::SparseMatrix<double> placed(sum.rows(), A.rows());
-    placed.reserve(Eigen::VectorXi::Constant(A.rows(), 1));
-    for (Eigen::Index i = 0; i < A.rows(); ++i)
-      placed.insert(place_[i], i) = 1.;
-    const Eigen::SparseMatrix<double> own = placed * A * Eigen::SparseMatrix<double>(placed.transpose());
-    sum += own;
-    return sum;
+    const Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(cells);
+    std::vector<int>                  own(sum.cols(), -1); // column of A
+    for (std::size_t j = 0; j < place_.size(); ++j)
+      own[place_[j]] = int(j);
+
+    SparseMatrix result(sum.rows(), sum.cols());
+    result.reserve(sum.nonZeros());
+    std::vector<std::pair<int, double>> column;
+    for (int j = 0; j < sum.cols(); ++j)
+    {
+      column.clear();
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(sum, j); entry; ++entry)
+        if (is_added(entry.row()) || is_added(j))
+          column.emplace_back(int(entry.row()), entry.value());
+      if (own[j] >= 0)
+        for (SparseMatrix::InnerIterator entry(A, own[j]); entry; ++entry)
+          column.emplace_back(place_[entry.row()], entry.value());
+      std::sort(column.begin(), column.end());
+      result.startVec(j);
+      for (const auto &[row, value] : column)
+        result.insertBack(row, j) = value;
+    }
+    result.finalize();
+    return result;
   }
 
   template <std::size_t n>
