@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 
 namespace gestell::fem
@@ -204,10 +205,11 @@ private:
   bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
 
   /// What the cells add beside A, the frame's own, in its coordinates.
-  SparseMatrix extended(const BlockMatrix &cells, const SparseMatrix &A) const
+  SparseMatrix extended(std::unique_ptr<BlockMatrix> cells, const SparseMatrix &A) const
   {
-    const Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(cells);
-    std::vector<int>                  own(sum.cols(), -1); // column of A
+    const Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(*cells);
+    cells.reset();                        // as large as the sum
+    std::vector<int> own(sum.cols(), -1); // column of A
     for (std::size_t j = 0; j < place_.size(); ++j)
       own[place_[j]] = int(j);
 
@@ -244,7 +246,8 @@ private:
       std::transform(functions_.numbers(cell).begin(), functions_.numbers(cell).end(), cells[cell].begin() + n_nodes,
                      [&](const auto &number) { return mesh_.n_nodes() + number.first; });
     }
-    BlockMatrix C_cells(3, n_all, cells), M_cells(1, n_all, cells);
+    auto C_cells = std::make_unique<BlockMatrix>(3, n_all, cells),
+         M_cells = std::make_unique<BlockMatrix>(1, n_all, cells);
     for (int cell = 0; cell < mesh_.n_cells(); ++cell)
     {
       CellMatrices own = cell_matrices(positions(mesh_, cell), points, materials[cell]);
@@ -256,12 +259,12 @@ private:
           own.M.row(k) *= -1.;
           own.M.col(k) *= -1.;
         }
-      C_cells.add(cells[cell], own.C.data());
-      M_cells.add(cells[cell], own.M.data());
+      C_cells->add(cells[cell], own.C.data());
+      M_cells->add(cells[cell], own.M.data());
     }
-    C_cells.finish();
-    M_cells.finish();
-    return {extended(C_cells, C), extended(M_cells, M), place_};
+    C_cells->finish();
+    M_cells->finish();
+    return {extended(std::move(C_cells), C), extended(std::move(M_cells), M), place_};
   }
 
   const QuadraticMesh &mesh_;

@@ -20,6 +20,16 @@ constexpr double shift_share = 0.1;
 /// (2 / 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
 constexpr double left_over = 1.25;
 
+/// Of C3 + s M3.
+SparseCholesky factor(const fem::RaisedFrame &frame, double s, double available)
+{
+  if (s == 0.)
+    return SparseCholesky(frame.C, {}, available);
+  Eigen::SparseMatrix<double> A = frame.C + s * frame.M;
+  A.makeCompressed();
+  return SparseCholesky(A, {}, available);
+}
+
 } // namespace
 
 Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::MatrixXd &X,
@@ -30,13 +40,9 @@ Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::M
     Y.row(frame.place[i]) = X.row(i);
   const Eigen::MatrixXd F = symmetric_product(frame.M, Y);
 
-  const double                s = floats ? shift_share * omega[0] * omega[0] : 0.;
-  Eigen::SparseMatrix<double> A = frame.C;
-  if (floats)
-    A += s * frame.M;
-  A.makeCompressed();
-  Y = F;
-  SparseCholesky(A, {}, available).solve_in_place(Y);
+  const double s = floats ? shift_share * omega[0] * omega[0] : 0.;
+  Y              = F;
+  factor(frame, s, available).solve_in_place(Y);
 
   const Eigen::MatrixXd M = Y.transpose() * symmetric_product(frame.M, Y), C = Y.transpose() * F - s * M; // A Y = F
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
