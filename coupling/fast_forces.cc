@@ -5,8 +5,6 @@
 #include "coupling/modes.h"
 #include "fem/two_pi.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -64,18 +62,6 @@ VectorXd refined(const ReducedFrame &frame, const VectorXd &omega)
   return result;
 }
 
-/// Forces on the bodies that a frame carries reach it by their inertia: [E, -M_fb M_bb^-1]  [n_f x n].
-MatrixXd carried_by_frame(const Machine &machine)
-{
-  const int      n = machine.size(), nf = machine.n_frame(), nb = n - nf;
-  const MatrixXd M = dense_mass(machine);
-  MatrixXd       E = MatrixXd::Identity(nf, n);
-  if (nb > 0 && !M.topRightCorner(nf, nb).isZero(0.)) // M_bb is singular where bodies have no mass, or lags are states
-    E.rightCols(nb) =
-        -M.bottomRightCorner(nb, nb).completeOrthogonalDecomposition().solve(M.bottomLeftCorner(nb, nf)).transpose();
-  return E;
-}
-
 /// What the base system has beside the frame: springs or dampers [n x n].
 MatrixXd beside_frame(MatrixXd base, const MatrixXd &frame)
 {
@@ -90,33 +76,35 @@ FastForces::FastForces(const Machine &machine, const TimeIntegrator &integrator)
   const ReducedFrame *frame = machine.reduced_frame();
   if (!frame || !frame->modal || !(frame->frequency_limit_hz > 0.))
     return;
-  limit_                 = frame->frequency_limit_hz;
-  const MatrixXd carried = carried_by_frame(machine), springs = beside_frame(dense_stiffness(machine), frame->C),
-                 dampers = beside_frame(dense_damping(machine), frame->B), W = carried * machine.directions();
-  int i = 0;
+  limit_             = frame->frequency_limit_hz;
+  const int      n_f = machine.n_frame(), n_b = machine.size() - n_f;
+  const MatrixXd W       = MatrixXd(machine.directions()).topRows(n_f);
+  const MatrixXd springs = beside_frame(dense_stiffness(machine), frame->C),
+                 dampers = beside_frame(dense_damping(machine), frame->B);
+  int i                  = 0;
   for (const ElementPlacement &placement : machine.elements())
     for (int k = 0; k < placement.element->n_measures(); ++k, ++i)
       if (!W.col(i).isZero(0.))
         places_.push_back({placement.name, W.col(i), i});
-  const int n_f = machine.n_frame(), n_b = machine.size() - n_f;
   for (int j = 0; j < frame->n_interface; ++j)
     if (!springs.row(j).tail(n_b).isZero(0.) || !dampers.row(j).tail(n_b).isZero(0.))
       places_.push_back({machine.coordinate_name(j), VectorXd::Unit(n_f, j), -1, -springs.row(j), -dampers.row(j)});
   if (places_.empty())
     return;
-  take_forces(machine, carried, springs, dampers);
+  take_forces(machine, W, springs, dampers);
   take_modes(*frame);
 }
 
 /// As loads on the frame, until take_modes() makes them loads on its modes.
-void FastForces::take_forces(const Machine &machine, const MatrixXd &carried, const MatrixXd &springs,
+void FastForces::take_forces(const Machine &machine, const MatrixXd &W, const MatrixXd &springs,
                              const MatrixXd &dampers)
 {
-  by_measures_ = carried * machine.directions();
+  const Eigen::Index n_f = W.rows();
+  by_measures_           = W;
   if (!machine.excitation().is_constant())
   {
     excitation_ = &machine.excitation();
-    by_loads_   = carried;
+    by_loads_   = MatrixXd::Identity(n_f, machine.size());
     load_       = VectorXd::Zero(machine.size());
   }
   if (springs.isZero(0.) && dampers.isZero(0.))
@@ -124,8 +112,8 @@ void FastForces::take_forces(const Machine &machine, const MatrixXd &carried, co
   for (int i = 0; i < machine.size(); ++i)
     if (!springs.col(i).isZero(0.) || !dampers.col(i).isZero(0.))
       sprung_.push_back(i);
-  by_motion_ = -carried * springs(Eigen::all, sprung_);
-  by_rates_  = -carried * dampers(Eigen::all, sprung_);
+  by_motion_ = -springs.topRows(n_f)(Eigen::all, sprung_);
+  by_rates_  = -dampers.topRows(n_f)(Eigen::all, sprung_);
 }
 
 void FastForces::take_modes(const ReducedFrame &frame)

@@ -20,7 +20,7 @@ namespace gestell::coupling
  *     e(t) = sum_k (w.phi_k) / omega_k^2  (y_k[omega_k] - y_k[omega'_k]),     y_k'' + 2 zeta_k omega y_k' + omega^2 y_k
  *                                                                               = omega^2 phi_k.f(t).
  *
- * f are the forces of elements, joints and base springs, those on bodies that the frame carries passed on by them.
+ * f are the forces of elements, joints, loads and base springs. Masses that ride on the frame are not in its modes.
  *
  * Source: docs/theory/reduction.md (16f).
  */
@@ -49,7 +49,7 @@ private:
     double          above = 0.; ///< share of the flexibility along w that modes above f carry
   };
 
-  void take_forces(const Machine &machine, const Eigen::MatrixXd &carried, const Eigen::MatrixXd &springs,
+  void take_forces(const Machine &machine, const Eigen::MatrixXd &W, const Eigen::MatrixXd &springs,
                    const Eigen::MatrixXd &dampers);
   void take_modes(const ReducedFrame &frame);
 
