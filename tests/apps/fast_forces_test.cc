@@ -45,11 +45,11 @@ step = "20 us"
 z = "frame.pad.uz"
 )";
 
-std::string load_on(const std::string &body)
+/// @param direction  of a load on a slider, which knows its own: none
+std::string load_on(const std::string &body, const std::string &direction = "direction = [0, 0, -1]\n")
 {
-  return "[element.load]\ntype = \"table force\"\nfrom = \"" + body +
-         "\"\nto = \"ground\"\ndirection = [0, 0, -1]\nagainst = \"time\"\n"
-         "table = [[\"0 s\", 0], [\"1 ms\", 0], [\"2 ms\", \"1 kN\"], [\"1 s\", \"1 kN\"]]\n";
+  return "[element.load]\ntype = \"table force\"\nfrom = \"" + body + "\"\nto = \"ground\"\n" + direction +
+         "against = \"time\"\ntable = [[\"0 s\", 0], [\"1 ms\", 0], [\"2 ms\", \"1 kN\"], [\"1 s\", \"1 kN\"]]\n";
 }
 
 /// Fastened by an ideal joint.
@@ -79,7 +79,17 @@ stiffness = "1e8 N/m"
 damping   = "500 N s/m"
 )";
 
-class Shock : public ::testing::TestWithParam<std::string>
+struct Way
+{
+  std::string name, scene;
+};
+
+void PrintTo(const Way &way, std::ostream *out)
+{
+  *out << way.name;
+}
+
+class Shock : public ::testing::TestWithParam<Way>
 {
 protected:
   Answer run(const std::string &frequency)
@@ -87,7 +97,7 @@ protected:
     folder_.file("plate.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.8, 0.6, 0.01};\n"
                               "Rectangle(20) = {0.35, 0.25, 0.01, 0.1, 0.1};\n"
                               "BooleanFragments{ Volume{1}; Delete; }{ Surface{20}; Delete; }\n");
-    const Answer answer = gestell("run " + folder_.file("scene.toml", plate + GetParam()) + folder_.option() +
+    const Answer answer = gestell("run " + folder_.file("scene.toml", plate + GetParam().scene) + folder_.option() +
                                   " --set reduction.frequency='\"" + frequency + "\"'");
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     return answer;
@@ -128,11 +138,11 @@ TEST_P(Shock, IsToldWithTheErrorThatManyMoreModesShow)
   EXPECT_FALSE(run("600 Hz").says("forces change faster"));
 }
 
-INSTANTIATE_TEST_SUITE_P(OnThePadByAJointByASpring, Shock,
-                         ::testing::Values(load_on("frame.pad"), hammer + load_on("hammer"),
-                                           tool + "[element.load]\ntype = \"table force\"\nfrom = \"tool\"\nto = "
-                                                  "\"ground\"\nagainst = \"time\"\ntable = [[\"0 s\", 0], [\"1 ms\", "
-                                                  "0], [\"2 ms\", \"1 kN\"], [\"1 s\", \"1 kN\"]]\n"));
+INSTANTIATE_TEST_SUITE_P(Ways, Shock,
+                         ::testing::Values(Way{"OnThePad", load_on("frame.pad")},
+                                           Way{"ByAJoint", hammer + load_on("hammer")},
+                                           Way{"ByASpring", tool + load_on("tool", "")}),
+                         [](const auto &way) { return way.param.name; });
 
 } // namespace
 } // namespace gestell::tests
