@@ -2,8 +2,8 @@
 
 #include "coupling/integration/time_integrator.h"
 #include "coupling/machine.h"
+#include "coupling/oscillator_bank.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -11,49 +11,16 @@ namespace gestell::coupling
 {
 
 /**
- * High-pass filter of fourth order (Butterworth) with the corner omega, for input that is linear between instants:
- * two sections  x'' + 2 zeta omega x' + omega^2 x = omega^2 u,  y = x'' / omega^2,  integrated exactly.
+ * What the frequencies of a reduced frame, which are too high, make of the forces of a run.
  *
- * What lies a factor of two below the corner is left to 6 %, a jump passes as a whole.
- */
-class HighPass
-{
-public:
-  static constexpr int n_sections = 2;
-
-  /// exp(A h) of both sections over a step h.
-  struct Step
-  {
-    Step(double omega, double h);
-
-    double                                        omega, h;
-    std::array<std::array<double, 4>, n_sections> E; ///< row by row
-  };
-
-  void   begin(double u);                     ///< has been u for ever
-  double advance(const Step &step, double u); ///< the output behind the step
-  double jump(double u);                      ///< the input jumps at this instant
-
-private:
-  struct Section
-  {
-    double x = 0., rate = 0., u = 0.; ///< x' / omega
-
-    double output(double zeta) const { return u - x - 2. * zeta * rate; }
-  };
-  std::array<Section, n_sections> sections_;
-};
-
-/**
- * Looks at what the forces on a reduced frame contain above the frequency f that it is made for.
+ * Modes phi_k of the frame as it is supported follow the forces f(t) on it as oscillators y_k. Those of the reduced
+ * frame have the frequencies omega_k, those of the full one about omega'_k, refined_hz(). As statics of both are
+ * the same, the deflection along a direction w is wrong by about
  *
- * Under a unit force along w the frame, as it is supported, yields along w' by  H(w, w') = sum_k (w.phi_k) (w'.phi_k) /
- * omega_k^2.  Static deflections are exact.  To what is fast, the modes above f answer with frequencies of their own,
- * which the model does not know; so of the deflection along w the part
+ *     e(t) = sum_k (w.phi_k) / omega_k^2  (y_k[omega_k] - y_k[omega'_k]),     y_k'' + 2 zeta_k omega y_k' + omega^2 y_k
+ *                                                                               = omega^2 phi_k.f(t).
  *
- *     d = H_above(w, w) S / sum_j |H(w, w_j)| R_j
- *
- * is in doubt, S the swing of the force's part above f (HighPass) and R_j the ranges of all forces on the frame.
+ * f are the forces of elements, joints, loads and base springs. Masses that ride on the frame are not in its modes.
  *
  * Source: docs/theory/reduction.md (16f).
  */
@@ -70,33 +37,43 @@ public:
   std::string warning() const;
 
 private:
-  static constexpr int n_corners = 4; ///< f, 2 f, 4 f, 8 f: what a larger range would leave
+  static constexpr int n_ranges = 4; ///< f, 2 f, 4 f, 8 f: what a larger range would leave
 
-  struct Range
+  /// Where something acts on the frame: a measure of an element, or base springs between a coordinate and bodies.
+  struct Place
   {
-    double least = 0., most = 0.;
-
-    void   add(double x);
-    double length() const { return most - least; }
-  };
-  struct Force
-  {
-    std::string                     element;
-    int                             measure;
-    double                          above = 0., whole = 0.; ///< H(w, w) of the modes above f, and of all
-    Range                           value{};
-    std::array<HighPass, n_corners> filters{};
-    std::array<Range, n_corners>    fast{};
+    std::string     name;
+    Eigen::VectorXd direction; ///< w [n_f]
+    int             measure;   ///< -1: the force is spring.q + damper.v
+    Eigen::VectorXd spring{}, damper{};
+    double          above = 0.; ///< share of the flexibility along w that modes above f carry
   };
 
-  double doubt(std::size_t force, int corner) const;
+  void take_forces(const Machine &machine, const Eigen::MatrixXd &W, const Eigen::MatrixXd &springs,
+                   const Eigen::MatrixXd &dampers);
+  void take_modes(const ReducedFrame &frame);
 
-  const TimeIntegrator       &integrator_;
-  double                      limit_ = 0.; ///< f [Hz]
-  double                      t_     = 0.;
-  std::vector<Force>          forces_;
-  Eigen::MatrixXd             flexibility_; ///< |H(w_i, w_j)|
-  std::vector<HighPass::Step> steps_;       ///< of the corners, for the last step
+  const Eigen::ArrayXd &inputs(); ///< phi_k.f, of the model's oscillators and again of the refined ones
+  double                force_on(const Place &place) const;
+  void                  look();
+  double                doubt(std::size_t place, int range) const;
+
+  const TimeIntegrator &integrator_;
+  const Excitation     *excitation_ = nullptr; ///< where it changes
+  double                limit_      = 0.;      ///< f [Hz]
+  double                t_          = 0.;
+  std::vector<Place>    places_;
+  Eigen::MatrixXd       shapes_;                 ///< (w_i.phi_k) / omega_k^2 [places x modes]
+  Eigen::MatrixXd       by_measures_, by_loads_; ///< phi_k.f per p [modes x n_u], per f_t [modes x n]
+  Eigen::MatrixXd       by_motion_, by_rates_;   ///< of base springs, dampers, per q, v of sprung_
+  std::vector<int>      sprung_;                 ///< coordinates that these move by
+  Eigen::Index          first_[n_ranges] = {};   ///< mode that is not exact with the range
+  OscillatorBank        bank_;                   ///< of the model, then the refined ones
+  Eigen::VectorXd       force_, load_, at_rest_; ///< phi_k.f; f_t; deflections at the begin
+  Eigen::VectorXd       sum_, difference_;
+  Eigen::ArrayXd        input_;
+  Eigen::ArrayXd        deflection_, least_, most_; ///< largest change of deflections; forces along them
+  Eigen::ArrayXXd       error_;                     ///< largest e(t) [places x n_ranges]
 };
 
 } // namespace gestell::coupling

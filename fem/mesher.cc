@@ -193,7 +193,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   report("meshing surfaces");
   mesh_surfaces(result.model, result.selection, specification, options, session, field, script_has_sizes);
   report("meshing volumes");
-  mesh_volumes(specification, session);
+  mesh_volumes(result.model, specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
   require_straight(result.extracted, specification);
   require_cells(result.extracted.mesh.n_cells(),

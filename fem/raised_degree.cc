@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 
 namespace gestell::fem
@@ -204,17 +205,33 @@ private:
   bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
 
   /// What the cells add beside A, the frame's own, in its coordinates.
-  SparseMatrix extended(const BlockMatrix &cells, const SparseMatrix &A) const
+  SparseMatrix extended(std::unique_ptr<BlockMatrix> cells, const SparseMatrix &A) const
   {
-    Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(cells);
-    sum.prune([&](Eigen::Index i, Eigen::Index j, double) { return is_added(i) || is_added(j); });
-    Eigen::SparseMatrix<double> placed(sum.rows(), A.rows());
-    placed.reserve(Eigen::VectorXi::Constant(A.rows(), 1));
-    for (Eigen::Index i = 0; i < A.rows(); ++i)
-      placed.insert(place_[i], i) = 1.;
-    const Eigen::SparseMatrix<double> own = placed * A * Eigen::SparseMatrix<double>(placed.transpose());
-    sum += own;
-    return sum;
+    const Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(*cells);
+    cells.reset();                        // as large as the sum
+    std::vector<int> own(sum.cols(), -1); // column of A
+    for (std::size_t j = 0; j < place_.size(); ++j)
+      own[place_[j]] = int(j);
+
+    SparseMatrix result(sum.rows(), sum.cols());
+    result.reserve(sum.nonZeros());
+    std::vector<std::pair<int, double>> column;
+    for (int j = 0; j < sum.cols(); ++j)
+    {
+      column.clear();
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(sum, j); entry; ++entry)
+        if (is_added(entry.row()) || is_added(j))
+          column.emplace_back(int(entry.row()), entry.value());
+      if (own[j] >= 0)
+        for (SparseMatrix::InnerIterator entry(A, own[j]); entry; ++entry)
+          column.emplace_back(place_[entry.row()], entry.value());
+      std::sort(column.begin(), column.end());
+      result.startVec(j);
+      for (const auto &[row, value] : column)
+        result.insertBack(row, j) = value;
+    }
+    result.finalize();
+    return result;
   }
 
   template <std::size_t n>
@@ -229,7 +246,8 @@ private:
       std::transform(functions_.numbers(cell).begin(), functions_.numbers(cell).end(), cells[cell].begin() + n_nodes,
                      [&](const auto &number) { return mesh_.n_nodes() + number.first; });
     }
-    BlockMatrix C_cells(3, n_all, cells), M_cells(1, n_all, cells);
+    auto C_cells = std::make_unique<BlockMatrix>(3, n_all, cells),
+         M_cells = std::make_unique<BlockMatrix>(1, n_all, cells);
     for (int cell = 0; cell < mesh_.n_cells(); ++cell)
     {
       CellMatrices own = cell_matrices(positions(mesh_, cell), points, materials[cell]);
@@ -241,12 +259,12 @@ private:
           own.M.row(k) *= -1.;
           own.M.col(k) *= -1.;
         }
-      C_cells.add(cells[cell], own.C.data());
-      M_cells.add(cells[cell], own.M.data());
+      C_cells->add(cells[cell], own.C.data());
+      M_cells->add(cells[cell], own.M.data());
     }
-    C_cells.finish();
-    M_cells.finish();
-    return {extended(C_cells, C), extended(M_cells, M), place_};
+    C_cells->finish();
+    M_cells->finish();
+    return {extended(std::move(C_cells), C), extended(std::move(M_cells), M), place_};
   }
 
   const QuadraticMesh &mesh_;

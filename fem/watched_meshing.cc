@@ -29,6 +29,20 @@ std::size_t number_of_triangles()
   return n;
 }
 
+void mesh_by_hxt()
+{
+  constexpr int    hxt   = 10;
+  const char      *which = "Mesh.Algorithm3D";
+  double           before;
+  gmsh::vectorpair volumes;
+  gmsh::option::getNumber(which, before);
+  gmsh::model::getEntities(volumes, 3);
+  gmsh::model::mesh::clear(volumes); // what the first attempt left
+  gmsh::option::setNumber(which, hxt);
+  gmsh::model::mesh::generate(3);
+  gmsh::option::setNumber(which, before);
+}
+
 } // namespace
 
 std::string head_of(const FrameSpecification &specification)
@@ -71,10 +85,21 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
   require_cells(0.5 * n, "the surfaces alone have " + text(n) + " triangles", options); // two at most to a cell
 }
 
-void mesh_volumes(const FrameSpecification &specification, const GmshSession &session)
+void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
+                  const VolumeMesher &delaunay)
 {
-  session.run([] { gmsh::model::mesh::generate(3); },
-              head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
+  try
+  {
+    session.run(
+        delaunay ? delaunay : [] { gmsh::model::mesh::generate(3); }, "", "");
+    return;
+  }
+  catch (const std::invalid_argument &failure)
+  {
+    model.notes.push_back(std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() +
+                          "); its method HXT could, whose mesh is another one every time it is made");
+  }
+  session.run(mesh_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
 } // namespace gestell::fem

@@ -6,6 +6,7 @@
 #include "fem/mesh_size.h"
 #include "fem/size_field.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -27,7 +28,17 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
                    const MeshOptions &options, const GmshSession &session, const std::optional<SizeField> &refined,
                    bool script_has_sizes);
 
-/// Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh.
-void mesh_volumes(const FrameSpecification &specification, const GmshSession &session);
+/// What meshes the volumes of gmsh's model on the mesh of their surfaces.
+using VolumeMesher = std::function<void()>;
+
+/**
+ * Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh. HXT takes
+ * its place where it fails, and a note of the model says so.
+ *
+ * @param delaunay  the first attempt; empty: that of gmsh.
+ * @throws std::invalid_argument where both fail
+ */
+void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
+                  const VolumeMesher &delaunay = {});
 
 } // namespace gestell::fem

@@ -1,6 +1,7 @@
 #include "apps/commands/commands.h"
 #include "apps/output/number_text.h"
 #include "apps/scene/build_machine.h"
+#include "apps/scene/free_things.h"
 #include "coupling/frame_service_loader.h"
 #include "coupling/mesh_service.h"
 
@@ -49,8 +50,8 @@ std::size_t elements_written(const Scene &scene)
 
 int check_command(const CommonOptions &options)
 {
-  Scene                    scene = read_scene(options.input, options.overrides, options.scripts);
-  std::vector<std::string> loose = check_scene(scene);
+  Scene                    scene    = read_scene(options.input, options.overrides, options.scripts);
+  std::vector<std::string> loose    = check_scene(scene);
   std::vector<std::string> warnings = scene.warnings;
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
@@ -60,6 +61,8 @@ int check_command(const CommonOptions &options)
   }
   check_start(scene);
   warnings.insert(warnings.end(), loose.begin(), loose.end());
+  if (const std::string floating = floating_frame(scene); !floating.empty())
+    warnings.push_back(floating);
   std::cout << scene.file << ": the scene \"" << scene.name
             << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
             << count_text(elements_written(scene), "element") << ", " << count_text(scene.signals.size(), "signal")

@@ -1,5 +1,6 @@
 #include "apps/scene/build_machine.h"
 #include "apps/scene/free_things.h"
+#include "apps/scene/stand_in_frame.h"
 #include "coupling/assembly.h"
 #include "coupling/reduced_frame_file.h"
 #include "coupling/sticking_conflict.h"
@@ -12,53 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-/// A frame that has these interfaces and outputs, and no physics.
-coupling::ReducedFrame stand_in_frame(std::vector<fem::Interface> interfaces, const std::vector<std::string> &outputs)
-{
-  coupling::ReducedFrame frame;
-  int                    n = 0;
-  for (auto &interface : interfaces)
-    for (int &coordinate : interface.coordinate)
-      coordinate = coordinate < 0 ? -1 : n++;
-  frame.M = frame.C       = Eigen::MatrixXd::Identity(n, n);
-  frame.B                 = Eigen::MatrixXd::Zero(n, n);
-  frame.n_interface       = n;
-  frame.translations_load = Eigen::MatrixXd::Zero(n, 3);
-  frame.interfaces        = std::move(interfaces);
-  for (const auto &name : outputs)
-    frame.outputs.push_back({name, "N", Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)});
-  return frame;
-}
-
-coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification)
-{
-  std::vector<fem::Interface> interfaces;
-  for (const auto &interface : specification.interfaces)
-  {
-    interfaces.push_back(
-        {interface.name, interface.position.value_or(fem::Vector3{}), {0, 1, 2, 3, 4, 5}, {1., 1., 1., 1., 1., 1.}});
-    if (interface.coupling == fem::InterfaceCoupling::node)
-      for (int rotation = fem::rx; rotation <= fem::rz; ++rotation)
-        interfaces.back().coordinate[rotation] = -1;
-  }
-  std::vector<std::string> outputs;
-  for (const auto &cut : specification.cuts)
-    outputs.push_back("cut." + cut.name);
-  for (const auto &support : specification.supports)
-    for (const std::string direction : {"x", "y", "z"})
-      outputs.push_back("support." + support.name + "." + direction);
-  return stand_in_frame(interfaces, outputs);
-}
-
-/// Only the sizes of matrices that are too large to be looked at in no time.
-coupling::ReducedFrame stand_in_for(const fem::FrameMatrices &matrices)
-{
-  std::vector<std::string> outputs;
-  for (const auto &output : matrices.outputs)
-    outputs.push_back(output.name);
-  return stand_in_frame(matrices.interfaces, outputs);
-}
-
 coupling::Machine machine_to_check(const Scene &scene)
 {
   const FramePath path = frame_path(scene);
@@ -66,8 +20,7 @@ coupling::Machine machine_to_check(const Scene &scene)
     return build_machine(scene);
   if (path == FramePath::from_file)
     return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
-  return build_machine(scene, scene.frame.source == FrameSource::geometry ? stand_in_for(scene.frame.geometry)
-                                                                          : stand_in_for(scene.frame.matrices));
+  return build_machine(scene, stand_in_frame(scene));
 }
 
 } // namespace
@@ -152,6 +105,28 @@ void check_start(const Scene &scene)
   catch (const coupling::ConvergenceFailure &failure)
   {
     throw against_start(scene, std::string("the machine does not start: ") + failure.what());
+  }
+}
+
+std::string floating_frame(const Scene &scene)
+{
+  const FramePath path   = frame_path(scene);
+  const bool      exists = path == FramePath::dense || path == FramePath::from_file;
+  if (!scene.run.given || path == FramePath::none || !places_known(scene))
+    return "";
+  auto machine = exists ? machine_to_check(scene) : build_machine(scene, rigid_stand_in(scene));
+  if (!may_float(*machine.reduced_frame()))
+    return "";
+  if (coupling::has_joints(machine) && scene.start.rule != StartRule::given) // such a start is found with the frame
+    return "";
+  try
+  {
+    const Eigen::VectorXd q = modes_configuration(scene, machine);
+    return free_frame(scene, machine, coupling::coupled_modes(machine, q, scene.modes.open, machine.size()));
+  }
+  catch (const coupling::ConvergenceFailure &)
+  {
+    return ""; // check_start() tells of machines that do not move on
   }
 }
 

@@ -15,8 +15,8 @@ namespace
 {
 
 constexpr double takes_part = 0.01; ///< of the kinetic energy of a motion
-/// Of the highest frequency of the frame: below it a frequency is zero, for eigenvalues are known to 1e-15 of the
-/// largest.
+/// Of the highest frequency of the frame or the machine: below it a frequency is zero, for eigenvalues are known to
+/// 1e-15 of the largest.
 constexpr double rounding = 1e-6;
 
 /// Coordinates that elements, joints, springs, dampers and loads move by.
@@ -125,14 +125,20 @@ std::vector<std::string> remote_joints(const Scene &scene, const coupling::Machi
   return warnings;
 }
 
+bool may_float(const coupling::ReducedFrame &frame)
+{
+  return !frame.facts.free_motions.empty() || frame.n_rigid() > 0;
+}
+
 std::string free_frame(const Scene &scene, const coupling::Machine &machine, const std::vector<coupling::Mode> &modes)
 {
   const coupling::ReducedFrame *frame = machine.reduced_frame();
-  if (!frame || (frame->facts.free_motions.empty() && frame->n_rigid() == 0))
+  if (!frame || !may_float(*frame))
     return "";
   const auto   n       = frame->M.rows();
-  const double highest = frame->frequencies_hz.size() > 0 ? frame->frequencies_hz.maxCoeff() : 0.;
-  const auto   frees   = [&](const coupling::Mode &mode)
+  const double highest = std::max(frame->frequencies_hz.size() > 0 ? frame->frequencies_hz.maxCoeff() : 0.,
+                                  modes.empty() ? 0. : modes.back().frequency_hz);
+  const auto frees = [&](const coupling::Mode &mode)
   {
     const auto q = mode.shape.head(n);
     return mode.frequency_hz <= rounding * highest && mode.growth <= rounding * highest &&

@@ -25,8 +25,9 @@ constexpr int    guard_modes      = 4;    // beyond them, which keep the last on
 constexpr double coarse           = 0.02; // error from which it is a warning, with a way out
 constexpr double long_beside_wall = 2.; // elements over thickness, above which stresses miss much of what bending errs
 constexpr double thin             = 0.05; // share of the skin on walls thinner than the elements from which they count
-/// Coordinates of degree three for which a comparison costs no more than the reduction does: of thin walls, whose
-/// factor is nearly that of a surface, and of bodies.
+/// Coordinates of degree three up to which a comparison is worth what it costs, two to three and a half times the
+/// reduction (docs/theory/mesh_error.md): some 15 CPU s where stresses do not see how walls bend, and 3 s of bodies,
+/// which they judge well.
 constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
 constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
 

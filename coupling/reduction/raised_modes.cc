@@ -1,5 +1,6 @@
 #include "coupling/reduction/raised_modes.h"
 
+#include "coupling/reduction/basis.h"
 #include "coupling/sparse_cholesky.h"
 
 #include <Eigen/Eigenvalues>
@@ -19,6 +20,16 @@ constexpr double shift_share = 0.1;
 /// (2 / 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
 constexpr double left_over = 1.25;
 
+/// Of C3 + s M3.
+SparseCholesky factor(const fem::RaisedFrame &frame, double s, double available)
+{
+  if (s == 0.)
+    return SparseCholesky(frame.C, {}, available);
+  Eigen::SparseMatrix<double> A = frame.C + s * frame.M;
+  A.makeCompressed();
+  return SparseCholesky(A, {}, available);
+}
+
 } // namespace
 
 Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::MatrixXd &X,
@@ -27,15 +38,13 @@ Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::M
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(frame.C.rows(), X.cols());
   for (Eigen::Index i = 0; i < X.rows(); ++i)
     Y.row(frame.place[i]) = X.row(i);
-  Y = frame.M * Y;
+  const Eigen::MatrixXd F = symmetric_product(frame.M, Y);
 
-  Eigen::SparseMatrix<double> A = frame.C;
-  if (floats)
-    A += shift_share * omega[0] * omega[0] * frame.M;
-  A.makeCompressed();
-  SparseCholesky(A, {}, available).solve_in_place(Y);
+  const double s = floats ? shift_share * omega[0] * omega[0] : 0.;
+  Y              = F;
+  factor(frame, s, available).solve_in_place(Y);
 
-  const Eigen::MatrixXd C = Y.transpose() * (frame.C * Y), M = Y.transpose() * (frame.M * Y);
+  const Eigen::MatrixXd M = Y.transpose() * symmetric_product(frame.M, Y), C = Y.transpose() * F - s * M; // A Y = F
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
       0.5 * (C + C.transpose()), 0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly);
   return ritz.eigenvalues().cwiseMax(0.).cwiseSqrt();

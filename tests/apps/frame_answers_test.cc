@@ -111,6 +111,95 @@ TEST_F(FrameAnswers, AFrameThatNothingHoldsIsToldToFall)
   EXPECT_FALSE(ask("run", block(support)).says("nothing holds"));
 }
 
+/// Of a text, the line that has a part.
+std::string line_with(const std::string &part, const std::string &text)
+{
+  const std::size_t at = text.find(part), begin = text.rfind('\n', at);
+  return at == std::string::npos ? "" : text.substr(begin + 1, text.find('\n', at) - begin - 1);
+}
+
+std::string spring(const std::string &name, const std::string &at, const std::string &direction)
+{
+  return "[element." + name + "]\ntype = \"spring-damper\"\nfrom = \"frame." + at +
+         "\"\nto = \"ground\"\ndirection = " + direction + "\nstiffness = \"1 kN/mm\"\n";
+}
+
+std::string directions(const std::string &list)
+{
+  return support + "directions = " + list + "\n";
+}
+
+std::string foundation(const std::string &values)
+{
+  return "[frame.support.foot]\nsurface = \"foot\"\nfoundation = { " + values + " }\n";
+}
+
+TEST_F(FrameAnswers, CheckTellsOfAFrameThatFallsInTheLineOfRun)
+{
+  const std::string nothing = "nothing holds the frame as a whole";
+  const Answer      checked = ask("check", block(""));
+  EXPECT_EQ(checked.exit_code, 0) << checked.text;
+  EXPECT_EQ(count(checked.text, nothing), 1) << checked.text;
+  EXPECT_EQ(line_with(nothing, checked.text), line_with(nothing, ask("run", block("")).text));
+
+  EXPECT_TRUE(ask("check", block(spring("z", "top", "[0, 0, 1]"))).says(nothing)); // five ways are left
+  for (const std::string &holds : {support, foundation("stiffness = \"1 kN/mm\"")})
+  {
+    const Answer held = ask("check", block(holds));
+    EXPECT_EQ(held.exit_code, 0) << held.text;
+    EXPECT_FALSE(held.says("warning")) << held.text;
+  }
+}
+
+TEST_F(FrameAnswers, CheckTellsOfSupportsThatLeaveADirectionFree)
+{
+  const std::string nothing = "nothing holds the frame as a whole";
+  for (const std::string &slips :
+       {directions("[\"y\", \"z\"]"), foundation("stiffness = [0, \"1 kN/mm\", \"1 kN/mm\"]"),
+        foundation("stiffness = [0, \"1 kN/mm\", \"1 kN/mm\"], damping = \"1 kN s/m\"")})
+  {
+    const std::string line = line_with(nothing, ask("check", block(slips)).text);
+    EXPECT_NE(line.find("translation along x"), std::string::npos) << slips << line;
+    EXPECT_EQ(line, line_with(nothing, ask("run", block(slips)).text));
+    const Answer sprung = ask("check", block(slips + spring("x", "top", "[1, 0, 0]")));
+    EXPECT_TRUE(sprung.exit_code == 0 && !sprung.says(nothing)) << slips << sprung.text;
+  }
+  EXPECT_TRUE(ask("check", block(foundation("damping = \"1 kN s/m\""))).says(nothing)); // nothing brings it back
+}
+
+/// Three masses on two springs in a row, on the ground by a third one; the topmost is an interface.
+std::string chain(const std::string &lowest, const std::string &more = "")
+{
+  return R"(gravity = [0, 0, -9.81]
+[frame]
+mass         = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]
+stiffness    = [[)" +
+         lowest + R"(, -1e6, 0], [-1e6, 2e6, -1e6], [0, -1e6, 1e6]]
+translations = [[0, 0, 1], [0, 0, 1], [0, 0, 1]]
+[frame.interface.top]
+rows = { uz = 3 }
+[run]
+step = "1 ms"
+end  = "0.1 s"
+[output.signals]
+x = "frame.top.uz"
+)" + more;
+}
+
+TEST_F(FrameAnswers, CheckTellsOfFramesFromMatricesThatFall)
+{
+  const std::string nothing = "nothing holds the frame as a whole", reduced = "[reduction]\nmodes = 1\n";
+  for (const std::string &more : {std::string(), reduced})
+  {
+    EXPECT_EQ(count(ask("check", chain("1e6", more)).text, nothing), 1) << more;
+    EXPECT_EQ(count(ask("run", chain("1e6", more)).text, nothing), 1) << more;
+    const Answer stands = ask("check", chain("2e6", more)),
+                 hangs  = ask("check", chain("1e6", more + spring("z", "top", "[0, 0, 1]")));
+    EXPECT_TRUE(stands.exit_code == 0 && !stands.says(nothing)) << more << stands.text;
+    EXPECT_TRUE(hangs.exit_code == 0 && !hangs.says(nothing)) << more << hangs.text;
+  }
+}
+
 TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
 {
   std::string scene = block(support);
