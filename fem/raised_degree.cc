@@ -203,18 +203,39 @@ private:
 
   bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
 
-  /// What the cells add beside A, the frame's own, in its coordinates.
-  SparseMatrix extended(const BlockMatrix &cells, const SparseMatrix &A) const
+  /// What the cells add beside A, the frame's own, in its coordinates.  In place: with copies it would be the largest
+  /// thing in memory.
+  SparseMatrix extended(BlockMatrix cells, const SparseMatrix &A) const
   {
-    Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(cells);
-    sum.prune([&](Eigen::Index i, Eigen::Index j, double) { return is_added(i) || is_added(j); });
-    Eigen::SparseMatrix<double> placed(sum.rows(), A.rows());
-    placed.reserve(Eigen::VectorXi::Constant(A.rows(), 1));
-    for (Eigen::Index i = 0; i < A.rows(); ++i)
-      placed.insert(place_[i], i) = 1.;
-    const Eigen::SparseMatrix<double> own = placed * A * Eigen::SparseMatrix<double>(placed.transpose());
-    sum += own;
+    SparseMatrix sum = projected(std::move(cells));
+    for (Eigen::Index j = 0; j < sum.cols(); ++j)
+      for (SparseMatrix::InnerIterator entry(sum, j); entry; ++entry)
+        if (!is_added(entry.row()) && !is_added(j))
+          entry.valueRef() = 0.;
+    SparseMatrix beyond(sum.rows(), sum.cols()); // masses and foundations that join what no cell does
+    for (Eigen::Index i = 0; i < A.cols(); ++i)
+      replace(A, i, sum, beyond);
+    if (beyond.nonZeros() > 0)
+      sum += beyond;
     return sum;
+  }
+
+  /// The cells' matrix is not needed any more.
+  SparseMatrix projected(BlockMatrix cells) const { return Kinematics(lists_).project(cells); }
+
+  /// The numbers of column i of A at their places.
+  void replace(const SparseMatrix &A, Eigen::Index i, SparseMatrix &sum, SparseMatrix &beyond) const
+  {
+    const int *const begin = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i]],
+                     *end  = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i] + 1];
+    for (SparseMatrix::InnerIterator a(A, i); a; ++a)
+    {
+      const int *const at = std::lower_bound(begin, end, place_[a.row()]);
+      if (at != end && *at == place_[a.row()])
+        sum.valuePtr()[at - sum.innerIndexPtr()] = a.value();
+      else
+        beyond.coeffRef(place_[a.row()], place_[i]) = a.value();
+    }
   }
 
   template <std::size_t n>
@@ -246,7 +267,8 @@ private:
     }
     C_cells.finish();
     M_cells.finish();
-    return {extended(C_cells, C), extended(M_cells, M), place_};
+    SparseMatrix all_C = extended(std::move(C_cells), C);
+    return {std::move(all_C), extended(std::move(M_cells), M), place_};
   }
 
   const QuadraticMesh &mesh_;
