@@ -1,5 +1,6 @@
 #include "coupling/reduction/divided_factor.h"
 
+#include "coupling/reduction/matrix_parts.h"
 #include "coupling/sparse_cholesky.h"
 #include "fem/memory_estimate.h"
 
@@ -18,69 +19,6 @@ using Eigen::MatrixXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr int block_width = 16; // right-hand sides that are dealt out together
-
-/// A(order, order), by columns of ascending rows, of which keep(row, column) tells which stay.
-template <typename Keep>
-SparseMatrix part_of(const SparseMatrix &A, const std::vector<int> &order, const Keep &keep)
-{
-  const int        n = int(order.size());
-  std::vector<int> row_of(A.rows(), -1);
-  for (int k = 0; k < n; ++k)
-    row_of[order[k]] = k;
-  const auto along = [&](int k, const auto &visit)
-  {
-    for (SparseMatrix::InnerIterator a(A, order[k]); a; ++a)
-      if (const int row = row_of[a.row()]; row >= 0 && keep(row, k))
-        visit(row, a.value());
-  };
-  Eigen::VectorXi height = Eigen::VectorXi::Zero(n);
-  for (int k = 0; k < n; ++k)
-    along(k, [&](int, double) { ++height[k]; });
-  SparseMatrix part(n, n);
-  part.reserve(height);
-  std::vector<std::pair<int, double>> column;
-  for (int k = 0; k < n; ++k)
-  {
-    column.clear();
-    along(k, [&](int row, double value) { column.emplace_back(row, value); });
-    std::sort(column.begin(), column.end());
-    for (const auto &[row, value] : column)
-      part.insert(row, k) = value;
-  }
-  part.makeCompressed();
-  return part;
-}
-
-/// What the elimination of the first columns reads, and the diagonal, by which the growth of rounding is measured.
-SparseMatrix lower_part(const SparseMatrix &C, const std::vector<int> &order, int n_columns)
-{
-  return part_of(C, order, [&](int row, int k) { return row == k || (k < n_columns && row > k); });
-}
-
-/// Without the border's own entries but for the rank that has them.
-SparseMatrix additive_part(const SparseMatrix &M, const std::vector<int> &order, int n_own, bool with_border)
-{
-  return part_of(M, order, [&](int row, int k) { return with_border || row < n_own || k < n_own; });
-}
-
-void send(const fem::Ranks &ranks, const SparseMatrix &A, int to)
-{
-  ranks.send(std::vector<int>(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1), to);
-  ranks.send(std::vector<int>(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros()), to);
-  ranks.send(A.valuePtr(), A.nonZeros(), to);
-}
-
-SparseMatrix receive(const fem::Ranks &ranks)
-{
-  const auto   begin = ranks.receive<int>(0), rows = ranks.receive<int>(0);
-  const int    n = int(begin.size()) - 1;
-  SparseMatrix A(n, n);
-  A.resizeNonZeros(Eigen::Index(rows.size()));
-  std::copy(begin.begin(), begin.end(), A.outerIndexPtr());
-  std::copy(rows.begin(), rows.end(), A.innerIndexPtr());
-  ranks.receive(A.valuePtr(), A.nonZeros(), 0);
-  return A;
-}
 
 std::vector<int> counted(int n)
 {
@@ -245,8 +183,8 @@ void DividedFactor::receive_share()
 {
   for (std::vector<int> *list : {&own_.first, &own_.begin, &own_.rows, &held_})
     *list = ranks_.receive<int>(0);
-  C_         = receive(ranks_);
-  M_         = receive(ranks_);
+  C_         = receive_matrix(ranks_);
+  M_         = receive_matrix(ranks_);
   own_.order = counted(int(C_.rows()));
   mark_held_rows();
 }
@@ -259,19 +197,23 @@ HeldMatrix DividedFactor::matrix(double sigma) const
   return {whole ? *on_first_.C : C_, sigma != 0. ? &M : nullptr, sigma, held_marks_, typical_};
 }
 
-/// Rank 0: the coordinate that one of the ranks named, or -1; else a number below zero if none did.  @param row -1:
-/// none
-int DividedFactor::told_to_first(int row) const
+/// Rank 0: of a place in the matrix of a rank.
+int DividedFactor::coordinate_of(int rank, int place) const
 {
-  std::vector<double> rows(ranks_.size(), 0.);
-  rows[ranks_.rank()] = row + 1.;
-  ranks_.sum(rows.data(), ranks_.size());
+  if (rank > 0)
+    return columns_of_[rank][place];
+  return on_first_.given_C ? coordinates_[place] : place;
+}
+
+/// The coordinate that a rank names by its place, on rank 0; -1 on all if none names one.
+int DividedFactor::told_to_first(int place) const
+{
+  std::vector<double> places(ranks_.size(), 0.);
+  places[ranks_.rank()] = place + 1.;
+  ranks_.sum(places.data(), ranks_.size());
   for (int rank = 0; rank < ranks_.size(); ++rank)
-    if (const int found = int(rows[rank]) - 1; found >= 0)
-      return !ranks_.first() ? found
-             : rank > 0      ? columns_of_[rank][found]
-             : C_.rows() > 0 ? coordinates_[found]
-                             : found;
+    if (const int found = int(places[rank]) - 1; found >= 0)
+      return ranks_.first() ? coordinate_of(rank, found) : found;
   return -1;
 }
 

@@ -85,7 +85,8 @@ private:
   void       receive_share();
   void       mark_held_rows();
   HeldMatrix matrix(double sigma) const;
-  int        told_to_first(int row) const;
+  int        coordinate_of(int rank, int place) const;
+  int        told_to_first(int place) const;
   void       reserve();
   int        n_border() const { return n_rows() - own_.columns(); }
 

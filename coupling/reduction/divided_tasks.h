@@ -8,6 +8,13 @@ namespace gestell::coupling
 
 // The tasks of Team with divided factors.  What rank 0 puts in is not read on other ranks; `number` names a factor.
 
+/// The other ranks load what they need while rank 0 reads and meshes; it does not wait for them.
+struct PrepareTask
+{
+  static constexpr Order order = Order::prepare;
+  void                   run(const fem::Ranks &) {}
+};
+
 struct DivideTask
 {
   static constexpr Order order  = Order::divide;

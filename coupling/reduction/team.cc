@@ -66,6 +66,8 @@ void obey(int order)
   const fem::Ranks ranks;
   switch (Order(order))
   {
+  case Order::prepare:
+    return serve<PrepareTask>(ranks);
   case Order::divide:
     return serve<DivideTask>(ranks);
   case Order::forget_factor:
@@ -104,7 +106,11 @@ void obey(int order)
 
 void gestell_use_team()
 {
-  gestell::coupling::Team::use();
+  using namespace gestell::coupling;
+  Team::use();
+  PrepareTask prepare;
+  if (const Team *team = Team::of_this_run())
+    team->together(prepare);
 }
 
 void gestell_obey(int order)

@@ -8,7 +8,8 @@ namespace gestell::coupling
 /// Orders of rank 0, see fem::Ranks; 0 dismisses.
 enum class Order
 {
-  divide = 1,
+  prepare = 1,
+  divide,
   forget_factor,
   factorise,
   release_factor,
