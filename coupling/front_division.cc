@@ -108,6 +108,7 @@ FrontSelection FrontDivision::selection(const std::vector<int> &columns_of_rank,
       {
         row_of[k] = int(selected.order.size());
         selected.order.push_back(fronts_.order[k]);
+        selected.places.push_back(k);
       }
   for (int s = 0; s < fronts_.count; ++s)
   {

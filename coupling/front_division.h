@@ -11,7 +11,7 @@ namespace gestell::coupling
 struct FrontSelection
 {
   std::vector<int> first{0}, begin{0}, rows; // as Fronts
-  std::vector<int> order;                    // coordinate of every row
+  std::vector<int> order, places;            // coordinate of every row, and its place in the whole elimination
 
   int    columns() const { return first.back(); }
   Fronts fronts() const

@@ -139,7 +139,7 @@ void DividedFactor::send_share(const FrontDivision &division, int rank)
 {
   const FrontSelection   share = division.share(rank);
   const std::vector<int> held  = held_rows(share, held_marks_);
-  for (const std::vector<int> *list : {&share.first, &share.begin, &share.rows, &held})
+  for (const std::vector<int> *list : {&share.first, &share.begin, &share.rows, &share.places, &held})
     ranks_.send(*list, rank);
   send(ranks_, lower_part(*on_first_.C, share.order, share.columns()), rank);
   send(ranks_,
@@ -181,7 +181,7 @@ void DividedFactor::mark_held_rows()
 
 void DividedFactor::receive_share()
 {
-  for (std::vector<int> *list : {&own_.first, &own_.begin, &own_.rows, &held_})
+  for (std::vector<int> *list : {&own_.first, &own_.begin, &own_.rows, &own_.places, &held_})
     *list = ranks_.receive<int>(0);
   C_         = receive_matrix(ranks_);
   M_         = receive_matrix(ranks_);
@@ -406,13 +406,6 @@ void InverseOnRanks::sum(MatrixXd &X) const
 void InverseOnRanks::share(MatrixXd &X) const
 {
   factor_.ranks().broadcast(X.data(), X.size());
-}
-
-void InverseOnRanks::share(TallMatrix &X) const
-{
-  for (int p = 0; p < X.n_panels(); ++p)
-    factor_.ranks().broadcast(X.panel(p) + std::ptrdiff_t(factor_.n_own()) * X.lanes(),
-                              std::ptrdiff_t(factor_.n_rows() - factor_.n_own()) * X.lanes());
 }
 
 } // namespace gestell::coupling

@@ -52,6 +52,8 @@ public:
   int               n() const { return n_; }                   ///< coordinates
   int               n_rows() const { return own_.fronts().n; } ///< here, those of the border behind
   int               n_own() const { return own_.columns(); }   ///< rows of this rank alone
+  /// Of the rows in the elimination of all.
+  const std::vector<int> &places() const { return own_.places; }
   /// Rows without motion, ascending.
   const std::vector<int> &held() const { return held_; }
   /// This rank's part of M, by its rows.
@@ -116,7 +118,7 @@ public:
   int                     size() const override { return factor_.n(); }
   void                    sum(Eigen::MatrixXd &X) const override;
   void                    share(Eigen::MatrixXd &X) const override;
-  void                    share(TallMatrix &X) const override;
+  int                     place(int row) const override { return factor_.places()[row]; }
 
 private:
   const DividedFactor &factor_;

@@ -80,7 +80,6 @@ void SearchTask::run(const fem::Ranks &ranks)
   ranks.broadcast(number);
   ranks.broadcast(search);
   ranks.broadcast(options);
-  options.seed += static_cast<unsigned long>(ranks.rank());
   const DividedFactor &factor = *factors().at(number);
   int                  count  = known ? int(known->omega.size()) : 0;
   ranks.broadcast(count);

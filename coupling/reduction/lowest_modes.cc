@@ -21,27 +21,30 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    max_steps    = 1000;
-constexpr double most_numbers = 4e8;   // of the space, where no room is given
-constexpr double most_vectors = 2000;  // the same
-constexpr double broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
-constexpr double dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
-constexpr double well_apart   = 1e-6;  // the same, from which once is enough
-constexpr double sparing      = 1.05;  // growth of the space from which convergence is looked at again
-constexpr double gap          = 1e-4;  // of theta, between modes that count as apart
+constexpr int           max_steps    = 1000;
+constexpr double        most_numbers = 4e8;   // of the space, where no room is given
+constexpr double        most_vectors = 2000;  // the same
+constexpr double        broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
+constexpr double        dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
+constexpr double        well_apart   = 1e-6;  // the same, from which once is enough
+constexpr double        sparing      = 1.05;  // growth of the space from which convergence is looked at again
+constexpr std::uint64_t golden       = 0x9E3779B97F4A7C15u; // SplitMix64
+constexpr double        gap          = 1e-4;                // of theta, between modes that count as apart
 
-/// Numbers in [-1, 1), always the same for a seed.
-TallMatrix irregular(int rows, int columns, unsigned long &seed)
+/// Numbers in [-1, 1), always the same for a seed, on any number of processes.
+TallMatrix irregular(const InverseStiffness &of, int columns, unsigned long &seed)
 {
+  const int  rows = int(of.order().size());
   TallMatrix X(rows, columns);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
     {
-      std::uint64_t z = (seed += 0x9E3779B97F4A7C15u);
+      std::uint64_t z = seed + (std::uint64_t(of.place(i)) * columns + j + 1) * golden;
       z               = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
       z               = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
       X(i, j)         = std::ldexp(double((z ^ (z >> 31)) >> 11), -52) - 1.;
     }
+  seed += std::uint64_t(of.size()) * columns * golden;
   return X;
 }
 
@@ -88,7 +91,7 @@ void InverseByColumns::solve_in_place(TallMatrix &X) const
 BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
                            const Options &options, const LowestModes &known)
     : inverse_(std::move(inverse)), M_(M, inverse_->order(), inverse_->held()), options_(options), n_(int(M.rows())),
-      seed_(options.seed), Q_(n_)
+      Q_(n_)
 {
   if (options.block < 1 || !(options.tolerance > 0.))
     throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
@@ -128,9 +131,8 @@ MatrixXd BlockLanczos::projection(const TallMatrix &MX, int from) const
 void BlockLanczos::start_block()
 {
   const int  size = Q_.columns();
-  TallMatrix X    = irregular(n_, std::min(options_.block, inverse_->size() - size), seed_);
+  TallMatrix X    = irregular(*inverse_, std::min(options_.block, inverse_->size() - size), seed_);
   TallMatrix MX(n_, X.columns());
-  inverse_->share(X);
   for (int pass = 0; pass < 2; ++pass)
   {
     M_.multiply(X, MX);

@@ -34,8 +34,8 @@ public:
   virtual void sum(Eigen::MatrixXd &) const {}
   /// Takes the first one's numbers on all, that rounding leads none astray.
   virtual void share(Eigen::MatrixXd &) const {}
-  /// Takes the first one's numbers in rows that all have.
-  virtual void share(TallMatrix &) const {}
+  /// Place of a row among those of all.
+  virtual int place(int row) const { return row; }
 };
 
 /// By the factor, which must outlive it, as the factor eliminates.
@@ -127,10 +127,9 @@ public:
   struct Options
   {
     /// Right-hand sides at once, >= 1.  Eight take as long as twelve or sixteen in all, with fewer vectors to keep.
-    int           block     = 8;
-    double        tolerance = 1e-8; ///< r / theta from which a mode counts as found
-    unsigned long seed      = 1;    ///< of the numbers to start from; another on each process
-    int           room = 0; ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
+    int    block     = 8;
+    double tolerance = 1e-8; ///< r / theta from which a mode counts as found
+    int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
   };
 
   /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; of several processes each has a
@@ -162,7 +161,7 @@ private:
   int                                     n_, room_;      // rows here, and vectors of the space at most
   int                                     coupled_   = 0; // first column of Q that the last block couples to
   bool                                    exhausted_ = false;
-  unsigned long                           seed_;
+  unsigned long                           seed_      = 1;
   TallSpace                               Q_;
   Eigen::MatrixXd                         T_, E_;            // E: T's rows of the next block [block x size]
   TallMatrix                              next_, M_next_;    // the next block, and M times it
