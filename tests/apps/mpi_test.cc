@@ -109,7 +109,7 @@ std::string judgement(const coupling::ReducedFrame &frame)
 }
 
 constexpr double same =
-    1e-9; // rounding of factors made in another order, amplified by the condition of C22; 1e-12 is met
+    1e-9; // rounding of factors made in another order, amplified by the condition of C22; 3e-12 is met
 
 /// A block with a bore and a pad, whose cells have curved sides.
 std::string bored(const Folder &folder)
