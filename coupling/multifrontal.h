@@ -13,11 +13,11 @@ namespace gestell::coupling
 /// one after those that contribute to it (postorder).
 struct Fronts
 {
-  int        n = 0, count = 0;
-  const int *first = nullptr; // [count + 1] columns of front s are first[s] .. first[s + 1] - 1
-  const int *begin = nullptr; // [count + 1] into rows
-  const int *rows  = nullptr; // of front s: ascending, its own columns first
-  const int *order = nullptr; // [n] coordinate of the matrix at place k
+  int        n = 0, count = 0; // rows; columns may be the first of them only, the rest belongs to other fronts
+  const int *first = nullptr;  // [count + 1] columns of front s are first[s] .. first[s + 1] - 1
+  const int *begin = nullptr;  // [count + 1] into rows
+  const int *rows  = nullptr;  // of front s: ascending, its own columns first
+  const int *order = nullptr;  // [n] coordinate of the matrix at place k
 };
 
 /// A = C - sigma M with the coordinates `held` cut off: their rows and columns are zero but for the diagonal.
@@ -30,6 +30,16 @@ struct HeldMatrix
   double                             held_diagonal = 1.;
 };
 
+/// Where an elimination of some fronts meets that of others.  A contribution is [k x k] for the k rows below a front's
+/// own columns; its lower triangle counts.
+struct Border
+{
+  /// Fills in the contribution of a front without columns, which was made elsewhere.
+  std::function<void(int front, double *contribution)> given;
+  /// Gets the contribution of a front with rows below, none of which is a column of these fronts.
+  std::function<void(int front, const double *contribution)> left;
+};
+
 /**
  * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
  * the fronts before it, is factored densely, and passes its contribution on.
@@ -40,7 +50,7 @@ struct HeldMatrix
  * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.
  */
 int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
-                          const std::function<void(int front, const double *panel)> &take);
+                          const std::function<void(int front, const double *panel)> &take, const Border &border = {});
 
 /// Numbers that either elimination needs beside L at most.
 std::ptrdiff_t multifrontal_workspace(const Fronts &fronts);
@@ -60,6 +70,6 @@ struct Inertia
  * What is counted is the inertia of A + E, |E| ~ growth * eps * diag(C).  Where growth is far beyond 1 / sqrt(eps) a
  * pivot came close to zero, and another sigma should be taken.
  */
-Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A);
+Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A, const Border &border = {});
 
 } // namespace gestell::coupling

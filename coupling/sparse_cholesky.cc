@@ -1,9 +1,9 @@
 #include "coupling/sparse_cholesky.h"
 
-#include "coupling/large_array.h"
 #include "coupling/node_ordering.h"
 #include "coupling/openblas.h"
 #include "coupling/tile_sweeps.h"
+#include "coupling/tiled_panels.h"
 
 #include <suitesparse/cholmod.h>
 
@@ -18,58 +18,14 @@ extern "C" void openblas_set_num_threads(int n);
 namespace gestell::coupling
 {
 
-namespace
-{
-
-/// Numbers of a front of h rows and w columns in tiles.
-std::ptrdiff_t tiles_size(std::ptrdiff_t h, std::ptrdiff_t w)
-{
-  const auto tiles = (h + tile_rows - 1) / tile_rows, rising = w / tile_rows;
-  return tile_rows * (tile_rows * rising * (rising + 1) / 2 + (tiles - rising) * w);
-}
-
-constexpr int tiles_together = 8; // whose rows of a column follow each other in the panel
-
-void put_in_tiles(const double *panel, int h, int w, double *l)
-{
-  for (int first = 0; first < h;)
-  {
-    // Tiles without an end of the front or of the diagonal, side by side: the panel is read in long pieces.
-    const int together = first >= w ? std::min(tiles_together, (h - first) / tile_rows) : 0;
-    if (together > 1)
-    {
-      const auto step = std::ptrdiff_t(tile_rows) * w; // from tile to tile
-      for (int k = 0; k < w; ++k)
-        for (int t = 0; t < together; ++t)
-          std::copy_n(panel + first + t * tile_rows + std::ptrdiff_t(k) * h, tile_rows, l + t * step + k * tile_rows);
-      l += together * step;
-      first += together * tile_rows;
-      continue;
-    }
-    const int rows = std::min(tile_rows, h - first), length = std::min(w, first + tile_rows);
-    for (int k = 0; k < length; ++k, l += tile_rows)
-    {
-      const int     above  = std::max(0, k - first); // of the diagonal
-      const double *column = panel + first + std::ptrdiff_t(k) * h;
-      std::fill_n(l, above, 0.);
-      std::copy(column + above, column + rows, l + above);
-      std::fill(l + rows, l + tile_rows, 0.);
-    }
-    first += tile_rows;
-  }
-}
-
-} // namespace
-
 struct SparseCholesky::Factor
 {
-  cholmod_common              common;
-  cholmod_factor             *analysis = nullptr; // without numbers
-  int                         n        = 0;
-  std::vector<int>            held; // ascending
-  LargeArray                  L;
-  std::vector<std::ptrdiff_t> place;  // [fronts + 1] of their tiles in L
-  std::vector<double>         single; // right-hand side in the order of elimination
+  cholmod_common      common;
+  cholmod_factor     *analysis = nullptr; // without numbers
+  int                 n        = 0;
+  std::vector<int>    held; // ascending
+  TiledPanels         L;
+  std::vector<double> single; // right-hand side in the order of elimination
 
   Factor()
   {
@@ -105,36 +61,12 @@ struct SparseCholesky::Factor
         n, int(analysis->nsuper), ints(analysis->super), ints(analysis->pi), ints(analysis->s), ints(analysis->Perm)};
   }
 
-  TiledFactor tiles() const
-  {
-    const Fronts f = fronts();
-    return {f.n, f.count, f.first, f.begin, f.rows, place.data(), L.data()};
-  }
-
-  void place_tiles(const Fronts &f)
-  {
-    place.assign(1, 0);
-    for (int s = 0; s < f.count; ++s)
-      place.push_back(place.back() + tiles_size(f.begin[s + 1] - f.begin[s], f.first[s + 1] - f.first[s]));
-  }
-
   /// Calls visit(row of A, diagonal entry of L) for every column.
   template <typename Visit>
   void for_each_pivot(const Visit &visit) const
   {
-    const Fronts f = fronts();
-    for (int s = 0; s < f.count; ++s)
-    {
-      const double *l = L.data() + place[s];
-      for (int k = f.first[s], t = 0; k < f.first[s + 1]; ++t) // tile by tile
-      {
-        const int columns = std::min(tile_rows, f.first[s + 1] - k);
-        l += std::ptrdiff_t(t) * tile_rows * tile_rows;
-        for (int j = 0; j < columns; ++j, ++k)
-          visit(f.order[k], l[j * (tile_rows + 1)]);
-        l += std::ptrdiff_t(columns) * tile_rows;
-      }
-    }
+    const int *order = fronts().order;
+    L.for_each_pivot([&](int column, double pivot) { visit(order[column], pivot); });
   }
 };
 
@@ -179,7 +111,8 @@ Eigen::SparseMatrix<double> both_triangles(const Eigen::SparseMatrix<double> &A)
   return full;
 }
 
-/// Whether C has an entry wherever M has one.
+} // namespace
+
 bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M)
 {
   for (int j = 0; j < M.outerSize(); ++j)
@@ -191,8 +124,6 @@ bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<do
   }
   return true;
 }
-
-} // namespace
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
 
@@ -216,7 +147,7 @@ SparseCholesky SparseCholesky::without_numbers(const Eigen::SparseMatrix<double>
   f.n              = int(A.rows());
   f.held           = held;
   f.analysis       = analysed(A, f.held_marks(), f.common);
-  f.place_tiles(f.fronts());
+  f.L              = TiledPanels(f.fronts());
   return result;
 }
 
@@ -225,18 +156,13 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::
 {
   Factor      &f      = *factor_;
   const Fronts fronts = f.fronts();
-  const double needed = sizeof(double) * (double(f.place.back()) + double(multifrontal_workspace(fronts)));
+  const double needed = sizeof(double) * (double(f.L.size()) + double(multifrontal_workspace(fronts)));
   if (needed > available)
     throw NotEnoughMemory(needed, available);
-  f.L                  = LargeArray(f.place.back());
+  f.L.reserve();
   const double typical = f.n > 0 ? A.diagonal().cwiseAbs().mean() : 1.;
-  const int    failed =
-      multifrontal_cholesky(fronts, {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},
-                            [&](int s, const double *panel)
-                            {
-                              put_in_tiles(panel, fronts.begin[s + 1] - fronts.begin[s],
-                                           fronts.first[s + 1] - fronts.first[s], f.L.data() + f.place[s]);
-                            });
+  const int    failed  = multifrontal_cholesky(fronts, {A, nullptr, 0., f.held_marks(), typical > 0. ? typical : 1.},
+                                               [&](int s, const double *panel) { f.L.put(s, panel); });
   if (failed >= 0)
     throw NotPositiveDefinite(failed);
   f.for_each_pivot(
@@ -260,7 +186,7 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
   Factor &f = *factor_;
   eigen_assert(X.rows() == f.n && !released());
-  const TiledFactor tiles       = f.tiles();
+  const TiledFactor tiles       = f.L.tiles();
   const int        *order       = f.fronts().order;
   const auto        columns_for = [](int width)
   {
@@ -313,12 +239,17 @@ void SparseCholesky::solve_in_place(TallMatrix &X) const
 {
   eigen_assert(X.rows() == factor_->n && !released());
   const TileSweeps &sweeps = block_sweeps(X.lanes());
-  const TiledFactor tiles  = factor_->tiles();
+  const TiledFactor tiles  = factor_->L.tiles();
   for (int p = 0; p < X.n_panels(); ++p)
   {
     sweeps.forward(tiles, X.panel(p));
     sweeps.backward(tiles, X.panel(p));
   }
+}
+
+Fronts SparseCholesky::fronts() const
+{
+  return factor_->fronts();
 }
 
 double SparseCholesky::pivot_ratio() const
@@ -344,18 +275,18 @@ int SparseCholesky::weakest_row() const
 
 double SparseCholesky::entries() const
 {
-  return double(factor_->place.back());
+  return double(factor_->L.size());
 }
 
 void SparseCholesky::release()
 {
-  factor_->L      = LargeArray();
+  factor_->L.release();
   factor_->single = std::vector<double>();
 }
 
 bool SparseCholesky::released() const
 {
-  return !factor_->L.data();
+  return factor_->L.released();
 }
 
 Inertia SparseCholesky::inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M,

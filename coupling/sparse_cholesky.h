@@ -72,6 +72,8 @@ public:
   double pivot_ratio() const;
   /// Row of A whose pivot is the smallest.
   int weakest_row() const;
+  /// As long as this lives.
+  Fronts fronts() const;
   /// Coordinate of A at every place in the order of elimination.
   std::vector<int> order() const;
   /// The same for right-hand sides in that order: X(k, :) belongs to coordinate order()[k].
@@ -93,5 +95,8 @@ private:
   SparseCholesky();
   std::unique_ptr<Factor> factor_;
 };
+
+/// Whether C has an entry wherever M has one.
+bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M);
 
 } // namespace gestell::coupling

@@ -2,6 +2,7 @@
 
 #include "fem/attached_masses.h"
 #include "fem/cell_materials.h"
+#include "fem/cell_sums.h"
 #include "fem/cut_force.h"
 #include "fem/elasticity.h"
 #include "fem/hexahedral_mesh.h"
@@ -122,8 +123,8 @@ void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen
     frame.outputs.push_back(std::move(output));
 }
 
-/// M, B, C and what is read off them, by this process alone or by several ranks; what those keep.
-std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const CellAssembly *ranks, FrameMatrices &frame)
+/// M, B, C and what is read off them.
+void add_matrices(const Ingredients &of, FrameMatrices &frame)
 {
   const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
   const auto foundations                                                    = [&](Vector3 Support::*totals)
@@ -131,8 +132,7 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
 
-  CellSums sums =
-      ranks ? ranks->sum(mesh, materials, kinematics, C_beside, M_beside) : sum_cells(mesh, materials, kinematics);
+  CellSums sums            = sum_cells(mesh, materials, kinematics);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
@@ -145,7 +145,6 @@ std::shared_ptr<const RowsOnRanks> add_matrices(const Ingredients &of, const Cel
     add(frame.B, specification.rayleigh_mass * frame.M);
   add(frame.C, C_beside);
   add(frame.M, M_beside);
-  return sums.rows;
 }
 
 Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
@@ -184,13 +183,12 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
 
 } // namespace
 
-FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification, const CellAssembly *ranks)
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
 {
-  return discretise_with_mesh_error(mesh, specification, ranks).matrices;
+  return discretise_with_mesh_error(mesh, specification).matrices;
 }
 
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
-                                          const CellAssembly *ranks)
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
 {
   const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = number_nodes(mesh);
@@ -217,7 +215,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
 
-  auto rows_on_ranks = add_matrices({specification, quadratic, materials, supports, kinematics, nodes}, ranks, frame);
+  add_matrices({specification, quadratic, materials, supports, kinematics, nodes}, frame);
 
   frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
@@ -226,8 +224,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
     frame.stress = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
         rigid_nodes(supports, coupled));
-  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics),
-          std::move(rows_on_ranks)};
+  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics)};
 }
 
 } // namespace gestell::fem

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fem/cell_sums.h"
 #include "fem/frame_matrices.h"
 #include "fem/frame_specification.h"
 #include "fem/mesh.h"
@@ -25,20 +24,16 @@ namespace gestell::fem
  * Uses all of the specification but CAD file, mesh options and selectors.  Initialises PETSc
  * (petsc_session()).
  *
- * @param ranks  sum up the cells' matrices; nullptr: this process does.
  * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
  */
-FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification,
-                         const CellAssembly *ranks = nullptr);
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
 
-/// The same with what estimates the error the mesh leaves in its fields, and what several ranks keep.
+/// The same with what estimates the error the mesh leaves in its fields.
 struct Discretisation
 {
-  FrameMatrices                      matrices;
-  std::shared_ptr<const MeshError>   mesh_error;
-  std::shared_ptr<const RowsOnRanks> rows_on_ranks; ///< of C and M, if several ranks have summed them up
+  FrameMatrices                    matrices;
+  std::shared_ptr<const MeshError> mesh_error;
 };
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
-                                          const CellAssembly *ranks = nullptr);
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
 
 } // namespace gestell::fem

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numeric>
 
 namespace gestell::fem
@@ -204,34 +203,39 @@ private:
 
   bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
 
-  /// What the cells add beside A, the frame's own, in its coordinates.
-  SparseMatrix extended(std::unique_ptr<BlockMatrix> cells, const SparseMatrix &A) const
+  /// What the cells add beside A, the frame's own, in its coordinates.  In place: with copies it would be the largest
+  /// thing in memory.
+  SparseMatrix extended(BlockMatrix cells, const SparseMatrix &A) const
   {
-    const Eigen::SparseMatrix<double> sum = Kinematics(lists_).project(*cells);
-    cells.reset();                        // as large as the sum
-    std::vector<int> own(sum.cols(), -1); // column of A
-    for (std::size_t j = 0; j < place_.size(); ++j)
-      own[place_[j]] = int(j);
+    SparseMatrix sum = projected(std::move(cells));
+    for (Eigen::Index j = 0; j < sum.cols(); ++j)
+      for (SparseMatrix::InnerIterator entry(sum, j); entry; ++entry)
+        if (!is_added(entry.row()) && !is_added(j))
+          entry.valueRef() = 0.;
+    SparseMatrix beyond(sum.rows(), sum.cols()); // masses and foundations that join what no cell does
+    for (Eigen::Index i = 0; i < A.cols(); ++i)
+      replace(A, i, sum, beyond);
+    if (beyond.nonZeros() > 0)
+      sum += beyond;
+    return sum;
+  }
 
-    SparseMatrix result(sum.rows(), sum.cols());
-    result.reserve(sum.nonZeros());
-    std::vector<std::pair<int, double>> column;
-    for (int j = 0; j < sum.cols(); ++j)
+  /// The cells' matrix is not needed any more.
+  SparseMatrix projected(BlockMatrix cells) const { return Kinematics(lists_).project(cells); }
+
+  /// The numbers of column i of A at their places.
+  void replace(const SparseMatrix &A, Eigen::Index i, SparseMatrix &sum, SparseMatrix &beyond) const
+  {
+    const int *const begin = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i]],
+                     *end  = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i] + 1];
+    for (SparseMatrix::InnerIterator a(A, i); a; ++a)
     {
-      column.clear();
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(sum, j); entry; ++entry)
-        if (is_added(entry.row()) || is_added(j))
-          column.emplace_back(int(entry.row()), entry.value());
-      if (own[j] >= 0)
-        for (SparseMatrix::InnerIterator entry(A, own[j]); entry; ++entry)
-          column.emplace_back(place_[entry.row()], entry.value());
-      std::sort(column.begin(), column.end());
-      result.startVec(j);
-      for (const auto &[row, value] : column)
-        result.insertBack(row, j) = value;
+      const int *const at = std::lower_bound(begin, end, place_[a.row()]);
+      if (at != end && *at == place_[a.row()])
+        sum.valuePtr()[at - sum.innerIndexPtr()] = a.value();
+      else
+        beyond.coeffRef(place_[a.row()], place_[i]) = a.value();
     }
-    result.finalize();
-    return result;
   }
 
   template <std::size_t n>
@@ -246,8 +250,7 @@ private:
       std::transform(functions_.numbers(cell).begin(), functions_.numbers(cell).end(), cells[cell].begin() + n_nodes,
                      [&](const auto &number) { return mesh_.n_nodes() + number.first; });
     }
-    auto C_cells = std::make_unique<BlockMatrix>(3, n_all, cells),
-         M_cells = std::make_unique<BlockMatrix>(1, n_all, cells);
+    BlockMatrix C_cells(3, n_all, cells), M_cells(1, n_all, cells);
     for (int cell = 0; cell < mesh_.n_cells(); ++cell)
     {
       CellMatrices own = cell_matrices(positions(mesh_, cell), points, materials[cell]);
@@ -259,12 +262,13 @@ private:
           own.M.row(k) *= -1.;
           own.M.col(k) *= -1.;
         }
-      C_cells->add(cells[cell], own.C.data());
-      M_cells->add(cells[cell], own.M.data());
+      C_cells.add(cells[cell], own.C.data());
+      M_cells.add(cells[cell], own.M.data());
     }
-    C_cells->finish();
-    M_cells->finish();
-    return {extended(std::move(C_cells), C), extended(std::move(M_cells), M), place_};
+    C_cells.finish();
+    M_cells.finish();
+    SparseMatrix all_C = extended(std::move(C_cells), C);
+    return {std::move(all_C), extended(std::move(M_cells), M), place_};
   }
 
   const QuadraticMesh &mesh_;

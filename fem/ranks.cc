@@ -26,6 +26,58 @@ enum Tag
 constexpr int         exit_failed = 3;
 constexpr std::size_t at_once     = std::size_t(1) << 27; // bytes of one message: MPI counts with int
 
+using Clock = std::chrono::steady_clock;
+
+/// Calls arrived() until it is so: a moment of polling, in which messages of a step in common arrive, then with sleep
+/// in between.
+template <typename Arrived>
+void await(const Arrived &arrived, std::chrono::microseconds polling, std::chrono::microseconds sleep)
+{
+  for (const auto begin = Clock::now(); !arrived();)
+    if (Clock::now() - begin < polling)
+      sched_yield();
+    else
+      std::this_thread::sleep_for(sleep);
+}
+
+void await(MPI_Request request)
+{
+  await(
+      [&]
+      {
+        int arrived = 0;
+        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+        return arrived != 0;
+      },
+      std::chrono::microseconds(200), std::chrono::microseconds(50));
+}
+
+void send_message(const void *bytes, std::size_t size, Tag tag, int to)
+{
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Isend(bytes, int(size), MPI_BYTE, to, tag, Ranks::comm(), &request);
+  await(request);
+}
+
+void receive_message(void *bytes, std::size_t size, Tag tag, int from)
+{
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Irecv(bytes, int(size), MPI_BYTE, from, tag, Ranks::comm(), &request);
+  await(request);
+}
+
+void send_values(const void *values, std::size_t size, int to)
+{
+  for (std::size_t first = 0; first < size; first += at_once)
+    send_message(static_cast<const char *>(values) + first, std::min(at_once, size - first), tag_values, to);
+}
+
+void receive_values(void *values, std::size_t size, int from)
+{
+  for (std::size_t first = 0; first < size; first += at_once)
+    receive_message(static_cast<char *>(values) + first, std::min(at_once, size - first), tag_values, from);
+}
+
 /// The kind of a failure, and its message.
 std::pair<Kind, std::string> told(const std::exception_ptr &failure)
 {
@@ -74,20 +126,14 @@ void Ranks::order(int number) const
 
 int Ranks::next_order() const
 {
-  using Clock = std::chrono::steady_clock;
-  // Orders follow each other closely or not at all: a moment of polling, then sleep, which leaves the processor to
-  // rank 0.
-  const auto begin = Clock::now();
-  for (int arrived = 0;;)
-  {
-    MPI_Iprobe(0, tag_order, comm(), &arrived, MPI_STATUS_IGNORE);
-    if (arrived)
-      break;
-    if (Clock::now() - begin < std::chrono::milliseconds(2))
-      sched_yield();
-    else
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  await(
+      [&]
+      {
+        int arrived = 0;
+        MPI_Iprobe(0, tag_order, comm(), &arrived, MPI_STATUS_IGNORE);
+        return arrived != 0;
+      },
+      std::chrono::milliseconds(2), std::chrono::milliseconds(1));
   int number = 0;
   MPI_Recv(&number, 1, MPI_INT, 0, tag_order, comm(), MPI_STATUS_IGNORE);
   return number;
@@ -96,8 +142,10 @@ int Ranks::next_order() const
 void Ranks::settle(const std::exception_ptr &failure) const
 {
   auto [kind, message] = told(failure);
-  int lowest           = kind == Kind::none ? size_ : rank_; // rank that speaks for all
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, comm());
+  int         lowest   = kind == Kind::none ? size_ : rank_; // rank that speaks for all
+  MPI_Request request  = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, comm(), &request);
+  await(request);
   if (lowest == size_)
     return;
   MPI_Bcast(&kind, sizeof kind, MPI_BYTE, lowest, comm());
@@ -115,30 +163,59 @@ void Ranks::broadcast(std::string &text) const
   std::size_t length = text.size();
   broadcast(length);
   text.resize(length);
-  MPI_Bcast(text.data(), int(length), MPI_CHAR, 0, comm());
+  broadcast_bytes(text.data(), length);
+}
+
+void Ranks::broadcast_bytes(void *values, std::size_t size) const
+{
+  for (std::size_t first = 0; first < size; first += at_once)
+  {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibcast(static_cast<char *>(values) + first, int(std::min(at_once, size - first)), MPI_BYTE, 0, comm(),
+               &request);
+    await(request);
+  }
+}
+
+void Ranks::sum_on_first(double *x, std::ptrdiff_t count) const
+{
+  if (rank_ > 0)
+    return send(x, count, 0);
+  std::vector<double> other(size_ > 1 ? count : 0);
+  for (int rank = 1; rank < size_; ++rank)
+  {
+    receive(other.data(), count, rank);
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+      x[i] += other[i];
+  }
+}
+
+void Ranks::send(const double *values, std::ptrdiff_t count, int to) const
+{
+  send_values(values, sizeof(double) * count, to);
+}
+
+void Ranks::receive(double *values, std::ptrdiff_t count, int from) const
+{
+  receive_values(values, sizeof(double) * count, from);
 }
 
 void Ranks::send_bytes(const void *values, std::size_t count, std::size_t size, int to) const
 {
-  MPI_Send(&count, sizeof count, MPI_BYTE, to, tag_count, comm());
-  const auto *bytes = static_cast<const char *>(values);
-  for (std::size_t first = 0; first < count * size; first += at_once)
-    MPI_Send(bytes + first, int(std::min(at_once, count * size - first)), MPI_BYTE, to, tag_values, comm());
+  send_message(&count, sizeof count, tag_count, to);
+  send_values(values, count * size, to);
 }
 
 std::size_t Ranks::announced(int from) const
 {
   std::size_t count = 0;
-  MPI_Recv(&count, sizeof count, MPI_BYTE, from, tag_count, comm(), MPI_STATUS_IGNORE);
+  receive_message(&count, sizeof count, tag_count, from);
   return count;
 }
 
 void Ranks::receive_bytes(void *values, std::size_t count, std::size_t size, int from) const
 {
-  auto *bytes = static_cast<char *>(values);
-  for (std::size_t first = 0; first < count * size; first += at_once)
-    MPI_Recv(bytes + first, int(std::min(at_once, count * size - first)), MPI_BYTE, from, tag_values, comm(),
-             MPI_STATUS_IGNORE);
+  receive_values(values, count * size, from);
 }
 
 void Ranks::abort(const std::string &message) const

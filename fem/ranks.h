@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -30,6 +31,8 @@ public:
  *
  * An order is a number.  After order(n) rank 0, after next_order() all others call the same function for n; within it
  * calls of MPI are collective, and no rank leaves them out.  Work of one rank alone that may fail stands in agree().
+ *
+ * Who waits here sleeps, after a moment of polling: the processor is left to those that work.
  */
 class Ranks
 {
@@ -68,9 +71,19 @@ public:
   void broadcast(T &value) const
   {
     static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
-    MPI_Bcast(&value, sizeof value, MPI_BYTE, 0, comm());
+    broadcast_bytes(&value, sizeof value);
   }
   void broadcast(std::string &text) const;
+  void broadcast(double *values, std::ptrdiff_t count) const { broadcast_bytes(values, sizeof(double) * count); }
+
+  /// Rank 0: x <- the sum of x on all ranks, in the order of these; not changed on others.
+  void sum_on_first(double *x, std::ptrdiff_t count) const;
+  /// The same sum on all, to the last bit.
+  void sum(double *x, std::ptrdiff_t count) const
+  {
+    sum_on_first(x, count);
+    broadcast(x, count);
+  }
 
   /// To one other rank, and there.
   template <typename T>
@@ -87,12 +100,17 @@ public:
     return values;
   }
 
+  /// Numbers of a known count, to one other rank; leaves when they may be overwritten.
+  void send(const double *values, std::ptrdiff_t count, int to) const;
+  void receive(double *values, std::ptrdiff_t count, int from) const;
+
   /// Ends all ranks with a message on standard error; exit code 3.  For a failure of one rank the others know nothing
   /// of.
   [[noreturn]] void abort(const std::string &message) const;
 
 private:
   void        settle(const std::exception_ptr &failure) const;
+  void        broadcast_bytes(void *values, std::size_t size) const;
   void        send_bytes(const void *values, std::size_t count, std::size_t size, int to) const;
   std::size_t announced(int from) const;
   void        receive_bytes(void *values, std::size_t count, std::size_t size, int from) const;

@@ -4,7 +4,6 @@
 #include "coupling/mesh_extrapolation.h"
 #include "coupling/modes.h"
 #include "coupling/reduction/craig_bampton.h"
-#include "coupling/reduction/team_assembly.h"
 #include "fem/curved_sides.h"
 #include "fem/discretisation.h"
 #include "fem/hexahedral_mesh.h"
@@ -153,8 +152,8 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
 {
   if (progress)
     progress("assembly", -1.);
-  const auto [matrices, mesh_error, rows] = fem::discretise_with_mesh_error(mesh, specification, team_assembly());
-  Reduction reduced                       = craig_bampton_with_basis(matrices, reduction, progress, rows.get());
+  const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, specification);
+  Reduction reduced                 = craig_bampton_with_basis(matrices, reduction, progress);
   Computed  result;
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;
@@ -261,7 +260,7 @@ void check(const Computed &first, const ConvergenceOptions &options)
 double skin_area(const fem::Mesh &mesh)
 {
   using fem::operator-;
-  double area = 0.;
+  double     area = 0.;
   for (const auto &[a, b, c] : mesh.skin)
     area += 0.5 * fem::norm(fem::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
   return area;

@@ -365,12 +365,12 @@ Reduction reduce(Shapes shapes, const std::vector<std::string> &notes, const Sta
 } // namespace
 
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress, const fem::RowsOnRanks *rows)
+                                   const Progress &progress)
 {
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
-  HeldFrame held(frame, q1, rows);
+  HeldFrame held(frame, q1);
   tell(progress, "constraint modes");
   ReductionBasis basis = basis_without_modes(held, frame, q1);
   Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),

@@ -36,14 +36,14 @@ namespace gestell::coupling
 ReducedFrame craig_bampton(const fem::FrameMatrices &frame, const ReductionOptions &options,
                            const Progress &progress = {});
 
-/// The same, and T itself; `rows` of C and M if several ranks have them already.
+/// The same, and T itself.
 struct Reduction
 {
   ReducedFrame   frame;
   ReductionBasis basis;
 };
 Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress = {}, const fem::RowsOnRanks *rows = nullptr);
+                                   const Progress &progress = {});
 
 /// T itself with exactly the lowest n_modes modes, of which none is missing, for those who need the internal
 /// coordinates back.

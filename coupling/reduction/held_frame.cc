@@ -1,11 +1,13 @@
 #include "coupling/reduction/held_frame.h"
 
 #include "coupling/reduction/free_motion.h"
+#include "coupling/reduction/team_factor.h"
 #include "coupling/reduction/team_held_frame.h"
-#include "coupling/reduction/team_search.h"
 #include "fem/memory_estimate.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <string>
 
 namespace gestell::coupling
 {
@@ -69,26 +71,54 @@ std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, con
   }
 }
 
-std::unique_ptr<TeamHeldFrame> held_by_team(const Team &team, const fem::FrameMatrices &frame,
-                                            const std::vector<int> &q1, const fem::RowsOnRanks *rows)
+void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
 {
-  auto held = std::make_unique<TeamHeldFrame>(team, frame, q1, rows);
-  if (!held->positive() || !(held->softest() >= suspicious_pivots))
-    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
-  if (!held->positive())
-    refuse_indefinite("");
-  return held;
+  const int         parts  = frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows());
+  const std::string called = frame.n_cells > 0 ? " cells" : " coordinates";
+  if (n_ranks > parts)
+    throw std::invalid_argument("mpirun: " + std::to_string(n_ranks) + " ranks for a frame of " +
+                                std::to_string(parts) + called + ", but each rank needs at least one; start " +
+                                std::to_string(parts) +
+                                " at most, or mesh more finely.  Some thousand cells per rank are worth the effort.");
+}
+
+/// In place of what is built in: MUMPS, and SLEPc for the modes.
+bool wants_mumps()
+{
+  const char *const wish = std::getenv("GESTELL_FACTOR");
+  return wish && wish == std::string("mumps");
 }
 
 } // namespace
 
-HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows)
-    : frame_(frame), q1_(q1), rows_(rows)
+HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1) : frame_(frame), q1_(q1)
 {
   if (const Team *team = Team::of_this_run())
-    team_ = held_by_team(*team, frame, q1, rows);
-  else
-    factor_ = factor_held(frame, q1);
+    team_ = held_by(*team, q1);
+  factorise();
+}
+
+/// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
+std::unique_ptr<HeldByRanks> HeldFrame::held_by(const Team &team, const std::vector<int> &q1) const
+{
+  require_work_for_all(team.ranks().size(), frame_);
+  if (wants_mumps())
+    return std::make_unique<TeamHeldFrame>(team, frame_, q1);
+  return std::make_unique<TeamFactor>(team, MatricesOnFirst{&frame_.C, &frame_.M, q1});
+}
+
+void HeldFrame::factorise()
+{
+  if (!team_)
+  {
+    factor_ = factor_held(frame_, q1_);
+    return;
+  }
+  const bool positive = team_->factorise();
+  if (!positive || !(team_->softest() >= suspicious_pivots))
+    require_no_free_motion(frame_, q1_, lower_triangle_held(frame_.C, q1_));
+  if (!positive)
+    refuse_indefinite(team_->failed_at());
 }
 
 HeldFrame::~HeldFrame() = default;
@@ -104,20 +134,24 @@ void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 
 void HeldFrame::release()
 {
-  if (factor_)
+  if (team_)
+    team_->release();
+  else
     factor_->release();
 }
 
 void HeldFrame::restore()
 {
-  if (factor_ && factor_->released())
+  if (team_)
+    team_->factorise();
+  else if (factor_->released())
     *factor_ = SparseCholesky(frame_.C, q1_);
 }
 
 Inertia HeldFrame::below(double omega) const
 {
   if (team_)
-    return {team_->modes_below(omega), 1.};
+    return team_->below(omega);
   return factor_->inertia(frame_.C, frame_.M, omega * omega);
 }
 
@@ -126,8 +160,8 @@ Inertia HeldFrame::below_if_free(double omega)
   if (team_)
   {
     if (!free_team_)
-      free_team_ = std::make_unique<TeamHeldFrame>(*Team::of_this_run(), frame_, std::vector<int>(), rows_);
-    return {free_team_->modes_below(omega), 1.};
+      free_team_ = held_by(*Team::of_this_run(), {});
+    return free_team_->below(omega);
   }
   if (!free_factor_)
     free_factor_ = std::make_unique<SparseCholesky>(SparseCholesky::without_numbers(frame_.C, {}));
@@ -137,7 +171,7 @@ Inertia HeldFrame::below_if_free(double omega)
 std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &options, const LowestModes &known) const
 {
   if (team_)
-    return std::make_unique<TeamSearch>(*team_, known);
+    return team_->search(options, known);
   return std::make_unique<BlockLanczos>(frame_.M, std::make_unique<InverseByFactor>(*factor_, q1_), options, known);
 }
 

@@ -9,15 +9,11 @@
 #include <memory>
 #include <vector>
 
-namespace gestell::fem
-{
-class RowsOnRanks;
-}
-
 namespace gestell::coupling
 {
 
-class TeamHeldFrame;
+class HeldByRanks;
+class Team;
 
 /**
  * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
@@ -25,14 +21,14 @@ class TeamHeldFrame;
  *
  * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
  *
- * Where mpirun started several ranks the factor lies on all of them, and they find the modes together.
+ * Where mpirun started several ranks the factor lies on all of them, and they find the modes together: see
+ * DividedFactor; with GESTELL_FACTOR=mumps in the environment by MUMPS, and the modes by SLEPc.
  */
 class HeldFrame
 {
 public:
-  /// @param rows of C and M if several ranks have them already, to outlive this; they are dealt out otherwise.
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
-  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1, const fem::RowsOnRanks *rows = nullptr);
+  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
   ~HeldFrame();
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
@@ -55,10 +51,12 @@ public:
   std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
 
 private:
+  std::unique_ptr<HeldByRanks> held_by(const Team &team, const std::vector<int> &q1) const;
+  void                         factorise();
+
   const fem::FrameMatrices       &frame_;
   std::vector<int>                q1_;
-  const fem::RowsOnRanks         *rows_;
-  std::unique_ptr<TeamHeldFrame>  team_, free_team_;     // either these
+  std::unique_ptr<HeldByRanks>    team_, free_team_;     // either these
   std::unique_ptr<SparseCholesky> factor_, free_factor_; // or those
 };
 

@@ -10,12 +10,13 @@ InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &
   Eigen::MatrixXd both(M.rows(), basis.n1() + loads.cols());
   both << basis.M_Psi, loads;
   held.solve_in_place(both);
-  const auto            X   = both.leftCols(basis.n1());
-  const Eigen::MatrixXd M_X = symmetric_product(M, X);
-  Eigen::MatrixXd       X2  = M_X;
-  held.solve_in_place(X2);
-  return {symmetric(basis.M_Psi.transpose() * X), symmetric(X.transpose() * M_X), symmetric(M_X.transpose() * X2),
-          both.rightCols(loads.cols())};
+  const auto            X     = both.leftCols(basis.n1());
+  const Eigen::MatrixXd M_X   = symmetric_product(M, X);
+  const Eigen::MatrixXd first = symmetric(basis.M_Psi.transpose() * X), second = symmetric(X.transpose() * M_X),
+                        under_loads = both.rightCols(loads.cols());
+  both                              = M_X; // where X was: the factor leaves little room
+  held.solve_in_place(both);
+  return {first, second, symmetric(M_X.transpose() * both), under_loads};
 }
 
 Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis)

@@ -21,33 +21,52 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    max_steps    = 1000;
-constexpr double most_numbers = 4e8;   // of the space, where no room is given
-constexpr double most_vectors = 2000;  // the same
-constexpr double broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
-constexpr double dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
-constexpr double well_apart   = 1e-6;  // the same, from which once is enough
-constexpr double sparing      = 1.05;  // growth of the space from which convergence is looked at again
-constexpr double gap          = 1e-4;  // of theta, between modes that count as apart
+constexpr int           max_steps    = 1000;
+constexpr double        most_numbers = 4e8;   // of the space, where no room is given
+constexpr double        most_vectors = 2000;  // the same
+constexpr double        broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
+constexpr double        dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
+constexpr double        well_apart   = 1e-6;  // the same, from which once is enough
+constexpr double        sparing      = 1.05;  // growth of the space from which convergence is looked at again
+constexpr std::uint64_t golden       = 0x9E3779B97F4A7C15u; // SplitMix64
+constexpr double        gap          = 1e-4;                // of theta, between modes that count as apart
 
-/// Numbers in [-1, 1), always the same for a seed.
-TallMatrix irregular(int rows, int columns, unsigned long &seed)
+/// Numbers in [-1, 1), always the same for a seed, on any number of processes.
+TallMatrix irregular(const InverseStiffness &of, int columns, unsigned long &seed)
 {
+  const int  rows = int(of.order().size());
   TallMatrix X(rows, columns);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
     {
-      std::uint64_t z = (seed += 0x9E3779B97F4A7C15u);
+      std::uint64_t z = seed + (std::uint64_t(of.place(i)) * columns + j + 1) * golden;
       z               = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
       z               = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
       X(i, j)         = std::ldexp(double((z ^ (z >> 31)) >> 11), -52) - 1.;
     }
+  seed += std::uint64_t(of.size()) * columns * golden;
   return X;
 }
 
 VectorXd norms(const MatrixXd &gram)
 {
   return gram.diagonal().cwiseMax(0.).cwiseSqrt();
+}
+
+struct EigenPairs
+{
+  VectorXd lambda; // ascending
+  MatrixXd vectors;
+};
+
+/// Of a symmetric matrix; the same on all processes, which decide by it.
+EigenPairs eigen(const MatrixXd &A, const InverseStiffness &among)
+{
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(A);
+  MatrixXd                                      both(A.rows(), A.rows() + 1);
+  both << solved.eigenvalues(), solved.eigenvectors();
+  among.share(both);
+  return {both.col(0), both.rightCols(A.rows())};
 }
 
 std::vector<int> all_of(int n)
@@ -79,7 +98,8 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr
                                 std::to_string(options.tolerance) + "; needed are 1 or more, and above zero");
   const int size = int(known.omega.size());
   room_          = options.room > 0 ? options.room
-                                    : int(std::min<double>({double(n_), most_vectors, most_numbers / std::max(n_, 1)}));
+                                    : int(std::min<double>({double(inverse_->size()), most_vectors,
+                                                            most_numbers / std::max(inverse_->size(), 1)}));
   room_          = std::max(room_, size + 4 * options_.block);
   if (size > 0)
   {
@@ -91,26 +111,42 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr
   start_block();
 }
 
+/// X^T M X of all rows.
+MatrixXd BlockLanczos::product(const TallMatrix &X, const TallMatrix &MX) const
+{
+  MatrixXd G = gram(X, MX);
+  inverse_->sum(G);
+  return G;
+}
+
+/// Q^T M X, likewise.
+MatrixXd BlockLanczos::projection(const TallMatrix &MX, int from) const
+{
+  MatrixXd H = Q_.project(MX, from);
+  inverse_->sum(H);
+  return H;
+}
+
 /// A block of any direction orthogonal to the space; none if the space has the whole range of M.
 void BlockLanczos::start_block()
 {
   const int  size = Q_.columns();
-  TallMatrix X    = irregular(n_, std::min(options_.block, n_ - size), seed_);
+  TallMatrix X    = irregular(*inverse_, std::min(options_.block, inverse_->size() - size), seed_);
   TallMatrix MX(n_, X.columns());
   for (int pass = 0; pass < 2; ++pass)
   {
     M_.multiply(X, MX);
-    const VectorXd before = norms(gram(X, MX));
-    Q_.subtract(X, Q_.project(MX));
+    const VectorXd before = norms(product(X, MX));
+    Q_.subtract(X, projection(MX));
     M_.multiply(X, MX);
-    if (pass == 0 && (norms(gram(X, MX)).array() <= 1e-7 * before.array()).all())
+    if (pass == 0 && (norms(product(X, MX)).array() <= 1e-7 * before.array()).all())
       X = TallMatrix(n_, 0), MX = TallMatrix(n_, 0);
   }
   inverse_->solve_in_place(MX); // what of it has no mass would never leave the space
   std::swap(X, MX);
   M_.multiply(X, MX);
-  const VectorXd scale = norms(gram(X, MX));
-  Q_.subtract(X, Q_.project(MX));
+  const VectorXd scale = norms(product(X, MX));
+  Q_.subtract(X, projection(MX));
   M_.multiply(X, MX);
   std::swap(next_, X);
   std::swap(M_next_, MX);
@@ -127,16 +163,15 @@ void BlockLanczos::set_next(const VectorXd &scale)
   E_ = MatrixXd::Identity(next_.columns(), next_.columns());
   for (int pass = 0; pass < 4 && next_.columns() > 0; ++pass)
   {
-    const MatrixXd products = gram(next_, M_next_);
+    const MatrixXd products = product(next_, M_next_);
     const VectorXd size     = norms(products);
     VectorXd       unit(size.size());
     for (Index j = 0; j < size.size(); ++j)
       unit(j) = size(j) > (pass == 0 ? broken_down * scale(j) : 0.) ? 1. / size(j) : 0.;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(unit.asDiagonal() * products * unit.asDiagonal());
-    const VectorXd                               &lambda = scaled.eigenvalues();
+    const auto [lambda, all] = eigen(unit.asDiagonal() * products * unit.asDiagonal(), *inverse_);
     const Index    rank = (lambda.array() > dependent).count(), dropped = lambda.size() - rank;
     const VectorXd root = lambda.tail(rank).cwiseSqrt();
-    const MatrixXd U    = scaled.eigenvectors().rightCols(rank);
+    const MatrixXd U    = all.rightCols(rank);
     const MatrixXd F    = unit.asDiagonal() * U * root.cwiseInverse().asDiagonal();
     next_.transform(F);
     M_next_.transform(F);
@@ -144,7 +179,7 @@ void BlockLanczos::set_next(const VectorXd &scale)
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
       break;
     M_.multiply(next_, M_next_); // few significant figures are left: once more
-    Q_.subtract(next_, Q_.project(M_next_));
+    Q_.subtract(next_, projection(M_next_));
     M_.multiply(next_, M_next_);
   }
 }
@@ -161,15 +196,15 @@ void BlockLanczos::step()
   std::swap(next_, M_next_); // the old block lies in the space; what M made of it becomes the next
   inverse_->solve_in_place(next_);
   M_.multiply(next_, M_next_);
-  const VectorXd scale = norms(gram(next_, M_next_));
+  const VectorXd scale = norms(product(next_, M_next_));
 
   // first what couples, then what rounding left of all the others
-  const MatrixXd H           = Q_.project(M_next_, from);
+  const MatrixXd H           = projection(M_next_, from);
   const MatrixXd own         = H.bottomRows(b);
   T_.bottomRightCorner(b, b) = 0.5 * (own + own.transpose());
   Q_.subtract(next_, H, from);
   M_.multiply(next_, M_next_);
-  Q_.subtract(next_, Q_.project(M_next_));
+  Q_.subtract(next_, projection(M_next_));
   M_.multiply(next_, M_next_);
   set_next(scale);
 
@@ -195,10 +230,10 @@ void BlockLanczos::solve_projected()
 {
   if (Q_.columns() == 0)
     return;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(T_);
-  theta_    = ritz.eigenvalues().reverse();
-  S_        = ritz.eigenvectors().rowwise().reverse();
-  residual_ = (E_ * S_).colwise().norm().transpose();
+  const auto [lambda, vectors] = eigen(T_, *inverse_);
+  theta_                       = lambda.reverse();
+  S_                           = vectors.rowwise().reverse();
+  residual_                    = (E_ * S_).colwise().norm().transpose();
 }
 
 int BlockLanczos::n_found() const

@@ -25,6 +25,17 @@ public:
   virtual const std::vector<int> &order() const                       = 0;
   /// Coordinates (ascending) without motion.
   virtual const std::vector<int> &held() const = 0;
+
+  // Where several processes have rows of X each, all of them do the same at the same time:
+
+  /// Coordinates, those of other processes included.
+  virtual int size() const { return int(order().size()); }
+  /// Adds up what each found by its own rows; the same on all.
+  virtual void sum(Eigen::MatrixXd &) const {}
+  /// Takes the first one's numbers on all, that rounding leads none astray.
+  virtual void share(Eigen::MatrixXd &) const {}
+  /// Place of a row among those of all.
+  virtual int place(int row) const { return row; }
 };
 
 /// By the factor, which must outlive it, as the factor eliminates.
@@ -121,7 +132,8 @@ public:
     int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
   };
 
-  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored.
+  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; of several processes each has a
+  ///               part, whose sum is the whole.
   /// @param known  modes found elsewhere: part of the space from the start.
   BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
                const Options &options, const LowestModes &known = {});
@@ -134,17 +146,19 @@ public:
   int n_vectors() const { return Q_.columns(); } ///< of the space
 
 private:
-  void start_block();
-  void step();
-  void restart(int keep);
-  void set_next(const Eigen::VectorXd &scale);
-  void solve_projected();
-  int  gap_index(int count) const;
+  Eigen::MatrixXd product(const TallMatrix &X, const TallMatrix &MX) const;
+  Eigen::MatrixXd projection(const TallMatrix &MX, int from = 0) const;
+  void            start_block();
+  void            step();
+  void            restart(int keep);
+  void            set_next(const Eigen::VectorXd &scale);
+  void            solve_projected();
+  int             gap_index(int count) const;
 
   std::unique_ptr<const InverseStiffness> inverse_;
   ReorderedMatrix                         M_;
   Options                                 options_;
-  int                                     n_, room_;      // vectors of the space at most
+  int                                     n_, room_;      // rows here, and vectors of the space at most
   int                                     coupled_   = 0; // first column of Q that the last block couples to
   bool                                    exhausted_ = false;
   unsigned long                           seed_      = 1;

@@ -30,9 +30,9 @@ namespace
 {
 
 /// Rows of A for one rank, columns ascending.
-fem::CompressedRows rows_for(const SparseMatrix &A, const RowPlan &plan, int rank)
+CompressedRows rows_for(const SparseMatrix &A, const RowPlan &plan, int rank)
 {
-  fem::CompressedRows                 rows;
+  CompressedRows                      rows;
   std::vector<std::pair<int, double>> entries;
   for (int row = plan.begin[rank]; row < plan.begin[rank + 1]; ++row)
   {
@@ -52,11 +52,11 @@ fem::CompressedRows rows_for(const SparseMatrix &A, const RowPlan &plan, int ran
 
 } // namespace
 
-fem::CompressedRows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, const RowPlan &plan)
+CompressedRows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, const RowPlan &plan)
 {
   if (!ranks.first())
   {
-    fem::CompressedRows rows;
+    CompressedRows rows;
     rows.begin  = ranks.receive<int>(0);
     rows.column = ranks.receive<int>(0);
     rows.value  = ranks.receive<double>(0);
@@ -64,7 +64,7 @@ fem::CompressedRows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, co
   }
   for (int other = 1; other < ranks.size(); ++other)
   {
-    const fem::CompressedRows rows = rows_for(*A, plan, other);
+    const CompressedRows rows = rows_for(*A, plan, other);
     ranks.send(rows.begin, other);
     ranks.send(rows.column, other);
     ranks.send(rows.value, other);
@@ -72,89 +72,7 @@ fem::CompressedRows dealt_out(const fem::Ranks &ranks, const SparseMatrix *A, co
   return rows_for(*A, plan, 0);
 }
 
-SparseMatrix collected(const fem::Ranks &ranks, const fem::CompressedRows &own, const RowPlan &plan)
-{
-  if (!ranks.first())
-  {
-    ranks.send(own.begin, 0);
-    ranks.send(own.column, 0);
-    ranks.send(own.value, 0);
-    return {};
-  }
-  std::vector<std::vector<int>> begin(ranks.size());
-  begin[0] = own.begin;
-  for (int other = 1; other < ranks.size(); ++other)
-    begin[other] = ranks.receive<int>(other);
-
-  const int    n = int(plan.row_of.size());
-  SparseMatrix whole(n, n);
-  int         *outer = whole.outerIndexPtr();
-  for (int rank = 0; rank < ranks.size(); ++rank)
-    for (int i = plan.begin[rank]; i < plan.begin[rank + 1]; ++i)
-      outer[plan.coordinate_of[i] + 1] = begin[rank][i - plan.begin[rank] + 1] - begin[rank][i - plan.begin[rank]];
-  for (int i = 0; i < n; ++i)
-    outer[i + 1] += outer[i];
-  whole.resizeNonZeros(outer[n]);
-
-  std::vector<std::pair<int, double>> entries;
-  for (int rank = 0; rank < ranks.size(); ++rank)
-  {
-    const std::vector<int>    received = rank > 0 ? ranks.receive<int>(rank) : std::vector<int>();
-    const std::vector<double> values   = rank > 0 ? ranks.receive<double>(rank) : std::vector<double>();
-    const auto               &column   = rank > 0 ? received : own.column;
-    const auto               &value    = rank > 0 ? values : own.value;
-    for (int i = plan.begin[rank]; i < plan.begin[rank + 1]; ++i)
-    {
-      const int local = i - plan.begin[rank];
-      entries.clear();
-      for (int k = begin[rank][local]; k < begin[rank][local + 1]; ++k)
-        entries.emplace_back(plan.coordinate_of[column[k]], value[k]);
-      std::sort(entries.begin(), entries.end());
-      int at = outer[plan.coordinate_of[i]];
-      for (const auto &[coordinate, entry] : entries)
-      {
-        whole.innerIndexPtr()[at] = coordinate;
-        whole.valuePtr()[at++]    = entry;
-      }
-    }
-  }
-  return whole;
-}
-
-fem::CompressedRows own_rows(Mat A)
-{
-  fem::CompressedRows rows;
-  for_each_own_row(A, "own_rows",
-                   [&](PetscInt, PetscInt count, const PetscInt *columns, const PetscScalar *values)
-                   {
-                     rows.column.insert(rows.column.end(), columns, columns + count);
-                     rows.value.insert(rows.value.end(), values, values + count);
-                     rows.begin.push_back(int(rows.column.size()));
-                   });
-  return rows;
-}
-
-fem::CompressedRows sum(const fem::CompressedRows &A, const fem::CompressedRows &B)
-{
-  fem::CompressedRows result;
-  for (int i = 0; i < A.n_rows(); ++i)
-  {
-    int a = A.begin[i], b = B.begin[i];
-    while (a < A.begin[i + 1] || b < B.begin[i + 1])
-    {
-      const bool of_A = b == B.begin[i + 1] || (a < A.begin[i + 1] && A.column[a] <= B.column[b]);
-      const bool of_B = a == A.begin[i + 1] || (b < B.begin[i + 1] && B.column[b] <= A.column[a]);
-      result.column.push_back(of_A ? A.column[a] : B.column[b]);
-      result.value.push_back((of_A ? A.value[a] : 0.) + (of_B ? B.value[b] : 0.));
-      a += of_A;
-      b += of_B;
-    }
-    result.begin.push_back(int(result.column.size()));
-  }
-  return result;
-}
-
-PetscOwned<Mat> shared_matrix(const fem::CompressedRows &rows, int n)
+PetscOwned<Mat> shared_matrix(const CompressedRows &rows, int n)
 {
   const int n_rows = rows.n_rows();
   Mat       A      = nullptr;

@@ -5,7 +5,6 @@
 #include "coupling/reduction/mesh_statement.h"
 #include "coupling/reduction/openblas.h"
 #include "coupling/reduction/rounded.h"
-#include "coupling/reduction/team_assembly.h"
 #include "fem/attached_masses.h"
 #include "fem/discretisation.h"
 #include "fem/mesher.h"
@@ -79,9 +78,8 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame, team_assembly());
-    Reduction           reduced =
-        craig_bampton_with_basis(discretisation.matrices, options, progress, discretisation.rows_on_ranks.get());
+    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
+    Reduction           reduced        = craig_bampton_with_basis(discretisation.matrices, options, progress);
     if (progress)
       progress("mesh error", -1.);
     auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);

@@ -1,6 +1,7 @@
 #include "coupling/reduction/mesh_statement.h"
 
 #include "coupling/dense_modes.h"
+#include "coupling/integration/second_order_system.h"
 #include "coupling/modes.h"
 #include "coupling/reduction/raised_modes.h"
 #include "coupling/reduction/rounded.h"
@@ -77,6 +78,10 @@ Eigen::VectorXd by_degree(const Modes &modes, const Reduction &reduced, const fe
                                 modes.n_rigid > 0, available);
   }
   catch (const NotEnoughMemory &)
+  {
+    return {};
+  }
+  catch (const ConvergenceFailure &) // the same, of a rank
   {
     return {};
   }

@@ -1,6 +1,7 @@
 #include "coupling/reduction/raised_modes.h"
 
 #include "coupling/reduction/basis.h"
+#include "coupling/reduction/team_factor.h"
 #include "coupling/sparse_cholesky.h"
 
 #include <Eigen/Eigenvalues>
@@ -20,31 +21,38 @@ constexpr double shift_share = 0.1;
 /// (2 / 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
 constexpr double left_over = 1.25;
 
-/// Of C3 + s M3.
-SparseCholesky factor(const fem::RaisedFrame &frame, double s, double available)
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Y <- A^-1 Y, by all ranks there are, which empty A.
+void solve(SparseMatrix &A, double available, Eigen::MatrixXd &Y)
 {
-  if (s == 0.)
-    return SparseCholesky(frame.C, {}, available);
-  Eigen::SparseMatrix<double> A = frame.C + s * frame.M;
-  A.makeCompressed();
-  return SparseCholesky(A, {}, available);
+  const Team *const team = Team::of_this_run();
+  if (!team)
+    return SparseCholesky(A, {}, available).solve_in_place(Y);
+  TeamFactor factor(*team, {nullptr, nullptr, {}, &A});
+  if (!factor.factorise())
+    throw NotPositiveDefinite(factor.failed());
+  factor.solve_in_place(Y);
 }
 
 } // namespace
 
-Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::MatrixXd &X,
-                                   const Eigen::VectorXd &omega, bool floats, double available)
+Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd &X, const Eigen::VectorXd &omega,
+                                   bool floats, double available)
 {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(frame.C.rows(), X.cols());
   for (Eigen::Index i = 0; i < X.rows(); ++i)
     Y.row(frame.place[i]) = X.row(i);
-  const Eigen::MatrixXd F = symmetric_product(frame.M, Y);
+  Y                       = symmetric_product(frame.M, Y);
+  const Eigen::MatrixXd F = Y;
+  const double          s = floats ? shift_share * omega[0] * omega[0] : 0.;
+  if (floats)
+    frame.C += s * frame.M;
+  frame.C.makeCompressed();
+  solve(frame.C, available, Y);
 
-  const double s = floats ? shift_share * omega[0] * omega[0] : 0.;
-  Y              = F;
-  factor(frame, s, available).solve_in_place(Y);
-
-  const Eigen::MatrixXd M = Y.transpose() * symmetric_product(frame.M, Y), C = Y.transpose() * F - s * M; // A Y = F
+  const Eigen::MatrixXd MY = symmetric_product(frame.M, Y), M = Y.transpose() * MY;
+  const Eigen::MatrixXd C = Y.transpose() * F - s * M; // C3 Y = M3 X - s M3 Y
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
       0.5 * (C + C.transpose()), 0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly);
   return ritz.eigenvalues().cwiseMax(0.).cwiseSqrt();

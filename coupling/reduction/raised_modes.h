@@ -23,8 +23,8 @@ namespace gestell::coupling
  *
  * Source: docs/theory/mesh_error.md (4a).
  */
-Eigen::VectorXd raised_frequencies(const fem::RaisedFrame &frame, const Eigen::MatrixXd &X,
-                                   const Eigen::VectorXd &omega, bool floats, double available);
+Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd &X, const Eigen::VectorXd &omega,
+                                   bool floats, double available);
 
 /// Error of a frequency of the quadratic mesh from that of degree three, relative to the latter:
 /// docs/theory/mesh_error.md (4b).

@@ -1,6 +1,7 @@
 #include "coupling/reduction/team.h"
 
 #include "coupling/integration/second_order_system.h"
+#include "coupling/reduction/divided_tasks.h"
 #include "coupling/reduction/team_tasks.h"
 #include "coupling/team_service.h"
 
@@ -65,10 +66,28 @@ void obey(int order)
   const fem::Ranks ranks;
   switch (Order(order))
   {
-  case Order::assemble:
-    return serve<AssembleTask>(ranks);
-  case Order::forget:
-    return serve<ForgetTask>(ranks);
+  case Order::prepare:
+    return serve<PrepareTask>(ranks);
+  case Order::divide:
+    return serve<DivideTask>(ranks);
+  case Order::forget_factor:
+    return serve<ForgetFactorTask>(ranks);
+  case Order::factorise:
+    return serve<FactoriseTask>(ranks);
+  case Order::release_factor:
+    return serve<ReleaseFactorTask>(ranks);
+  case Order::solve_divided:
+    return serve<SolveDividedTask>(ranks);
+  case Order::inertia:
+    return serve<InertiaTask>(ranks);
+  case Order::search:
+    return serve<SearchTask>(ranks);
+  case Order::find:
+    return serve<FindTask>(ranks);
+  case Order::found:
+    return serve<FoundTask>(ranks);
+  case Order::end_search:
+    return serve<EndSearchTask>(ranks);
   case Order::hold:
     return serve<HoldTask>(ranks);
   case Order::release:
@@ -87,7 +106,11 @@ void obey(int order)
 
 void gestell_use_team()
 {
-  gestell::coupling::Team::use();
+  using namespace gestell::coupling;
+  Team::use();
+  PrepareTask prepare;
+  if (const Team *team = Team::of_this_run())
+    team->together(prepare);
 }
 
 void gestell_obey(int order)

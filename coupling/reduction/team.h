@@ -8,8 +8,17 @@ namespace gestell::coupling
 /// Orders of rank 0, see fem::Ranks; 0 dismisses.
 enum class Order
 {
-  assemble = 1,
-  forget,
+  prepare = 1,
+  divide,
+  forget_factor,
+  factorise,
+  release_factor,
+  solve_divided,
+  inertia,
+  search,
+  find,
+  found,
+  end_search,
   hold,
   release,
   solve,

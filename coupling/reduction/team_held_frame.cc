@@ -1,6 +1,6 @@
 #include "coupling/reduction/team_held_frame.h"
 
-#include "coupling/reduction/team_assembly.h"
+#include "coupling/reduction/team_search.h"
 #include "coupling/reduction/team_tasks.h"
 
 #include <utility>
@@ -8,17 +8,13 @@
 namespace gestell::coupling
 {
 
-TeamHeldFrame::TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1,
-                             const fem::RowsOnRanks *rows)
+TeamHeldFrame::TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1)
     : team_(team), n_(int(frame.C.rows())), n_free_(n_ - int(q1.size())), number_(Team::next_number())
 {
-  require_work_for_all(team, frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows()),
-                       frame.n_cells > 0 ? "cells" : "coordinates");
   HoldTask hold;
-  hold.number   = number_;
-  hold.matrices = number_of(rows);
-  hold.frame    = &frame;
-  hold.q1       = &q1;
+  hold.number = number_;
+  hold.frame  = &frame;
+  hold.q1     = &q1;
   team.together(hold);
   shared_ = hold.held;
 }
@@ -46,6 +42,11 @@ LowestModes TeamHeldFrame::lowest_modes(int count, const Eigen::Ref<const Eigen:
   task.known  = &known;
   team_.together(task);
   return std::move(task.modes);
+}
+
+std::unique_ptr<ModeSearch> TeamHeldFrame::search(const BlockLanczos::Options &, const LowestModes &known) const
+{
+  return std::make_unique<TeamSearch>(*this, known);
 }
 
 int TeamHeldFrame::modes_below(double omega) const

@@ -1,21 +1,19 @@
 #pragma once
 
+#include "coupling/reduction/held_by_ranks.h"
 #include "coupling/reduction/shared_held_frame.h"
 #include "coupling/reduction/team.h"
-#include "fem/cell_sums.h"
+#include "fem/frame_matrices.h"
 
 namespace gestell::coupling
 {
 
-/// Rank 0's hand on a SharedHeldFrame: each call orders all ranks to make theirs.
-class TeamHeldFrame
+/// By PETSc, MUMPS and SLEPc: rank 0's hand on a SharedHeldFrame: each call orders all ranks to make theirs.
+class TeamHeldFrame final : public HeldByRanks
 {
 public:
-  /// @param rows what the ranks have of the frame's C and M; nullptr: they are dealt out.
-  /// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
-  TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1,
-                const fem::RowsOnRanks *rows = nullptr);
-  ~TeamHeldFrame();
+  TeamHeldFrame(const Team &team, const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  ~TeamHeldFrame() override;
   TeamHeldFrame(const TeamHeldFrame &)            = delete;
   TeamHeldFrame &operator=(const TeamHeldFrame &) = delete;
 
@@ -23,11 +21,14 @@ public:
   int n_free() const { return n_free_; } ///< internal ones
 
   /// See SharedHeldFrame.
-  bool        positive() const { return shared_->positive(); }
-  double      softest() const { return shared_->softest(); }
-  void        solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
-  LowestModes lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const;
-  int         modes_below(double omega) const;
+  bool                        factorise() override { return shared_->positive(); }
+  double                      softest() const override { return shared_->softest(); }
+  void                        release() override {} // by the count alone
+  void                        solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const override;
+  Inertia                     below(double omega) const override { return {modes_below(omega), 1.}; }
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &, const LowestModes &known) const override;
+  LowestModes                 lowest_modes(int count, const Eigen::Ref<const Eigen::MatrixXd> &known) const;
+  int                         modes_below(double omega) const;
 
 private:
   const Team            &team_;

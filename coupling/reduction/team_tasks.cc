@@ -11,47 +11,22 @@ namespace gestell::coupling
 namespace
 {
 
-/// What this rank has of matrices and held frames, by number.  Never destroyed: at the end of the process MPI has ended
-/// before.
-template <typename T>
-std::map<int, T> &kept()
-{
-  static auto *const things = new std::map<int, T>;
-  return *things;
-}
-auto &matrices_kept()
-{
-  return kept<std::shared_ptr<const SharedMatrices>>();
-}
+/// What this rank has of held frames, by number.  Never destroyed: at the end of the process MPI has ended before.
 auto &frames_held()
 {
-  return kept<std::unique_ptr<SharedHeldFrame>>();
+  static auto *const kept = new std::map<int, std::unique_ptr<SharedHeldFrame>>;
+  return *kept;
 }
 
 } // namespace
-
-void AssembleTask::run(const fem::Ranks &ranks)
-{
-  ranks.agree([] { use_one_blas_thread(); });
-  ranks.broadcast(number);
-  matrices_kept()[number] = assemble_on_ranks(ranks, source, sums);
-}
-
-void ForgetTask::run(const fem::Ranks &ranks)
-{
-  ranks.broadcast(number);
-  matrices_kept().erase(number);
-}
 
 void HoldTask::run(const fem::Ranks &ranks)
 {
   ranks.agree([] { use_one_blas_thread(); });
   ranks.broadcast(number);
-  ranks.broadcast(matrices);
-  const auto shared     = matrices > 0 ? matrices_kept().at(matrices)
-                                       : std::make_shared<const SharedMatrices>(ranks, frame ? &frame->C : nullptr,
-                                                                            frame ? &frame->M : nullptr);
-  auto       made       = std::make_unique<SharedHeldFrame>(shared, q1);
+  const auto shared =
+      std::make_shared<const SharedMatrices>(ranks, frame ? &frame->C : nullptr, frame ? &frame->M : nullptr);
+  auto made             = std::make_unique<SharedHeldFrame>(shared, q1);
   held                  = made.get();
   frames_held()[number] = std::move(made);
 }

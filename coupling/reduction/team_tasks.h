@@ -1,6 +1,5 @@
 #pragma once
 
-#include "coupling/reduction/shared_assembly.h"
 #include "coupling/reduction/shared_held_frame.h"
 #include "coupling/reduction/team.h"
 #include "fem/frame_matrices.h"
@@ -8,31 +7,15 @@
 namespace gestell::coupling
 {
 
-// The tasks of Team.  What rank 0 puts in is not read on other ranks; `number` names shared matrices or a held frame.
-
-struct AssembleTask
-{
-  static constexpr Order order  = Order::assemble;
-  int                    number = 0;
-  const AssemblySource  *source = nullptr;
-  fem::CellSums          sums; ///< made by run()
-  void                   run(const fem::Ranks &ranks);
-};
-
-struct ForgetTask
-{
-  static constexpr Order order  = Order::forget;
-  int                    number = 0;
-  void                   run(const fem::Ranks &ranks);
-};
+// The tasks of Team.  What rank 0 puts in is not read on other ranks; `number` names a held frame.
 
 struct HoldTask
 {
   static constexpr Order    order  = Order::hold;
-  int                       number = 0, matrices = 0; ///< 0: none yet, they are dealt out
-  const fem::FrameMatrices *frame = nullptr;
-  const std::vector<int>   *q1    = nullptr;
-  const SharedHeldFrame    *held  = nullptr; ///< made by run()
+  int                       number = 0;
+  const fem::FrameMatrices *frame  = nullptr;
+  const std::vector<int>   *q1     = nullptr;
+  const SharedHeldFrame    *held   = nullptr; ///< made by run()
   void                      run(const fem::Ranks &ranks);
 };
 

@@ -1,6 +1,7 @@
 #include "coupling/sparse_cholesky.h"
 
 #include "coupling/dense_modes.h"
+#include "coupling/front_division.h"
 #include "coupling/node_ordering.h"
 #include "tests/reduction/cube.h"
 #include "tests/reduction/lattice.h"
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace gestell
@@ -190,6 +192,47 @@ TEST(NodeOrdering, IsAPermutationThatKeepsNodesTogether)
   std::vector<int> all(frame.C.rows());
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(order, all);
+}
+
+/// Columns of each rank, and of the top behind them.
+std::vector<std::vector<int>> columns_of(const coupling::FrontDivision &division, int n_ranks)
+{
+  std::vector<std::vector<int>> columns;
+  for (int rank = 0; rank < n_ranks; ++rank)
+  {
+    const auto share = division.share(rank);
+    columns.emplace_back(share.order.begin(), share.order.begin() + share.columns());
+  }
+  columns.push_back(division.top().order);
+  return columns;
+}
+
+TEST(FrontDivision, GivesEveryCoordinateToOneRankOrToTheTop)
+{
+  const auto frame  = block();
+  const auto factor = SparseCholesky::without_numbers(frame.C, {0, 5, 6});
+  for (const int n_ranks : {1, 2, 3, 8})
+  {
+    std::vector<int> all, expected(frame.C.rows());
+    for (const auto &columns : columns_of({factor.fronts(), n_ranks}, n_ranks))
+      all.insert(all.end(), columns.begin(), columns.end());
+    std::sort(all.begin(), all.end());
+    std::iota(expected.begin(), expected.end(), 0);
+    EXPECT_EQ(all, expected) << n_ranks;
+  }
+}
+
+// A long beam: METIS cuts it across, 3 x 5 x 5 coordinates in a plane of points, into parts of nearly one size.
+TEST(FrontDivision, HalvesABeam)
+{
+  test::Lattice lattice;
+  lattice.nx = 64, lattice.ny = 5, lattice.nz = 5;
+  const auto factor  = SparseCholesky::without_numbers(test::frame_of(lattice).C, {});
+  const auto columns = columns_of({factor.fronts(), 2}, 2);
+  const int  n       = factor.size();
+  EXPECT_GT(columns[0].size(), 0.4 * n);
+  EXPECT_GT(columns[1].size(), 0.4 * n);
+  EXPECT_LT(columns[2].size(), 0.1 * n);
 }
 
 } // namespace

@@ -3,11 +3,14 @@
 #include "coupling/integration/second_order_system.h"
 #include "coupling/reduction/craig_bampton.h"
 #include "coupling/reduction/team.h"
+#include "coupling/reduction/team_factor.h"
 #include "coupling/reduction/team_held_frame.h"
+#include "coupling/sparse_cholesky.h"
 #include "tests/reduction/lattice.h"
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -40,12 +43,70 @@ struct Trial
   static constexpr int ranks_of_one = 1;
 };
 
-/// Finds modes, counts them, and finds them again with the factor that the count gave back.
-void count_modes(const Team &team)
+gestell::fem::FrameMatrices lattice_frame()
 {
   gestell::test::Lattice lattice;
   lattice.nx = 10, lattice.ny = 4, lattice.nz = 10;
-  const auto                             frame = gestell::test::frame_of(lattice);
+  return gestell::test::frame_of(lattice);
+}
+
+void tell(const std::string &what, bool agrees)
+{
+  std::cout << what << (agrees ? " agrees" : " differs") << std::endl;
+}
+
+/// The factor of all ranks against that of this one: solutions, modes, their number, and the same after its numbers
+/// were released.
+void compare_with_one_process(const Team &team)
+{
+  using namespace gestell::coupling;
+  const auto            frame = lattice_frame();
+  const auto            q1    = frame.interface_coordinates();
+  const SparseCholesky  alone(frame.C, q1);
+  TeamFactor            factor(team, {&frame.C, &frame.M, q1});
+  const Eigen::MatrixXd loads = frame.M * Eigen::MatrixXd::Random(frame.M.rows(), 21);
+  Eigen::MatrixXd       X = loads, Y = loads;
+  Y(q1, Eigen::all).setZero();
+  alone.solve_in_place(Y);
+  tell("the factor", factor.factorise() && std::abs(factor.softest() / alone.pivot_ratio() - 1.) < 1e-9);
+  factor.solve_in_place(X);
+  tell("the solution", (X - Y).norm() < 1e-11 * Y.norm());
+
+  auto         search = factor.search({}, {});
+  BlockLanczos lanczos(frame.M, std::make_unique<InverseByFactor>(alone, q1), {});
+  search->find(12);
+  lanczos.find(12);
+  const LowestModes modes = search->modes(12), expected = lanczos.modes(12);
+  tell("the frequencies", (modes.omega - expected.omega).norm() < 1e-9 * expected.omega.norm());
+  tell("the mass of the modes",
+       (modes.V.transpose() * frame.M * modes.V - Eigen::MatrixXd::Identity(12, 12)).norm() < 1e-9);
+  tell("the shapes",
+       (modes.V.transpose() * frame.C * modes.V).isApprox(Eigen::MatrixXd(modes.omega.cwiseAbs2().asDiagonal()), 1e-6));
+  const double between = 0.5 * (modes.omega(6) + modes.omega(7));
+  factor.release();
+  tell("the number", factor.below(between).negative == 7);
+  factor.factorise();
+  auto rest = factor.search({}, {modes.omega.head(7), modes.V.leftCols(7), modes.bound.head(7)});
+  rest->find(12);
+  tell("the rest", (rest->modes(12).omega - expected.omega).norm() < 1e-9 * expected.omega.norm());
+
+  Eigen::SparseMatrix<double> given = frame.C;
+  TeamFactor                  whole(team, {nullptr, nullptr, q1, &given});
+  X = loads;
+  whole.factorise();
+  whole.solve_in_place(X);
+  tell("the solution with the matrix given away", given.size() == 0 && (X - Y).norm() < 1e-11 * Y.norm());
+
+  given = frame.C;
+  given.coeffRef(250, 250) *= -1.;
+  TeamFactor indefinite(team, {&given, nullptr, q1});
+  tell("the place of what is not positive", !indefinite.factorise() && indefinite.failed() >= 0);
+}
+
+/// By MUMPS and SLEPc: finds modes, counts them, and finds them again with the factor that the count gave back.
+void count_modes(const Team &team)
+{
+  const auto                             frame = lattice_frame();
   const gestell::coupling::TeamHeldFrame held(team, frame, frame.interface_coordinates());
   const Eigen::MatrixXd                  none(frame.C.rows(), 0);
   const gestell::coupling::LowestModes   modes = held.lowest_modes(12, none);
@@ -107,6 +168,8 @@ int lead(const std::string &how)
     exhaust_modes();
   if (how == "none")
     reduce_without_modes();
+  if (how == "compare")
+    compare_with_one_process(*team);
   if (how == "count")
     count_modes(*team);
   try
