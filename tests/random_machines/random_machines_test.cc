@@ -1,29 +1,13 @@
 // Machines at random whose motions must obey what holds of all motions: docs/random_machines.md.
 
-#include "tests/random_machines/judge.h"
+#include "tests/random_machines/findings_of.h"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <sstream>
-#include <unistd.h>
 
 namespace gestell::tests
 {
 namespace
 {
-
-std::string findings_of(std::uint64_t seed)
-{
-  const auto    folder  = std::filesystem::temp_directory_path() / ("random_machine_" + std::to_string(::getpid()));
-  const Verdict verdict = judge(random_machine(seed), folder);
-  std::filesystem::remove_all(folder);
-  std::ostringstream text;
-  for (const Finding &finding : verdict.findings)
-    text << finding.kind << ", " << finding.way << ": " << finding.what << ", " << finding.value << " for "
-         << finding.bound << '\n';
-  return text.str();
-}
 
 class RandomMachines : public ::testing::TestWithParam<std::uint64_t>
 {

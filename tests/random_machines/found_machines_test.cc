@@ -1,0 +1,35 @@
+// Machines at random that found something wrong, which has been cured: docs/random_machines.md.
+
+#include "tests/random_machines/findings_of.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+class FoundMachines : public ::testing::TestWithParam<std::uint64_t>
+{
+};
+
+TEST_P(FoundMachines, ObeyWhatHoldsOfAllMotions)
+{
+  EXPECT_EQ(findings_of(GetParam()), "");
+}
+
+/// Peaks between four samples of a long step, and between fixed ones.
+INSTANTIATE_TEST_SUITE_P(Extremes, FoundMachines, ::testing::Values(107, 110, 277, 541, 661, 759, 1709, 1887));
+/// Power of modes that turn many times in a step.
+INSTANTIATE_TEST_SUITE_P(Energy, FoundMachines, ::testing::Values(738, 851, 1022));
+/// Rates of modes that turn far in a step, between its nodes.
+INSTANTIATE_TEST_SUITE_P(InsideSteps, FoundMachines, ::testing::Values(142, 220, 671, 889));
+/// Measures that are held, inside a step.
+INSTANTIATE_TEST_SUITE_P(HeldRates, FoundMachines, ::testing::Values(164, 1094, 1600));
+/// A contact that grazes beside the end of a step; a rate held in a step as short as the clock tells.
+INSTANTIATE_TEST_SUITE_P(Events, FoundMachines, ::testing::Values(1187, 2140));
+/// A sheet that is severed; a drawing force that rests at its limit.
+INSTANTIATE_TEST_SUITE_P(Tools, FoundMachines, ::testing::Values(565, 760, 891, 1096, 1943));
+
+} // namespace
+} // namespace gestell::tests
