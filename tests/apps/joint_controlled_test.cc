@@ -106,5 +106,81 @@ signals = { w1 = "b1.speed", w2 = "b2.speed" }
   EXPECT_NEAR(motion.signal("w2").final, -1.378 * motion.signal("w1").final, 1e-6);
 }
 
+const std::string coasting_crank = R"toml(
+[body.crank]
+type = "planar"
+normal = [0, 1, 0]
+mass = "2 kg"
+inertia = "0.5 kg m^2"
+position = ["0.05 m", 0, 0]
+[body.rod]
+type = "planar"
+normal = [0, 1, 0]
+mass = "1 kg"
+inertia = "0.02 kg m^2"
+position = ["0.35 m", 0, 0]
+[body.piston]
+type = "slider"
+axis = [1, 0, 0]
+mass = "2 kg"
+position = ["0.6 m", 0, 0]
+[joint.main]
+type = "revolute"
+from = "ground"
+to = "crank"
+at = [0, 0, 0]
+[joint.pin]
+type = "revolute"
+from = "crank"
+to = "rod"
+at = ["0.1 m", 0, 0]
+[joint.wrist]
+type = "revolute"
+from = "rod"
+to = "piston"
+at = ["0.6 m", 0, 0]
+[element.rub]
+type = "dry friction"
+from = "piston"
+kinetic_force = "20 N"
+static_force = "30 N"
+[start]
+q = { "crank.angle" = 0.7 }
+v = { "crank.angle" = "10 rad/s" }
+[run]
+method = "bdf"
+tolerance = 1e-8
+end = "1 s"
+[output]
+signals = { w = "crank.speed", phi = "crank.angle", F = "rub.force" }
+)toml";
+
+class DeadPoints : public ::testing::TestWithParam<Settings>
+{
+};
+
+// At a dead point the piston rests and the crank does not: joints alone stop it, friction cannot, and turns with the
+// motion.  So friction takes 20 N times the way of the piston, 0.2 m between two dead points.
+TEST_P(DeadPoints, ArePassedByACrankWhosePistonRubs)
+{
+  const SceneRun motion = run(coasting_crank, GetParam());
+  ASSERT_EQ(motion.result.failure, "");
+  const auto   x = [](double phi) { return 0.1 * std::cos(phi) + std::sqrt(0.25 - std::pow(0.1 * std::sin(phi), 2)); };
+  const double end = motion.signal("phi").final;
+  ASSERT_TRUE(end > 2. * M_PI && end < 3. * M_PI);
+  EXPECT_EQ(count(motion, "stick"), 2);
+  EXPECT_EQ(motion.result.events.size(), 2u);
+  const double way = x(0.7) - x(M_PI) + 0.2 + x(0.) - x(end);
+  EXPECT_NEAR(motion.result.energy.dissipated, 20. * way, 1e-4 * 20. * way); // fixed steps: h^2 w^2 = 1e-6 a step
+  EXPECT_NEAR(motion.signal("F").max, 20., 1e-9);
+  EXPECT_NEAR(motion.signal("F").min, -20., 1e-9);
+  EXPECT_LT(std::abs(motion.result.energy.residual), 1e-3 * 20. * way);
+}
+INSTANTIATE_TEST_SUITE_P(Methods, DeadPoints,
+                         ::testing::Values(Settings{}, Settings{"run.tolerance=1e-5"},
+                                           Settings{"run={step=\"0.1 ms\", end=\"1 s\"}"},
+                                           Settings{"run={method=\"generalised-alpha\", rho_inf=0.8, step=\"0.1 ms\", "
+                                                    "end=\"1 s\"}"}));
+
 } // namespace
 } // namespace gestell::tests
