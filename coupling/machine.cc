@@ -393,9 +393,12 @@ void Machine::transition(int i, const LocalState &state)
     parts_->refresh_guards();
     return;
   }
-  const auto &part = parts_->placed[active.element];
+  auto     &part      = parts_->placed[active.element];
+  const int came_from = active.crossing == GuardCrossing::falling ? 1 : -1;
+  if (active.guard.kind == "stick")
+    part.came = came_from;
   if (part.stop >= 0 && !part.holds)
-    parts_->history[part.stop + 1] = active.crossing == GuardCrossing::falling ? 1. : -1.;
+    parts_->history[part.stop + 1] = came_from;
   try
   {
     part.element->transition(active.index, part.motion(state, parts_->by_history), parts_->history_of(part));
@@ -407,6 +410,7 @@ void Machine::transition(int i, const LocalState &state)
     throw ConvergenceFailure(message.str());
   }
   parts_->find_stopped(state);
+  part.came = 0;
   parts_->refresh_guards();
 }
 

@@ -33,6 +33,7 @@ struct Machine::Parts
     int                            first_measure, n_measures, first_history;
     int                            n_motions;     ///< measures that do work: the first ones, lags behind them do none
     bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
+    int                            came  = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
     int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
     int                            first_multiplier = -1; ///< of a joint or its friction: the first one it sees
 

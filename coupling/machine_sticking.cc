@@ -8,7 +8,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Guards of a joint that sticks: it lets go.
+/// Guards of what sticks: it lets go.
 constexpr int forward = 0, backward = 1;
 
 /// What rows of velocities span, all of the same length; orthonormal.
@@ -46,13 +46,16 @@ private:
 /**
  * Joints that stick may hold one and the same motion: the first one holds it.  Others that it stops are marked, so that
  * nothing looks at their guards: they keep sliding friction, or (at a start at rest) have none.  Where joints alone
- * prescribe the motion, nothing can stick: what comes to rest slides on the other way.
+ * prescribe the motion, no friction can stick, in a joint or elsewhere: what comes to rest slides on the other way.
  *
  * Source: docs/theory/contact.md (6).
  */
 void Machine::Parts::find_stopped(const LocalState &state)
 {
-  if (std::none_of(placed.begin(), placed.end(), [](const PlacedElement &part) { return part.stop >= 0; }))
+  double rate = 0.;
+  if (std::none_of(placed.begin(), placed.end(),
+                   [&](const PlacedElement &part)
+                   { return part.stop >= 0 || (part.came != 0 && part.element->holds(history_of(part), rate)); }))
     return;
   // Rows over the coordinates that anything here moves.
   std::map<int, int> places;
@@ -64,7 +67,6 @@ void Machine::Parts::find_stopped(const LocalState &state)
   for (const ConstraintBlock &block : joint_blocks)
     for (int k = 0; k < block.n_measures; ++k)
       touch(block.first_measure + k);
-  double rate = 0.;
   for (const PlacedElement &part : placed)
     if (part.stop >= 0 || part.element->holds(history_of(part), rate))
       touch(part.first_measure);
@@ -96,11 +98,19 @@ void Machine::Parts::find_stopped(const LocalState &state)
       span.add(row);
     }
   }
+  const auto slide_on = [&](const PlacedElement &part, double came)
+  { part.element->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
   // Near a dead point joints alone stop a motion, and holding it would take any force.
   const auto by_joints = [joints_alone = span](const Eigen::VectorXd &own) { return joints_alone.contains(own, 1e-3); };
   for (const PlacedElement &part : placed)
     if (part.stop < 0 && part.element->holds(history_of(part), rate))
-      span.add(row_of(part));
+    {
+      const Eigen::VectorXd own = row_of(part);
+      if (part.came != 0 && by_joints(own))
+        slide_on(part, part.came);
+      else
+        span.add(own);
+    }
   for (const bool before : {true, false}) // what held before goes on holding
     for (PlacedElement &part : placed)
     {
@@ -109,8 +119,7 @@ void Machine::Parts::find_stopped(const LocalState &state)
       const Eigen::VectorXd own = row_of(part);
       history[part.stop]        = 0.;
       if (by_joints(own))
-        part.element->transition(history[part.stop + 1] > 0. ? backward : forward, part.motion(state, by_history),
-                                 history_of(part));
+        slide_on(part, history[part.stop + 1]);
       else if (!span.add(own))
         history[part.stop] = 1.;
     }

@@ -225,6 +225,7 @@ bool BdfControlled::is_sound(double h_beta)
   point(z_begin_, t_end_, local_);
   system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
+  scale_.laws(dp_du_, dp_dv_);
   pivots_.noalias() = -S.lazyProduct(dp_du_);
   pivots_.noalias() -= inverse * S.lazyProduct(dp_dv_);
   pivots_.diagonal().array() += 1.;

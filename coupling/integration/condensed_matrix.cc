@@ -29,7 +29,18 @@ void CondensedMatrix::set_joints(const Eigen::MatrixXd &S, const ConstraintJacob
   G.times(S_G_, G_S_G_);
 }
 
-void CondensedMatrix::collect(const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held)
+namespace
+{
+/// What a held measure would move under a unit force, by which its unknown becomes a motion like all others.
+double own_compliance(const Eigen::MatrixXd &S, int measure)
+{
+  const double own = S(measure, measure);
+  return own > 0. ? own : 1.;
+}
+} // namespace
+
+void CondensedMatrix::collect(const Eigen::MatrixXd &S, const Eigen::VectorXd &tangent,
+                              const std::vector<HeldMeasure> &held)
 {
   for (std::size_t i = 0; i < of_forces_.size(); ++i)
   {
@@ -47,7 +58,7 @@ void CondensedMatrix::collect(const Eigen::VectorXd &tangent, const std::vector<
     for (int j = first; j < end; ++j)
       for (int i = first; i < end; ++i, ++value)
         if (is_held_[j] && i == j)
-          tangent_.push_back({i, j, 1.});
+          tangent_.push_back({i, j, 1. / own_compliance(S, of_forces_[j])});
         else if (*value != 0.)
           tangent_.push_back({i, j, *value});
     first = end;
@@ -67,7 +78,7 @@ bool CondensedMatrix::factorise(const Eigen::MatrixXd &S, const Eigen::VectorXd 
 {
   const int n_F = int(of_forces_.size()), n_c = int(S_G_.cols());
   failed_joint_ = -1;
-  collect(tangent, held);
+  collect(S, tangent, held);
   Eigen::MatrixXd &J = forces_.matrix();
   J.setZero();
   for (const Entry &e : tangent_)
@@ -134,7 +145,7 @@ void CondensedMatrix::solve_in_place(const Eigen::MatrixXd &S, const ConstraintJ
         r.noalias() += p_F_[k] * S.col(of_forces_[k]);
   }
   for (int k = 0; k < n_F; ++k)
-    r[of_forces_[k]] = delta_F_[k];
+    r[of_forces_[k]] = is_held_[k] ? delta_F_[k] / own_compliance(S, of_forces_[k]) : delta_F_[k];
 }
 
 } // namespace gestell::coupling

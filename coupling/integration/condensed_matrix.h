@@ -21,7 +21,8 @@ namespace gestell::coupling
  *     delta = r + S_:F p' delta_F + S G^T dlambda.
  *
  * S G^T and G S G^T, most of the work, are kept until set_joints() is called again.  Of a measure that is held delta is
- * the change of its force.  Nothing allocates after construction.
+ * the change of its force; while it is sought, S_hh times that: S_hh goes with h^2, and beside p' = d/h of a damper a
+ * force in its own unit would be taken for rounding in short steps.  Nothing allocates after construction.
  */
 class CondensedMatrix
 {
@@ -42,14 +43,14 @@ public:
   int failed_joint() const { return failed_joint_; }
 
 private:
-  /// An entry of p' that is not zero, by positions in F; of a held measure 1, so that p' delta is its force.
+  /// An entry of p' that is not zero, by positions in F; of a held measure 1/S_hh, so that p' delta is its force.
   struct Entry
   {
     int    row, column;
     double value;
   };
 
-  void collect(const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
+  void collect(const Eigen::MatrixXd &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
   void times_tangent(const double *x, double *y) const;
 
   std::vector<ForceBlock> blocks_;

@@ -223,26 +223,34 @@ void ErrorScale::find_noise()
   const auto own = [this](int first, int n, double size) { noise_.segment(first, n).setConstant(terms * size); };
   for (const ConstraintBlock &block : system_.constraint_blocks())
     own(block.first_measure, block.n_measures, block.size);
+  joint_noise_ = noise_;
+  spread(joint_noise_, noise_of_groups_);
   for (const ForceBlock &block : system_.force_blocks())
     own(block.first_measure, block.n_measures, block.size);
   for (const Virtual &z : virtual_)
     noise_[z.measure] = 0.;
+  spread(noise_, noise_of_groups_);
+}
 
+/// Noise of measures to that of the coordinates they are made of, and of all measures of these; groups: in the energy
+/// norm.
+void ErrorScale::spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const
+{
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(ends_.rows()); // of the coordinates, as its root
-  noise_of_groups_.assign(n_groups_, 0.);
+  of_groups.assign(n_groups_, 0.);
   for (int j = 0; j < ends_.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
-      energy[it.row()] = std::max(energy[it.row()], root_mass_[j] * noise_[j]);
+      energy[it.row()] = std::max(energy[it.row()], root_mass_[j] * noise[j]);
   for (int j = 0; j < ends_.outerSize(); ++j)
   {
     double of_ends = 0.;
     for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
       if (const double m = m_[end_index_[it.row()]]; m > 0.)
         of_ends = std::max(of_ends, it.value() * energy[it.row()] / std::sqrt(m));
-    noise_[j] = std::max(noise_[j], of_ends);
+    noise[j] = std::max(noise[j], of_ends);
   }
   for (std::size_t k = 0; k < end_index_.size(); ++k)
-    noise_of_groups_[end_group_[k]] = std::max(noise_of_groups_[end_group_[k]], energy[Eigen::Index(k)]);
+    of_groups[end_group_[k]] = std::max(of_groups[end_group_[k]], energy[Eigen::Index(k)]);
 }
 
 /// sum m_i (x_i - from_i)^2 of each group; returns their sum.
@@ -387,7 +395,9 @@ void ErrorScale::set_scales_of_virtual(double h, double floor)
     const int    j   = z.measure;
     const double law = law_floor * (z.by_u.dot(way_) + z.by_rate.dot(speed_));
     const double way = std::max(way_[j], law), speed = z.time > 0. ? std::max(speed_[j], law / z.time) : speed_[j];
-    const double size = std::max(size_[j], z.by_u.dot(size_) + z.by_rate.dot(rate_));
+    const double left =
+        z.by_u.dot(size_) + z.by_rate.dot(rate_) + z.by_rate.dot(joint_noise_) / (z.time + h); // h/(T + h) of noise/h
+    const double size = std::max(size_[j], left);
     invert(h, floor, way, speed, 0., size, rate_[j], inverse_u_[j], inverse_rate_[j]);
     inverse_rate_[j] = 0.;
   }

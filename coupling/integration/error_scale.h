@@ -37,7 +37,8 @@ namespace gestell::coupling
  *
  * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
  * what forces that balance each other would do alone, and the numbers whose difference a joint closes or a force
- * depends on: l - l cos(phi) knows an angle below 1e-8 no more.
+ * depends on: l - l cos(phi) knows an angle below 1e-8 no more.  Joints close positions, so that rounding r of these is
+ * r/h in rates, and a law with dp/du' moves its virtual coordinate by  h/(T + h) |dp/du'| r/h  in a step.
  */
 class ErrorScale
 {
@@ -112,6 +113,7 @@ private:
   void        find_groups();
   void        find_ends();
   void        find_noise();
+  void        spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const;
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
   void        invert(double h, double floor, double E, double V, double change_of_speed, double size, double rate,
                      double &of_q, double &of_v) const;
@@ -129,6 +131,7 @@ private:
   std::vector<Virtual>        virtual_;   ///< their rates follow from them and are rounding in short steps: not judged
   Eigen::VectorXd     root_mass_; ///< (W^T diag(1/m) W)_jj^-1/2: a measure u_j moves the energy norm by that [n_u]
   Eigen::VectorXd     noise_; ///< of the numbers that leave rounding in the measures, times the number of terms [n_u]
+  Eigen::VectorXd     joint_noise_; ///< of those that joints close alone: a step leaves it in u, and 1/h of it in u'
   Eigen::VectorXd     q_begin_, v_begin_, u_begin_, rate_begin_;
   Excursions          accepted_, reached_; ///< before and after the step that is considered
   Excursions          expected_, scale_;   ///< of a step refused; reached or expected

@@ -1,5 +1,7 @@
 #include "coupling/integration/implicit_step.h"
 
+#include "coupling/integration/rounding_floors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,16 +48,6 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
 
 namespace
 {
-/// Forces that balance each other leave rounding of what each would do alone.  A measure that others hold has no other
-/// scale; it is asked for only where corrections do not end.
-void allow_for_rounding(const ImplicitStep::Condensed &condensed, const Eigen::VectorXd &p, double tolerance,
-                        Eigen::VectorXd &scale)
-{
-  const double left = rounding / tolerance * std::abs(condensed.form.w_u);
-  for (Eigen::Index j = 0; j < scale.size(); ++j)
-    scale[j] = std::max(scale[j], left * condensed.S.row(j).cwiseAbs().dot(p.cwiseAbs()));
-}
-
 /// W acts on the coordinates N alone.
 bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
 {
@@ -307,7 +299,11 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     }
     grow_scale(form, local, iteration == 0);
     if (iteration >= most_usual)
-      allow_for_rounding(condensed, local.p, options_.tolerance, scale_);
+    {
+      const double left = rounding / options_.tolerance;
+      allow_for_rounding(condensed.S, local.p, left * std::abs(form.w_u), scale_);
+      allow_for_closing(system_, condensed.S, force_blocks_, tangent_, joint_rounding * left, scale_);
+    }
     const double size = size_of_correction();
     // A correction that grows again jumps between the branches of a law: shorten it.
     const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;

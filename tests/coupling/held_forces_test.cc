@@ -3,6 +3,7 @@
 #include "coupling/integration/event_driver.h"
 #include "coupling/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/spring_damper.h"
 
 #include <gtest/gtest.h>
 
@@ -205,6 +206,29 @@ INSTANTIATE_TEST_SUITE_P(Methods, BriefOverload,
                                            Way{"newmark", fixed(Method::newmark, 20e-3)},
                                            Way{"exact", propagated(ForceRule::collocation, 60e-3)}),
                          name_of);
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+// A damper d between what moves and what sticks: in a step h it weighs h d/m against 1, what holds h^2/m against h d/m.
+// That is a matter of units, and no step makes the force that holds d v unknown.
+TEST(HeldForces, OfADamperAreKnownInTheShortestSteps)
+{
+  constexpr double d = 1e5, v = 0.01, h = 1e-12;
+  Machine          machine;
+  const int        held = machine.add_slider("held", {1., 0., 0.}, 2., "ground");
+  const int        free = machine.add_slider("free", {1., 0., 0.}, 1., "ground");
+  machine.attach("damper", std::make_shared<mechanism::SpringDamper>(mechanism::SpringDamper::Parameters{0., d}),
+                 {{{free, 1.}, {held, -1.}}});
+  machine.attach("brake", dry(2. * d * v, 2. * d * v), {{{held, 1.}}});
+  machine.finish();
+  const auto  integrator = make_integrator(machine, fixed(Method::bdf, h));
+  EventDriver driver(machine, *integrator, EventOptions());
+  driver.begin(0., Vector::Zero(2), v * Vector::Unit(2, 1));
+  for (int i = 0; i < 5; ++i)
+    driver.advance();
+  EXPECT_NEAR(integrator->instant().v[0], 0., 1e-16 * v); // rounding
+  EXPECT_NEAR(integrator->local().p[1], -d * v, 5. * h * d * d * v); // v falls by d v/m in a second
+}
 
 } // namespace
 } // namespace gestell::tests
