@@ -37,6 +37,8 @@ constexpr double undamped = 0.01;
 /// Damping ratio to which oscillators are limited that would not swing.
 constexpr double overdamped = 0.99;
 
+constexpr double looks_in_period = 32.; ///< of the range's limit
+
 constexpr int most_named = 3;
 
 /// Two digits.
@@ -154,9 +156,9 @@ void FastForces::take_modes(const ReducedFrame &frame)
   bank_ = OscillatorBank(both, ratios);
 }
 
-const ArrayXd &FastForces::inputs()
+const ArrayXd &FastForces::inputs(const VectorXd &p)
 {
-  force_.noalias() = by_measures_ * integrator_.local().p;
+  force_.noalias() = by_measures_ * p;
   if (by_motion_.size() > 0)
   {
     const Instant &now = integrator_.instant();
@@ -178,10 +180,13 @@ void FastForces::begin()
   if (places_.empty())
     return;
   const Eigen::Index n = Eigen::Index(places_.size()), modes = shapes_.cols();
-  t_ = integrator_.time();
+  t_ = t_step_ = integrator_.time();
+  pace_        = 1. / (looks_in_period * limit_);
+  p_           = measured();
+  impulse_     = VectorXd::Zero(p_.size());
   force_.resize(modes);
   input_.resize(2 * modes);
-  bank_.begin(inputs());
+  bank_.begin(inputs(measured()));
   at_rest_    = shapes_ * bank_.x().head(modes).matrix();
   deflection_ = ArrayXd::Zero(n);
   sum_.resize(n);
@@ -225,11 +230,20 @@ void FastForces::look()
 
 void FastForces::step()
 {
-  const double h = integrator_.time() - t_;
+  const double now = integrator_.time(), h = now - t_step_;
   if (places_.empty() || !(h > 0.))
     return;
-  bank_.advance(h, inputs());
-  t_ = integrator_.time();
+  const bool whole = t_step_ == t_; // the step is all there is since the last look
+  impulse_ += 0.5 * h * (p_ + measured());
+  p_      = measured();
+  t_step_ = now;
+  if (now - t_ < pace_)
+    return;
+  if (!whole)
+    impulse_ /= now - t_; // the mean
+  bank_.advance(now - t_, inputs(whole ? p_ : impulse_));
+  impulse_.setZero();
+  t_ = now;
   look();
 }
 
@@ -237,7 +251,10 @@ void FastForces::jump()
 {
   if (places_.empty())
     return;
-  bank_.jump(inputs());
+  p_ = measured();
+  if (t_step_ > t_)
+    return; // part of a mean
+  bank_.jump(inputs(p_));
   look();
 }
 

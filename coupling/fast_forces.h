@@ -20,7 +20,8 @@ namespace gestell::coupling
  *     e(t) = sum_k (w.phi_k) / omega_k^2  (y_k[omega_k] - y_k[omega'_k]),     y_k'' + 2 zeta_k omega y_k' + omega^2 y_k
  *                                                                               = omega^2 phi_k.f(t).
  *
- * f are the forces of elements, joints, loads and base springs. Masses that ride on the frame are not in its modes.
+ * f are the forces of elements, joints, loads and base springs, their means over 1/32 of a period of the range's limit
+ * where steps are shorter: 16 samples in a period at 2 f. Masses that ride on the frame are not in its modes.
  *
  * Source: docs/theory/reduction.md (16f).
  */
@@ -53,15 +54,19 @@ private:
                    const Eigen::MatrixXd &dampers);
   void take_modes(const ReducedFrame &frame);
 
-  const Eigen::ArrayXd &inputs(); ///< phi_k.f, of the model's oscillators and again of the refined ones
-  double                force_on(const Place &place) const;
-  void                  look();
-  double                doubt(std::size_t place, int range) const;
+  /// phi_k.f of forces p of the measures, for the model's oscillators and again for the refined ones.
+  const Eigen::ArrayXd  &inputs(const Eigen::VectorXd &p);
+  const Eigen::VectorXd &measured() const { return integrator_.local().p; }
+  double                 force_on(const Place &place) const;
+  void                   look();
+  double                 doubt(std::size_t place, int range) const;
 
   const TimeIntegrator &integrator_;
   const Excitation     *excitation_ = nullptr; ///< where it changes
   double                limit_      = 0.;      ///< f [Hz]
-  double                t_          = 0.;
+  double                pace_       = 0.;      ///< [s] between two looks, where steps are shorter
+  double                t_ = 0., t_step_ = 0.; ///< of the last look; of the last step
+  Eigen::VectorXd       impulse_, p_;          ///< of the measures' forces since the last look; at the last step
   std::vector<Place>    places_;
   Eigen::MatrixXd       shapes_;                 ///< (w_i.phi_k) / omega_k^2 [places x modes]
   Eigen::MatrixXd       by_measures_, by_loads_; ///< phi_k.f per p [modes x n_u], per f_t [modes x n]

@@ -165,7 +165,8 @@ private:
     if (apart.value < 1e-5)
       return;
     const double own   = self_distance(*a, way_a) + self_distance(*b, way_b);
-    const double bound = 10. * own + 3. * sensitivity(*a, way_a) + 1e-5;
+    // A jump at the instant of a row may count for it in one history alone.
+    const double bound = 10. * own + 3. * sensitivity(*a, way_a) + 1e-5 + 1. / dense_rows;
     if (apart.value > bound && !verdict_.sensitive)
       find({"histories differ", way_a.name + " / " + way_b.name, apart.signal, apart.value, bound});
   }
