@@ -15,7 +15,8 @@ namespace
 {
 
 constexpr double at_rest    = 1e-4; ///< of the size that motions have: what is smaller is rest
-constexpr int    dense_rows = 20000, few_rows = 400;
+constexpr double too_open   = 0.1;  ///< share of the energy exchanged: steps are too long for the motion
+constexpr int    dense_rows = 20000, most_tries = 3;
 
 coupling::MethodOptions controlled(coupling::Method method, int order, double tolerance)
 {
@@ -129,6 +130,9 @@ private:
   Motion computed(const Way &way, bool accurate)
   {
     const Told dense = run(way.method, dense_rows);
+    too_long_        = !accurate && dense.run.energy.residual > too_open * dense.run.energy.exchanged;
+    if (too_long_ && may_be_too_long_)
+      return {};
     if (!dense.refused.empty())
       find({"refused", way.name, dense.refused});
     if (dense.slow)
@@ -164,7 +168,7 @@ private:
     const Distance apart = distance(machine_, *a, *b);
     if (apart.value < 1e-5)
       return;
-    const double own   = self_distance(*a, way_a) + self_distance(*b, way_b);
+    const double own = self_distance(*a, way_a) + self_distance(*b, way_b);
     // A jump at the instant of a row may count for it in one history alone.
     const double bound = 10. * own + 3. * sensitivity(*a, way_a) + 1e-5 + 1. / dense_rows;
     if (apart.value > bound && !verdict_.sensitive)
@@ -203,6 +207,13 @@ private:
     const double steps   = std::clamp(machine_.end * fastest * 50. / (2. * M_PI), 2000., 20000.);
     method.step          = machine_.end / std::ceil(steps);
     Motion motion        = computed({name, method}, false);
+    for (int tries = 0; tries < most_tries && too_long_; ++tries)
+    {
+      method.step /= 4.;
+      may_be_too_long_ = tries + 1 < most_tries;
+      motion           = computed({name, method}, false);
+    }
+    may_be_too_long_ = true;
     if (!motion || !reference)
       return;
     constexpr double close  = 1e-3;
@@ -231,7 +242,9 @@ private:
   const RandomMachine  &machine_;
   Trial                 trial_;
   Verdict               verdict_;
-  std::optional<double> sensitivity_; ///< once it is known
+  std::optional<double> sensitivity_;             ///< once it is known
+  bool                  too_long_        = false; ///< fixed steps of the last run: it lost the motion
+  bool                  may_be_too_long_ = true;  ///< then nothing else is judged, and shorter ones are tried
 };
 
 } // namespace

@@ -12,11 +12,13 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace
 {
@@ -29,6 +31,8 @@ struct Settings
   int                   jobs = 1;
   std::filesystem::path folder;
   bool                  verbose = false;
+
+  std::set<std::uint64_t> left_out;
 };
 
 /// What the processes tell each other.
@@ -64,6 +68,8 @@ void work(const Settings &settings, int job, std::uint64_t from, Board &board)
   const auto scratch = std::filesystem::temp_directory_path() / ("random_machines_" + std::to_string(::getpid()));
   for (std::uint64_t seed = from; seed <= settings.last; seed += settings.jobs)
   {
+    if (settings.left_out.count(seed) > 0)
+      continue;
     board.at[job]               = seed;
     board.began[job]            = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
     const RandomMachine machine = random_machine(seed);
@@ -153,13 +159,16 @@ int main(int argc, char **argv)
   Settings                     settings;
   std::string                  seeds = "1..200", folder;
   std::optional<std::uint64_t> one;
+  std::vector<std::uint64_t>   but;
   app.add_option("--seeds", seeds, "first and last seed, \"1..2000\"");
   app.add_option("--jobs", settings.jobs, "processes at once")->check(CLI::Range(1, 64));
+  app.add_option("--but", but, "seeds that are left out, as their findings are known")->delimiter(',');
   app.add_option("--write", one, "only write the scene of this seed into -o");
   app.add_option("-o,--output", folder, "folder for scenes of findings");
   app.add_flag("--verbose", settings.verbose, "a line for every machine");
   CLI11_PARSE(app, argc, argv);
-  settings.folder = folder;
+  settings.folder   = folder;
+  settings.left_out = {but.begin(), but.end()};
   if (one)
   {
     std::cout << write_scene(random_machine(*one), settings.folder.empty() ? "." : settings.folder).string() << '\n';
