@@ -16,6 +16,7 @@ namespace
 
 constexpr double at_rest    = 1e-4; ///< of the size that motions have: what is smaller is rest
 constexpr double too_open   = 0.1;  ///< share of the energy exchanged: steps are too long for the motion
+constexpr double affordable = 1.;   ///< [s] of CPU time for fixed steps, before they are divided by four
 constexpr int    dense_rows = 20000, most_tries = 3;
 
 coupling::MethodOptions controlled(coupling::Method method, int order, double tolerance)
@@ -130,6 +131,7 @@ private:
   Motion computed(const Way &way, bool accurate)
   {
     const Told dense = run(way.method, dense_rows);
+    last_cpu_s_      = dense.cpu_s;
     too_long_        = !accurate && dense.run.energy.residual > too_open * dense.run.energy.exchanged;
     if (too_long_ && may_be_too_long_)
       return {};
@@ -209,6 +211,8 @@ private:
     Motion motion        = computed({name, method}, false);
     for (int tries = 0; tries < most_tries && too_long_; ++tries)
     {
+      if (last_cpu_s_ > affordable)
+        return; // not a method for that machine, and its user is told
       method.step /= 4.;
       may_be_too_long_ = tries + 1 < most_tries;
       motion           = computed({name, method}, false);
@@ -244,7 +248,8 @@ private:
   Verdict               verdict_;
   std::optional<double> sensitivity_;             ///< once it is known
   bool                  too_long_        = false; ///< fixed steps of the last run: it lost the motion
-  bool                  may_be_too_long_ = true;  ///< then nothing else is judged, and shorter ones are tried
+  double                last_cpu_s_      = 0.;
+  bool                  may_be_too_long_ = true; ///< then nothing else is judged, and shorter ones are tried
 };
 
 } // namespace
