@@ -156,19 +156,26 @@ void FastForces::take_modes(const ReducedFrame &frame)
   bank_ = OscillatorBank(both, ratios);
 }
 
-const ArrayXd &FastForces::inputs(const VectorXd &p)
+const ArrayXd &FastForces::inputs(const VectorXd &p, double t)
 {
-  force_.noalias() = by_measures_ * p;
+  const bool is_mean = t < integrator_.time();
+  force_.noalias()   = by_measures_ * p;
   if (by_motion_.size() > 0)
   {
     const Instant &now = integrator_.instant();
+    sprung_now_.setZero(force_.size());
     for (std::size_t k = 0; k < sprung_.size(); ++k)
-      force_ +=
+      sprung_now_ +=
           now.q[sprung_[k]] * by_motion_.col(Eigen::Index(k)) + now.v[sprung_[k]] * by_rates_.col(Eigen::Index(k));
+    if (is_mean)
+      force_ += 0.5 * (sprung_before_ + sprung_now_);
+    else
+      force_ += sprung_now_;
+    sprung_before_.swap(sprung_now_);
   }
   if (excitation_)
   {
-    excitation_->at(integrator_.time(), load_);
+    excitation_->at(t, load_);
     force_.noalias() += by_loads_ * load_;
   }
   input_ << force_.array(), force_.array();
@@ -186,7 +193,7 @@ void FastForces::begin()
   impulse_     = VectorXd::Zero(p_.size());
   force_.resize(modes);
   input_.resize(2 * modes);
-  bank_.begin(inputs(measured()));
+  bank_.begin(inputs(measured(), t_));
   at_rest_    = shapes_ * bank_.x().head(modes).matrix();
   deflection_ = ArrayXd::Zero(n);
   sum_.resize(n);
@@ -241,7 +248,7 @@ void FastForces::step()
     return;
   if (!whole)
     impulse_ /= now - t_; // the mean
-  bank_.advance(now - t_, inputs(whole ? p_ : impulse_));
+  bank_.advance(now - t_, whole ? inputs(p_, now) : inputs(impulse_, 0.5 * (t_ + now)));
   impulse_.setZero();
   t_ = now;
   look();
@@ -254,7 +261,7 @@ void FastForces::jump()
   p_ = measured();
   if (t_step_ > t_)
     return; // part of a mean
-  bank_.jump(inputs(p_));
+  bank_.jump(inputs(p_, t_));
   look();
 }
 

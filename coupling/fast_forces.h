@@ -20,8 +20,9 @@ namespace gestell::coupling
  *     e(t) = sum_k (w.phi_k) / omega_k^2  (y_k[omega_k] - y_k[omega'_k]),     y_k'' + 2 zeta_k omega y_k' + omega^2 y_k
  *                                                                               = omega^2 phi_k.f(t).
  *
- * f are the forces of elements, joints, loads and base springs, their means over 1/32 of a period of the range's limit
- * where steps are shorter: 16 samples in a period at 2 f. Masses that ride on the frame are not in its modes.
+ * f are the forces of elements, joints, loads and base springs, with steps shorter than that their means over 1/32 of a
+ * period of the range's limit (loads of the middle, springs as the mean of both ends): 16 samples in a period at 2 f.
+ * Masses that ride on the frame are not in its modes.
  *
  * Source: docs/theory/reduction.md (16f).
  */
@@ -54,8 +55,10 @@ private:
                    const Eigen::MatrixXd &dampers);
   void take_modes(const ReducedFrame &frame);
 
-  /// phi_k.f of forces p of the measures, for the model's oscillators and again for the refined ones.
-  const Eigen::ArrayXd  &inputs(const Eigen::VectorXd &p);
+  /// phi_k.f for the model's oscillators and again for the refined ones.
+  /// @param p  forces of the measures
+  /// @param t  of the loads; before now, base springs have the mean of their forces at the last look and now
+  const Eigen::ArrayXd &inputs(const Eigen::VectorXd &p, double t);
   const Eigen::VectorXd &measured() const { return integrator_.local().p; }
   double                 force_on(const Place &place) const;
   void                   look();
@@ -68,13 +71,14 @@ private:
   double                t_ = 0., t_step_ = 0.; ///< of the last look; of the last step
   Eigen::VectorXd       impulse_, p_;          ///< of the measures' forces since the last look; at the last step
   std::vector<Place>    places_;
-  Eigen::MatrixXd       shapes_;                 ///< (w_i.phi_k) / omega_k^2 [places x modes]
-  Eigen::MatrixXd       by_measures_, by_loads_; ///< phi_k.f per p [modes x n_u], per f_t [modes x n]
-  Eigen::MatrixXd       by_motion_, by_rates_;   ///< of base springs, dampers, per q, v of sprung_
-  std::vector<int>      sprung_;                 ///< coordinates that these move by
-  Eigen::Index          first_[n_ranges] = {};   ///< mode that is not exact with the range
-  OscillatorBank        bank_;                   ///< of the model, then the refined ones
-  Eigen::VectorXd       force_, load_, at_rest_; ///< phi_k.f; f_t; deflections at the begin
+  Eigen::MatrixXd       shapes_;                     ///< (w_i.phi_k) / omega_k^2 [places x modes]
+  Eigen::MatrixXd       by_measures_, by_loads_;     ///< phi_k.f per p [modes x n_u], per f_t [modes x n]
+  Eigen::MatrixXd       by_motion_, by_rates_;       ///< of base springs, dampers, per q, v of sprung_
+  std::vector<int>      sprung_;                     ///< coordinates that these move by
+  Eigen::Index          first_[n_ranges] = {};       ///< mode that is not exact with the range
+  OscillatorBank        bank_;                       ///< of the model, then the refined ones
+  Eigen::VectorXd       sprung_before_, sprung_now_; ///< phi_k.f of base springs at the last look, and now
+  Eigen::VectorXd       force_, load_, at_rest_;     ///< phi_k.f; f_t; deflections at the begin
   Eigen::VectorXd       sum_, difference_;
   Eigen::ArrayXd        input_;
   Eigen::ArrayXd        deflection_, least_, most_; ///< largest change of deflections; forces along them

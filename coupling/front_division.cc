@@ -37,7 +37,7 @@ double work_of(const Fronts &fronts, int s)
 std::vector<int> dealt(const std::vector<std::pair<double, int>> &subtrees, int n_ranks, double &heaviest)
 {
   std::vector<double> load(n_ranks, 0.);
-  std::vector<int>    rank(subtrees.size()), by_load(n_ranks);
+  std::vector<int>    rank(subtrees.size());
   for (std::size_t k = 0; k < subtrees.size(); ++k)
   {
     rank[k] = int(std::min_element(load.begin(), load.end()) - load.begin());

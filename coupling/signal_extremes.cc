@@ -43,7 +43,7 @@ bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
 SignalExtremes::SignalExtremes(SampledRun &run, const Sampling &sampling, const std::vector<Signal> &signals,
                                std::vector<SignalSummary> &summaries)
     : run_(run), sampling_(sampling), signals_(signals), summaries_(summaries), probe_{0., {}},
-      anew_(signals.size(), true), widest_(signals.size(), 0.)
+      anew_(signals.size(), true)
 {
   probe_.values.resize(signals.size());
   samples_.assign(2 * deepest, probe_);

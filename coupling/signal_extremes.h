@@ -40,8 +40,8 @@ struct Sampling
  *     |f[t_0 ... t_4]| D^4 > epsilon (max - min),   D: the longest piece between them
  *
  * (a sine of amplitude A, of theta rad in a piece: A theta^4/24, and a parabola misses its peak by A theta^4/32 at
- * most), every piece is halved, up to a sixteenth of the step and to `shortest`: extremes are right to that share
- * however long the steps are.
+ * most), every piece is halved, up to a sixteenth of the step and to `shortest`: extremes are those of the dense output
+ * to that share, however long the steps are.
  *
  * Where a parabola through three samples turns beyond what was seen, the dense output itself is evaluated and the
  * parabola drawn closer.
@@ -88,7 +88,6 @@ private:
   std::vector<char>           watched_; ///< signals whose extremes count already
   std::vector<char>           anew_;    ///< those that count from the next restart() on
   std::vector<int>            like_;    ///< number of the first signal of the same unit
-  mutable std::vector<double> widest_;  ///< range of signals of one unit, by the number of the first
   int                         n_ = 0, begin_ = 0;
 };
 

@@ -133,12 +133,14 @@ MethodOptions with_largest_step(const Machine &machine, const RunOptions &option
 Sampling sampling(const Machine &machine, const MethodOptions &method)
 {
   Sampling sampling;
-  sampling.inside = controlled(method) || method.method == Method::exact;
+  sampling.inside = controlled(method);
   if (method.method != Method::exact)
     return sampling;
   for (const SpectrumLine &mode : machine.spectrum())
     if (mode.omega > 0.)
       sampling.shortest = std::min(sampling.shortest, 2. * M_PI / (samples_of_period * mode.omega));
+  // Up to 0.8 rad a step is as short against all modes as those of implicit methods.
+  sampling.inside = sampling.inside || method.step > 4. * sampling.shortest;
   return sampling;
 }
 
@@ -149,6 +151,8 @@ void take_work(const IntegrationWork &work, const EventDriver &driver, const Run
   const double share                          = driver.chattering_time() / (options.end - options.begin);
   if (work.rejected > 0 && !controlled(options.method))
     result.warnings.push_back("Newton failed in " + std::to_string(work.rejected) + " steps; they were divided");
+  if (result.work.chatter == 0)
+    return;
   // Controlled steps that go over events still keep their tolerance.
   if (controlled(options.method) ? result.work.chatter < often * double(work.steps) : share < seldom)
     return;

@@ -44,7 +44,9 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
   Q_             = reordered(modes_.Q, context_.measures.n_p);
   V_             = reordered(modes_.V, context_.measures.n_p);
   context_.error_tolerance = options.tolerance;
-  step_                    = options.step > 0. ? options.step : natural_step(modes_);
+  for (const ModalBlock &block : context_.measures.blocks)
+    fastest_ = std::max(fastest_, rate_of(block));
+  step_ = options.step > 0. ? options.step : natural_step(modes_);
   local_.resize(system);
   local_begin_.resize(system);
   held_.resize(system);
@@ -89,6 +91,7 @@ void Exact::turn_harmonics()
 void Exact::start_piece()
 {
   t_begin_ = t_full_ = local_.t;
+  last_error_        = options_.tolerance > 0. ? safety : 0.;
   stepped_ = cut_ = false;
   forget_inside();
   system_.local_force(local_, local_.p);
@@ -190,9 +193,14 @@ void Exact::advance()
       local_.t = t_full_ = target.t;
       stepped_           = true;
       ++context_.work.steps;
-      const double grown = error * std::ldexp(1., force_->error_order());
+      // Of two steps: where steps are too long for the motion one may be small by chance.
+      const double grown = std::max(error, last_error_) * std::ldexp(1., force_->error_order());
+      last_error_        = error;
       if (rung_ > 0 && grown < safety)
+      {
         --rung_;
+        last_error_ = safety;
+      }
       return;
     }
     ++context_.work.rejected;
@@ -299,6 +307,8 @@ bool Exact::is_smooth(double h) const
   smooth_                       = true;
   const double         share    = options_.tolerance > 0. ? of_tolerance * options_.tolerance : of_fixed;
   const ModalMeasures &measures = context_.measures;
+  if (force_->interpolation_error(h * fastest_) < rounding)
+    return smooth_;
   force_->end_state(x_work_);
   for (int b = 0; b < measures.n_p && smooth_; ++b)
   {

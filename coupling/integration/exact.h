@@ -24,8 +24,8 @@ namespace gestell::coupling
  *     linear       order 2, one evaluation a step, stable up to omega_contact h = 2 sqrt(3)
  *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
  *
- * Inside a step the measures are interpolated, or, where modes that move them turn too far in a step for that, read
- * from the modes.
+ * Inside a step the measures are interpolated, or, with collocation, where modes that move them turn too far in a step
+ * for that, read from the modes.
  *
  * The force that holds a measure follows from the equation of motion at x, at ends of steps and inside.
  *
@@ -102,7 +102,8 @@ private:
   double                     t_full_  = 0.; ///< end of the step before it was cut
   int64_t                    tick_    = 0;
   bool                       on_grid_ = true, cut_ = false, stepped_ = false;
-  int                        rung_ = 0;
+  int                        rung_       = 0;
+  double                     last_error_ = 0.; ///< of the step before, in tolerances
   Target                     target_;
   LocalState                 local_, local_begin_;
   Eigen::VectorXd            x_;
@@ -112,6 +113,7 @@ private:
   mutable bool               now_known_ = false;
   mutable double             h_smooth_  = 0.; ///< of the last step, once is_smooth() looked at it; else 0
   mutable bool               smooth_    = true;
+  double                     fastest_   = 0.; ///< of the motions of all blocks [1/s]
   mutable double             t_inside_  = 0.; ///< of x_inside_, inside the last step; else it is not known
 };
 

@@ -157,8 +157,9 @@ void ExactContext::grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eig
 {
   constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < u.size(); ++i)
-    grown[i] = std::max(
-        {grown[i], std::abs(u[i] - u_begin[i]), h * std::abs(v[i]), rounding / newton.tolerance * std::abs(u[i])});
+    // A rotation has no largest excursion: what counts is the way gone in the time of the slowest mode.
+    grown[i] = std::max({grown[i], std::min(std::abs(u[i] - u_begin[i]), time_ * std::abs(v[i])),
+                         std::min(h, time_) * std::abs(v[i]), rounding / newton.tolerance * std::abs(u[i])});
 }
 
 HermiteNodes::HermiteNodes(std::vector<double> sigma)

@@ -27,6 +27,8 @@ void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S
   double size = 0.;
   for (const ConstraintBlock &joint : system.constraint_blocks())
     size = std::max(size, joint.size);
+  if (size == 0. || system.virtual_coordinates().empty())
+    return;
   const double *first = tangent.data();
   for (const ForceBlock &block : blocks)
   {

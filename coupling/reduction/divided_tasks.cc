@@ -89,7 +89,8 @@ void SearchTask::run(const fem::Ranks &ranks)
     if (known)
       rows.omega = known->omega;
     ranks.broadcast(rows.omega.data(), count);
-    factor.deal_out(known ? known->V : Eigen::MatrixXd(0, count), rows.V);
+    const Eigen::MatrixXd none(0, count);
+    factor.deal_out(known ? known->V : none, rows.V);
   }
   searches()[search] = {
       &factor, std::make_unique<BlockLanczos>(factor.own_M(), std::make_unique<InverseOnRanks>(factor), options, rows)};
