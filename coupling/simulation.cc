@@ -8,6 +8,7 @@
 #include "coupling/recorder.h"
 #include "coupling/stiffness_watch.h"
 #include "coupling/tilting_rotors.h"
+#include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 
@@ -221,6 +222,21 @@ void warn_of_closed_contacts(const Machine &machine, const InitialState &initial
                               "play, or start with rule = \"static\"");
 }
 
+/// Taken step by step, the sign of a friction is that of the last step: it may hold what it cannot.
+void warn_of_friction(const Machine &machine, const RunOptions &options, RunResult &result)
+{
+  if (options.events)
+    return;
+  for (const ElementPlacement &placement : machine.elements())
+    if (law_of<mechanism::CoulombFriction>(placement))
+    {
+      result.warnings.push_back("run.events = false, but the dry friction of \"" + placement.name +
+                                "\" is made for located events: without them it may hold more than its limit, or "
+                                "chatter; leave run.events true, or take the type \"friction\"");
+      return;
+    }
+}
+
 /// Ends a run whose controlled steps have become so short that it would never end.
 class CrawlWatch
 {
@@ -338,6 +354,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   result.warnings.insert(result.warnings.end(), initial.notes.begin(), initial.notes.end());
   if (!initial.settled)
     warn_of_closed_contacts(machine, initial, result);
+  warn_of_friction(machine, options, result);
 
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
   EventDriver                           driver     = event_driver(machine, *integrator, options);
