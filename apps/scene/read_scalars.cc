@@ -74,12 +74,15 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
     const int k = periodic ? (i + n) % n : std::clamp(i, 0, n - 1);
     return points[k + 1].f - points[k].f;
   };
-  double worst = 0., at = 0., by = 0.;
+  const auto   by_f  = [](const auto &a, const auto &b) { return a.f < b.f; };
+  const auto   ends  = std::minmax_element(points.begin(), points.end(), by_f);
+  const double whole = ends.second->f - ends.first->f; // of what rows range over: beside a level stretch
+  double       worst = 0., at = 0., by = 0.;
   for (int i = 0; i < n; ++i)
   {
     const double steps[]  = {step(i - 1), step(i), step(i + 1)};
     const auto [down, up] = std::minmax_element(std::begin(steps), std::end(steps));
-    const double scale    = std::max(std::abs(*down), std::abs(*up));
+    const double largest = std::max(std::abs(*down), std::abs(*up)), scale = largest > 0. ? largest : whole;
     if ((*down < 0. && *up > 0.) || scale == 0.)
       continue;
     constexpr int n_between = 16;
@@ -97,7 +100,8 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
   std::ostringstream text;
   text.precision(3);
   text << "the spline swings " << by << " beyond the rows on both sides of it at " << at << ", by " << 100. * worst
-       << " % of the steps between rows there; give more rows where the course bends, or round it";
+       << " % of the steps between rows there (of a level stretch, of what all rows range over); give more rows where "
+          "the course bends, or round it";
   table.warn("table", text.str());
 }
 

@@ -124,6 +124,11 @@ bool by_rotors(const StartRequest &start)
   return start.rule == StartRule::steady && start.q.empty() && start.v.empty();
 }
 
+bool has_speed(const StartRequest &start)
+{
+  return std::any_of(start.v.begin(), start.v.end(), [](const NamedValue &v) { return v.value != 0.; });
+}
+
 } // namespace
 
 std::invalid_argument against_start(const Scene &scene, const std::string &message)
@@ -166,6 +171,10 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     coupling::InitialState state = found();
     state.t                      = scene.run.options.begin;
     state.settled                = start.rule != StartRule::given;
+    if (start.rule == StartRule::rest && has_speed(start))
+      state.notes.push_back(
+          "start.v has no part in rule = \"static\", which starts at rest; take \"steady\", or \"given\" "
+          "with the positions of the equilibrium");
     return state;
   }
   catch (const std::invalid_argument &e)

@@ -44,6 +44,17 @@ SceneRun dropped(const std::string &element)
              element + at_rest + settings + "signals = { x = \"s.displacement\" }\n");
 }
 
+TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
+{
+  const std::string slider = gravity +
+                             "[body.s]\ntype = \"slider\"\naxis = [0, 0, -1]\nmass = 10\n[element.e]\nfrom = \"s\"\n"
+                             "type = \"spring-damper\"\nstiffness = 1e4\n" +
+                             at_rest;
+  const std::string signals = settings + "signals = { x = \"s.displacement\" }\n";
+  EXPECT_TRUE(told(run(slider + "v = { s = 1 }\n" + signals), "start.v has no part in rule = \"static\""));
+  EXPECT_FALSE(told(run(slider + "v = { s = 0 }\n" + signals), "start.v"));
+}
+
 TEST(StaticStart, ClosesWhatWasOpen)
 {
   const double W = 10. * g;
