@@ -1,11 +1,11 @@
 // The program gestell: one executable with subcommands.
 
-#include "apps/commands/commands.h"
-#include "apps/commands/team.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/team.h"
 #include "apps/commit.h"
 #include "apps/version.h"
-#include "coupling/integration/second_order_system.h"
-#include "coupling/nearest_name.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "fem/values/nearest_name.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,7 +49,7 @@ void require_command(const CLI::App &program, const std::string &word)
 {
   const auto names = command_names(program);
   if (!word.empty() && word.front() != '-' && std::find(names.begin(), names.end(), word) == names.end())
-    throw std::invalid_argument("there is no command '" + word + "'" + coupling::suggestion(word, names));
+    throw std::invalid_argument("there is no command '" + word + "'" + gestell::suggestion(word, names));
 }
 
 /// What is left of the command line: an option of another command, a slip, a second scene.
@@ -63,7 +63,7 @@ std::invalid_argument unexpected(const CLI::App &program)
       options.push_back("--" + name);
   return std::invalid_argument(command->get_name() + ": " +
                                (word.front() == '-'
-                                    ? "there is no option " + word + coupling::suggestion(word, options)
+                                    ? "there is no option " + word + gestell::suggestion(word, options)
                                     : "'" + word + "' is one input too many; names with spaces stand in quotes"));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/order.h"
+#include "mechanism/switch_command.h"
 
 #include <string>
 #include <vector>

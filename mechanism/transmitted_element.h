@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mechanism/combined_measure.h"
 #include "mechanism/force_element.h"
+#include "mechanism/measures/combined_measure.h"
 
 #include <memory>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/stability_maps.h"
+#include "apps/output/charts/stability_maps.h"
 
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
-#include "apps/output/log_chart.h"
-#include "apps/output/number_text.h"
-#include "fem/two_pi.h"
+#include "apps/output/charts/log_chart.h"
+#include "apps/output/text/number_text.h"
+#include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "apps/atlas/trials.h"
 
-#include "coupling/integration/event_driver.h"
+#include "coupling/integration/events/event_driver.h"
 #include "mechanism/elements/cubic_spring.h"
 
 #include <algorithm>

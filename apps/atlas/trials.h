@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/integration/method.h"
-#include "coupling/machine.h"
+#include "coupling/machine/machine.h"
 
 #include <vector>
 

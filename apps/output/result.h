@@ -1,11 +1,11 @@
 #pragma once
 
-#include "apps/output/scenery.h"
-#include "apps/output/stress_result.h"
-#include "coupling/excitation_orders.h"
-#include "coupling/modes.h"
-#include "coupling/simulation.h"
-#include "fem/frame_matrices.h"
+#include "apps/output/pictures/scenery.h"
+#include "apps/output/tables/stress_result.h"
+#include "coupling/modes/excitation_orders.h"
+#include "coupling/modes/modes.h"
+#include "coupling/simulation/simulation.h"
+#include "fem/values/frame_matrices.h"
 
 #include <limits>
 #include <optional>

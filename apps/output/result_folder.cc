@@ -1,10 +1,10 @@
 #include "apps/output/result_folder.h"
 
-#include "apps/output/along_report.h"
-#include "apps/output/paraview.h"
-#include "apps/output/report.h"
-#include "apps/output/tables.h"
-#include "coupling/whole_file.h"
+#include "apps/output/paraview/paraview.h"
+#include "apps/output/report/modes_along_report.h"
+#include "apps/output/report/report.h"
+#include "apps/output/tables/result_tables.h"
+#include "coupling/frame/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>

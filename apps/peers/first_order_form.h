@@ -1,8 +1,8 @@
 #pragma once
 
-#include "coupling/integration/second_order_system.h"
-#include "coupling/integration/small_lu.h"
-#include "coupling/integration/time_integrator.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/small_lu.h"
+#include "coupling/integration/system/time_integrator.h"
 
 #include <Eigen/LU>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/integration/second_order_system.h"
-#include "coupling/integration/time_integrator.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/time_integrator.h"
 
 #include <atomic>
 #include <string>

@@ -1,7 +1,7 @@
 // Finds the plugin that holds PETSc: loading it takes half a second, which only those pay who ask for it.
 
 #include "apps/peers/stepper.h"
-#include "coupling/plugin.h"
+#include "coupling/plugin/plugin.h"
 
 #include <cstdlib>
 #include <memory>

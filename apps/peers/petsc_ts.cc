@@ -1,7 +1,7 @@
 // PETSc TS behind Stepper; a plugin, see petsc_loader.cc.
 
 #include "apps/peers/stepper.h"
-#include "coupling/integration/hermite.h"
+#include "coupling/integration/system/hermite.h"
 
 #include <petscts.h>
 

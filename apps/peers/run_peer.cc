@@ -1,6 +1,6 @@
 #include "apps/peers/peer.h"
 #include "apps/peers/stepper.h"
-#include "coupling/integration/event_detection.h"
+#include "coupling/integration/events/event_detection.h"
 
 #include <algorithm>
 

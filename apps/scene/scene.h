@@ -1,12 +1,12 @@
 #pragma once
 
-#include "apps/scene/quantity.h"
-#include "coupling/frame_service.h"
-#include "coupling/machine.h"
-#include "coupling/simulation.h"
-#include "fem/frame_matrices.h"
-#include "fem/frame_specification.h"
-#include "fem/part.h"
+#include "apps/scene/language/quantity.h"
+#include "coupling/machine/machine.h"
+#include "coupling/plugin/frame_service.h"
+#include "coupling/simulation/simulation.h"
+#include "fem/assembly/cad_body.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
 #include "mechanism/joints/motion_law.h"
 
 #include <map>
@@ -149,7 +149,7 @@ enum class JointType
   measure      ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
 };
 
-struct JointFrictionRequest; // apps/scene/joint_friction_request.h
+struct JointFrictionRequest; // apps/scene/read/joint_friction_request.h
 
 /// Of a joint that yields.
 struct ComplianceRequest

@@ -1,10 +1,10 @@
 #include "coupling/integration/method.h"
 
-#include "coupling/integration/bdf.h"
-#include "coupling/integration/bdf_controlled.h"
-#include "coupling/integration/exact.h"
-#include "coupling/integration/newmark.h"
-#include "coupling/integration/wilson.h"
+#include "coupling/integration/bdf/bdf.h"
+#include "coupling/integration/bdf/bdf_controlled.h"
+#include "coupling/integration/newmark/newmark.h"
+#include "coupling/integration/newmark/wilson.h"
+#include "coupling/integration/propagation/modal_propagation.h"
 
 #include <algorithm>
 #include <cmath>

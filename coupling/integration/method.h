@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/integration/implicit_step.h"
-#include "coupling/integration/time_integrator.h"
+#include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/system/time_integrator.h"
 
 #include <memory>
 #include <string>

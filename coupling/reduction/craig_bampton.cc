@@ -1,15 +1,15 @@
 #include "coupling/reduction/craig_bampton.h"
 
-#include "coupling/integration/second_order_system.h"
-#include "coupling/reduction/enough_modes.h"
-#include "coupling/reduction/fixed_modes.h"
-#include "coupling/reduction/free_modes.h"
-#include "coupling/reduction/inner_shapes.h"
-#include "coupling/reduction/interior_response.h"
-#include "coupling/reduction/rounded.h"
-#include "fem/free_motions.h"
-#include "fem/rigid_motions.h"
-#include "fem/two_pi.h"
+#include "coupling/algebra/rounded.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "coupling/reduction/estimates/mode_selection.h"
+#include "coupling/reduction/shapes/attachment_modes.h"
+#include "coupling/reduction/shapes/fixed_interface_modes.h"
+#include "coupling/reduction/shapes/free_interface_modes.h"
+#include "coupling/reduction/shapes/residual_flexibility.h"
+#include "fem/assembly/rigid_body_modes.h"
+#include "fem/assembly/rigid_motions.h"
+#include "fem/values/two_pi.h"
 
 #include <Eigen/QR>
 

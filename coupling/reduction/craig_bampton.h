@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/frame_service.h"
-#include "coupling/reduction/basis.h"
+#include "coupling/plugin/frame_service.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
 
 namespace gestell::fem
 {

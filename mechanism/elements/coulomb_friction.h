@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
-#include "mechanism/joints/joint_load.h"
+#include "mechanism/functions/commanded_profile.h"
+#include "mechanism/joint_load.h"
 #include "mechanism/stribeck.h"
 
 #include <optional>

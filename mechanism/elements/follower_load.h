@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanism/force_element.h"
-#include "mechanism/placement.h"
+#include "mechanism/measures/placement.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
-#include "mechanism/formula_kinks.h"
+#include "mechanism/functions/formula_kinks.h"
 
 namespace gestell::mechanism
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/joints/joint_load.h"
+#include "mechanism/joint_load.h"
 #include "mechanism/stribeck.h"
 
 #include <optional>

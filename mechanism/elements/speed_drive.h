@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mechanism/course.h"
 #include "mechanism/differentiable_element.h"
+#include "mechanism/functions/commanded_profile.h"
 
 namespace gestell::mechanism
 {

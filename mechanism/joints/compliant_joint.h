@@ -2,7 +2,7 @@
 
 #include "mechanism/force_element.h"
 #include "mechanism/joints/ideal_joint.h"
-#include "mechanism/relative_measure.h"
+#include "mechanism/measures/relative_measure.h"
 
 #include <string>
 #include <vector>

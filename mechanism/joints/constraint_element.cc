@@ -1,6 +1,6 @@
 #include "mechanism/joints/constraint_element.h"
 
-#include "mechanism/slope_jump.h"
+#include "mechanism/functions/slope_jump.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanism/joints/constraint_element.h"
-#include "mechanism/relative_measure.h"
+#include "mechanism/measures/relative_measure.h"
 
 #include <memory>
 #include <string>

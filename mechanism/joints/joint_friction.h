@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
-#include "mechanism/joints/joint_load.h"
+#include "mechanism/joint_load.h"
 #include "mechanism/sliding_friction.h"
 
 #include <array>

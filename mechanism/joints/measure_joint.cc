@@ -1,6 +1,6 @@
 #include "mechanism/joints/measure_joint.h"
 
-#include "mechanism/slope_jump.h"
+#include "mechanism/functions/slope_jump.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mechanism/combined_measure.h"
 #include "mechanism/joints/constraint_element.h"
+#include "mechanism/measures/combined_measure.h"
 
 namespace gestell::mechanism
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mechanism/course.h"
-#include "mechanism/position_function.h"
+#include "mechanism/functions/commanded_profile.h"
+#include "mechanism/functions/position_function.h"
 
 #include <string>
 #include <vector>

@@ -1,11 +1,11 @@
 // Frequencies of a clamped CAD frame and the CPU time they took; with --deck the same mesh as an input file of
 // CalculiX.
+#include "coupling/eigensolvers/blas_threads.h"
 #include "coupling/reduction/craig_bampton.h"
-#include "coupling/reduction/openblas.h"
-#include "fem/discretisation.h"
-#include "fem/hexahedral_mesh.h"
-#include "fem/mesher.h"
-#include "fem/supports.h"
+#include "fem/assembly/supports.h"
+#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/mesh/mesher.h"
+#include "fem/recovery/discretisation.h"
 
 #include <ctime>
 #include <exception>

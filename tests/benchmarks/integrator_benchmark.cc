@@ -1,7 +1,7 @@
 // Steps of the integrators on the synthetic reduced frames of apps/scenes/benchmark, beside a plain condensed BDF2 with
 // a dense Newton in the interface's coordinates, and beside a dense 200 x 200 product on the same machine.
 
-#include "apps/scene/build_machine.h"
+#include "apps/scene/build/build_machine.h"
 #include "apps/scene/scene.h"
 #include "coupling/integration/method.h"
 

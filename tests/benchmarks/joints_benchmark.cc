@@ -1,7 +1,7 @@
 // One step of N four-bars with ideal joints: how its cost grows with N, condensed and sparse.
 
 #include "coupling/integration/method.h"
-#include "tests/coupling/jointed_machines.h"
+#include "tests/support/jointed_machines.h"
 
 #include <benchmark/benchmark.h>
 

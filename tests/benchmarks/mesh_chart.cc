@@ -6,9 +6,9 @@
 // FOLDER/error_coordinates.svg and FOLDER/error_cpu.svg: the largest error of the frequencies of each mesh against
 // those of the last mesh of the reference.
 
-#include "apps/output/log_chart.h"
+#include "apps/output/charts/log_chart.h"
 #include "apps/output/result_folder.h"
-#include "apps/scene/csv_file.h"
+#include "apps/scene/file/csv_file.h"
 
 #include <algorithm>
 #include <cmath>

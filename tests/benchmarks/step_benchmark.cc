@@ -1,8 +1,8 @@
 // One BDF2 step of the press: with two masses, and with its reduced frame (from the cache, or made first).
 
-#include "apps/commands/prepared_machine.h"
-#include "coupling/integration/bdf.h"
-#include "coupling/integration/energy_balance.h"
+#include "apps/cli/prepared_machine.h"
+#include "coupling/integration/bdf/bdf.h"
+#include "coupling/integration/system/energy_balance.h"
 
 #include <benchmark/benchmark.h>
 

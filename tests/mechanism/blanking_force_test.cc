@@ -1,5 +1,5 @@
 #include "mechanism/elements/blanking_force.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 #include "mechanism/elements/table_force.h"
-#include "tests/mechanism/branch_samples.h"
-#include "tests/mechanism/prescribed_path.h"
+#include "tests/support/branch_samples.h"
+#include "tests/support/prescribed_path.h"
 
 #include <gtest/gtest.h>
 

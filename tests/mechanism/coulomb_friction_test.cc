@@ -1,5 +1,5 @@
 #include "mechanism/elements/coulomb_friction.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Courses that obey orders, and elements that are switched off and on.
 
-#include "element_probe.h"
+#include "tests/support/element_probe.h"
 
-#include "mechanism/course.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/spring_damper.h"
+#include "mechanism/functions/commanded_profile.h"
 #include "mechanism/joints/motion_law.h"
 #include "mechanism/switched_element.h"
 

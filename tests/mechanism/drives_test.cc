@@ -10,8 +10,8 @@
 #include "mechanism/elements/regularised_friction.h"
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/speed_drive.h"
-#include "mechanism/profile.h"
-#include "tests/mechanism/prescribed_path.h"
+#include "mechanism/functions/profile.h"
+#include "tests/support/prescribed_path.h"
 
 #include <gtest/gtest.h>
 
@@ -276,7 +276,7 @@ TEST(DrawingForce, TellsThePathDrawnAtTheInstant)
   constexpr int      drawn = 2;
   const DrawingForce sheet({1e4, 1e8, 0., 3e-3}); // rises over 0.1 mm
   Eigen::VectorXd    history = started(sheet, probe1(-1e-3, 0.1));
-  const auto         told = [&](double z) { return sheet.quantity(drawn, probe1(z, 0.1).motion(true), history.data()); };
+  const auto told = [&](double z) { return sheet.quantity(drawn, probe1(z, 0.1).motion(true), history.data()); };
   sheet.transition(0, probe1(0., 0.1).motion(true), history.data());
   EXPECT_EQ(told(5e-5), 0.);
   sheet.transition(1, probe1(1e-4, 0.1).motion(true), history.data());

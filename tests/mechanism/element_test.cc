@@ -17,7 +17,7 @@
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/speed_drive.h"
 #include "mechanism/elements/table_force.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -234,7 +234,9 @@ TEST_P(Element, StoredPowerIsTheGrowthOfTheStoredEnergy)
   const double power  = force(*c.element, c.probe, history.data()).dot(c.probe.v);
   EXPECT_NEAR(stored, growth, 1e-5 * (std::abs(power) + std::abs(stored))); // rounding of the energy, eps E/dt
   if (c.element->work() == Work::dissipated)
+  {
     EXPECT_LE(power + stored, 1e-14 * (std::abs(power) + std::abs(stored)));
+  }
 }
 
 TEST(LuGreFriction, StoresWhatItsBristlesTake)

@@ -1,7 +1,7 @@
 #include "mechanism/elements/formula_force.h"
 
 #include "mechanism/elements/cubic_spring.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "mechanism/formula.h"
-#include "tests/integration/allocation_counter.h"
+#include "mechanism/functions/formula.h"
+#include "tests/support/allocation_counter.h"
 
 #include <gtest/gtest.h>
 

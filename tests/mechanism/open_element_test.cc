@@ -5,7 +5,7 @@
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/wheel.h"
 #include "mechanism/switched_element.h"
-#include "tests/mechanism/branch_samples.h"
+#include "tests/support/branch_samples.h"
 
 #include <gtest/gtest.h>
 

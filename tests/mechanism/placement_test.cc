@@ -1,7 +1,7 @@
 // How points and directions of bodies follow their measures, against difference quotients.
 
 #include "mechanism/joints/orthonormal_directors.h"
-#include "mechanism/relative_measure.h"
+#include "mechanism/measures/relative_measure.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "mechanism/elements/point_contact.h"
 #include "mechanism/joints/joint_friction.h"
 #include "mechanism/transmitted_element.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

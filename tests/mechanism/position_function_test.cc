@@ -1,7 +1,7 @@
 // Splines, position functions and sums of measures: orders, closure, derivatives against difference quotients.
 
-#include "mechanism/combined_measure.h"
 #include "mechanism/joints/motion_law.h"
+#include "mechanism/measures/combined_measure.h"
 
 #include <gtest/gtest.h>
 

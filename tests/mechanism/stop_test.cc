@@ -1,7 +1,7 @@
 // A single stop: one side of a play, and the restitution of its law.
 
 #include "mechanism/elements/clearance.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "mechanism/elements/table_force.h"
-#include "tests/mechanism/element_probe.h"
+#include "tests/support/element_probe.h"
 
 #include <gtest/gtest.h>
 

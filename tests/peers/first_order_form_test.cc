@@ -2,7 +2,7 @@
 // solves with it.
 
 #include "apps/peers/first_order_form.h"
-#include "tests/integration/small_system.h"
+#include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
 

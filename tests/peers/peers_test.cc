@@ -2,9 +2,9 @@
 // the same steps as the dense one.
 
 #include "apps/peers/peer.h"
-#include "apps/scene/build_machine.h"
-#include "tests/apps/csv_table.h"
-#include "tests/integration/small_system.h"
+#include "apps/scene/build/build_machine.h"
+#include "tests/support/csv_table.h"
+#include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/build_machine.h"
+#include "apps/scene/build/build_machine.h"
 #include "tests/random_machines/random_machine.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "mechanism/elements/kloss_motor.h"
 
-#include "apps/scene/read_share.h"
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/read_share.h"
+#include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {

@@ -1,7 +1,7 @@
 #include "mechanism/elements/point_contact.h"
 
-#include "apps/scene/read_contact.h"
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/read_contact.h"
+#include "apps/scene/read/relative_motion.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-#include "apps/scene/read_switches.h"
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/read_switches.h"
+#include "apps/scene/read/relative_motion.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/regularised_friction.h"
 
-#include "apps/scene/read_profile.h"
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/read_profile.h"
+#include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {

@@ -1,4 +1,4 @@
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {

@@ -1,6 +1,6 @@
 #include "mechanism/elements/rope.h"
 
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {

@@ -1,7 +1,7 @@
 #include "mechanism/elements/speed_drive.h"
 
-#include "apps/scene/read_profile.h"
-#include "apps/scene/relative_motion.h"
+#include "apps/scene/read/read_profile.h"
+#include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {

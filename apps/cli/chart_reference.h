@@ -1,0 +1,50 @@
+#pragma once
+
+#include "apps/cli/work_measurement.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// What errors are measured against.
+struct Reference
+{
+  SignalSamples           values;
+  double                  error = 0.; ///< of the reference itself, by scaled_error()
+  double                  cpu_s = 0.;
+  std::string             how;
+  coupling::MethodOptions method; ///< of its coarsest run, good for the size of the motion
+};
+
+/// A table "t, name, name ..." with a header line; units in brackets behind a name are left out.
+class ReferenceFile
+{
+public:
+  /// @throws std::invalid_argument for a file that cannot be read, or is no table of numbers with ascending times
+  explicit ReferenceFile(const std::string &path);
+
+  bool                       has(const std::string &name) const;
+  const std::vector<double> &column(const std::string &name) const;
+
+  std::string         path;
+  std::vector<double> times;
+
+private:
+  std::vector<std::string>         names_;
+  std::vector<std::vector<double>> columns_;
+};
+
+/**
+ * A fine run with located events: exact propagation by collocation of order 8, controlled; its error is the largest
+ * distance from two others, one with the tenfold tolerance and one of order 6.  Where exact propagation cannot treat
+ * the machine, or does not get to the end, BDF of controlled order does it, with ever larger tolerances, and at last
+ * BDF 2 with fixed steps; `notes` tells why.  Without values if none gets to the end.
+ */
+Reference own_reference(const WorkProblem &problem, std::vector<std::string> &notes);
+
+/// The file as reference for the given signals; its error is its distance from our own reference.
+Reference compared(const ReferenceFile &file, const std::vector<coupling::Signal> &signals, const Reference &own);
+
+} // namespace gestell::apps

@@ -1,0 +1,82 @@
+#include "apps/cli/commands.h"
+#include "apps/output/text/number_text.h"
+#include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/free_bodies.h"
+#include "coupling/plugin/frame_service_loader.h"
+#include "coupling/plugin/mesh_service.h"
+
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+/// Reads the frame's file and finds its surfaces and where they are, where this build can.  @return what was found
+std::string try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+{
+  if (!coupling::has_frame_service())
+    return frame.cad + " is there; this build cannot read it";
+  const auto [found, notes, statements, centroids] = coupling::mesh_service().inspect(frame);
+  warnings.insert(warnings.end(), notes.begin(), notes.end());
+  for (fem::InterfaceSpecification &interface : frame.interfaces)
+    if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)
+      interface.position = centroid->second;
+  std::string text = frame.cad + ": " + found + "; not meshed";
+  for (const std::string &statement : statements)
+    text += "\nframe: " + statement;
+  return text;
+}
+
+/// How many [element.NAME] the scene has, whatever each of them becomes: of some a force, a mass, several contacts.
+std::size_t elements_written(const Scene &scene)
+{
+  std::set<std::string> names;
+  for (const auto &[name, place] : scene.element_places)
+    if (name.find('.') == std::string::npos) // "guide.rear" is a part of "guide"
+      names.insert(name);
+  for (const JointRequest &joint : scene.joints)
+    names.erase(joint.name);
+  for (const MeasureRequest &measure : scene.measures)
+    names.erase(measure.name);
+  return names.size();
+}
+
+} // namespace
+
+int check_command(const CommonOptions &options)
+{
+  Scene                    scene    = read_scene(options.input, options.overrides, options.scripts);
+  std::vector<std::string> loose    = check_scene(scene);
+  std::vector<std::string> warnings = scene.warnings;
+  std::string              geometry;
+  if (scene.frame.source == FrameSource::geometry)
+  {
+    geometry = try_geometry(scene.frame.geometry, warnings);
+    loose    = check_scene(scene); // the places of interfaces are known now
+  }
+  check_start(scene);
+  warnings.insert(warnings.end(), loose.begin(), loose.end());
+  if (const std::string floating = floating_frame(scene); !floating.empty())
+    warnings.push_back(floating);
+  std::cout << scene.file << ": the scene \"" << scene.name
+            << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
+            << count_text(elements_written(scene), "element") << ", " << count_text(scene.signals.size(), "signal")
+            << '\n';
+  if (!geometry.empty())
+    std::cout << "frame: " << geometry << '\n';
+  if (!scene.joints.empty() && !places_known(scene))
+    std::cout << "joints: closed when the frame is made; its file tells where interfaces without 'position' are\n";
+  for (const BodyRequest &body : scene.bodies)
+    if (body.part)
+      std::cout << body.part->found << '\n';
+  for (const std::string &warning : warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  return exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,187 @@
+#include "apps/cli/export_frame.h"
+
+#include "coupling/frame/matrix_market.h"
+#include "coupling/frame/petsc_binary.h"
+#include "coupling/frame/whole_file.h"
+#include "coupling/reduction/dense_frame.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+/// All digits.
+std::string digits(double x)
+{
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string quoted(const std::string &text)
+{
+  std::string result = "\"";
+  for (const char c : text)
+    result += (c == '"' || c == '\\' ? std::string("\\") : std::string()) + c;
+  return result + '"';
+}
+
+/// Files of one export.
+class Export
+{
+public:
+  Export(const std::string &folder, MatrixFormat format, const std::string &remark)
+      : folder_(folder), format_(format), remark_(remark)
+  {
+    std::filesystem::create_directories(folder);
+  }
+
+  /// Writes a matrix; returns the name of its file.
+  std::string matrix(const std::string &name, const Eigen::MatrixXd &A, bool symmetric)
+  {
+    const bool        petsc = format_ == MatrixFormat::petsc;
+    const std::string file  = name + (petsc ? ".petsc" : ".mtx");
+    if (petsc)
+      coupling::write_petsc_matrix(path(file), A);
+    else if (symmetric)
+      coupling::write_matrix_market(path(file), A.sparseView(0., 0.), coupling::Symmetry::symmetric, remark_);
+    else
+      coupling::write_matrix_market(path(file), A, remark_);
+    files_.push_back(path(file));
+    return file;
+  }
+
+  void text(const std::string &file, const std::string &content)
+  {
+    coupling::WholeFile out(path(file));
+    out.stream() << content;
+    out.finish();
+    files_.push_back(path(file));
+  }
+
+  void remove(const std::string &file) const { std::filesystem::remove(path(file)); }
+
+  const std::vector<std::string> &files() const { return files_; }
+
+private:
+  std::string path(const std::string &file) const { return (std::filesystem::path(folder_) / file).string(); }
+
+  std::string              folder_;
+  MatrixFormat             format_;
+  std::string              remark_;
+  std::vector<std::string> files_;
+};
+
+/// Interfaces with their rows, then the points of the skin.
+std::string node_table(const coupling::ReducedFrame &frame)
+{
+  std::ostringstream out;
+  out << "name, x, y, z, ux, uy, uz, rx, ry, rz\n";
+  for (const auto &interface : frame.interfaces)
+  {
+    out << quoted(interface.name);
+    for (const double x : interface.position)
+      out << ", " << digits(x);
+    for (int motion = 0; motion < 6; ++motion)
+    {
+      out << ", ";
+      if (const int i = interface.coordinate[motion]; i >= 0)
+        out << (interface.sign[motion] < 0. ? -(i + 1) : i + 1);
+    }
+    out << '\n';
+  }
+  for (const auto &point : frame.points)
+  {
+    for (const double x : point)
+      out << ", " << digits(x);
+    out << ", , , , , , \n";
+  }
+  return out.str();
+}
+
+std::string triangle_table(const coupling::ReducedFrame &frame)
+{
+  const auto         first = frame.interfaces.size() + 1;
+  std::ostringstream out;
+  out << "node, node, node\n";
+  for (const auto &[a, b, c] : frame.triangles)
+    out << first + std::size_t(a) << ", " << first + std::size_t(b) << ", " << first + std::size_t(c) << '\n';
+  return out.str();
+}
+
+Eigen::MatrixXd node_displacements(const coupling::ReducedFrame &frame)
+{
+  const auto      first = Eigen::Index(3 * frame.interfaces.size());
+  Eigen::MatrixXd A     = Eigen::MatrixXd::Zero(first + frame.displacement.rows(), frame.M.cols());
+  for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      if (const int row = frame.interfaces[i].coordinate[d]; row >= 0)
+        A(Eigen::Index(3 * i) + d, row) = frame.interfaces[i].sign[d];
+  A.bottomRows(frame.displacement.rows()) = frame.displacement.cast<double>();
+  return A;
+}
+
+std::string row_text(const Eigen::VectorXd &row)
+{
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < row.size(); ++i)
+    text += (i > 0 ? ", " : "") + digits(row[i]);
+  return text + "]";
+}
+
+std::string output_table(const fem::FrameOutput &output)
+{
+  return "\n[frame." + output.name + "]\nstiffness_row = " + row_text(output.on_q) +
+         "\ndamping_row = " + row_text(output.on_v) + "\nacceleration_row = " + row_text(output.under_acceleration) +
+         "\n";
+}
+
+} // namespace
+
+MatrixFormat matrix_format(const std::string &name)
+{
+  if (name == "matrix-market")
+    return MatrixFormat::matrix_market;
+  if (name == "petsc")
+    return MatrixFormat::petsc;
+  throw std::invalid_argument("--export: got '" + name + "'; valid: matrix-market, petsc");
+}
+
+std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
+                                      MatrixFormat format, const std::string &remark)
+{
+  const char *const whole = "frame.toml"; // written last: without it the export is incomplete
+  Export            files(folder, format, remark);
+  files.remove(whole);
+  std::string scene = "# " + remark + "\n# Paths are relative to the scene that takes this table.\n[frame]\n";
+  const auto  add   = [&](const std::string &key, const Eigen::MatrixXd &A, bool symmetric = false)
+  { scene += key + " = " + quoted(files.matrix(key, A, symmetric)) + '\n'; };
+  add("mass", frame.M, true);
+  add("damping", frame.B, true);
+  add("stiffness", frame.C, true);
+  add("translations", coupling::unit_translations(frame));
+  if (frame.mass > 0.)
+    scene += "total_mass = " + digits(frame.mass) + '\n';
+  files.text("nodes.csv", node_table(frame));
+  scene += "nodes = \"nodes.csv\"\n";
+  if (!frame.points.empty())
+  {
+    files.text("triangles.csv", triangle_table(frame));
+    scene += "triangles = \"triangles.csv\"\n";
+    add("node_displacements", node_displacements(frame));
+  }
+  for (const auto &output : frame.outputs)
+    scene += output_table(output);
+  files.text(whole, scene);
+  return files.files();
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+enum class MatrixFormat
+{
+  matrix_market, ///< .mtx
+  petsc          ///< PETSc's binary format, .petsc
+};
+
+/// "matrix-market" or "petsc".  @throws std::invalid_argument for others.
+MatrixFormat matrix_format(const std::string &name);
+
+/**
+ * Writes a reduced frame for other programs: mass, damping, stiffness and translations as matrices, nodes.csv with
+ * interfaces and skin, triangles.csv, node_displacements (rows of the nodes times q), and frame.toml, the [frame] of a
+ * scene that takes all this back as a frame given by matrices.  Rows are the interface coordinates, then modes.
+ *
+ * `translations` are M^-1 f with f the load of a unit acceleration: in the coordinates of the reduced frame the best a
+ * unit translation of the whole frame can be told by, and gravity is the same.
+ *
+ * @param remark  of the scene the frame is from, for people.
+ * @return the files written.
+ * @throws std::runtime_error if one cannot be written.
+ */
+std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
+                                      MatrixFormat format, const std::string &remark);
+
+} // namespace gestell::apps

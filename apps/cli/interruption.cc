@@ -1,0 +1,54 @@
+#include "apps/cli/interruption.h"
+
+#include <csignal>
+#include <ctime>
+#include <unistd.h>
+
+namespace gestell::apps
+{
+
+namespace
+{
+std::atomic<bool> interrupted{false};
+timespec          first_time{};
+
+double seconds_since_first()
+{
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec - first_time.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec - first_time.tv_nsec);
+}
+
+// Only what is safe in a signal handler: an atomic, clock_gettime, write, signal, raise.
+extern "C" void note_interruption(int signal_number)
+{
+  if (!interrupted.exchange(true))
+  {
+    clock_gettime(CLOCK_MONOTONIC, &first_time);
+    constexpr char message[] = "\ngestell: interrupted; saving what was computed (once more: end at once)\n";
+    if (write(STDERR_FILENO, message, sizeof message - 1) < 0)
+      return;
+  }
+  // Whoever signals a process and its group sends two at once: that is one wish.
+  else if (seconds_since_first() > 0.5)
+  {
+    std::signal(signal_number, SIG_DFL);
+    raise(signal_number);
+  }
+}
+} // namespace
+
+const std::atomic<bool> &interruption()
+{
+  static const bool installed = []
+  {
+    std::signal(SIGINT, note_interruption);
+    std::signal(SIGTERM, note_interruption);
+    return true;
+  }();
+  (void)installed;
+  return interrupted;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,172 @@
+#include "apps/cli/commands.h"
+#include "apps/cli/progress.h"
+#include "apps/scene/language/quantity.h"
+#include "apps/scene/read/read_material.h"
+#include "coupling/plugin/frame_service_loader.h"
+#include "coupling/plugin/mesh_report.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+/// A quantity given on the command line, in SI units; 0 if it is not given.
+double option_of(const std::string &option, const std::string &text, const Kind &kind, const std::string &example)
+{
+  if (text.empty())
+    return 0.;
+  const auto no_parameter = [](const std::string &) { return std::optional<Quantity>(); };
+  char      *end          = nullptr;
+  double     value        = std::strtod(text.c_str(), &end); // a plain number is in SI units
+  try
+  {
+    if (*end != '\0')
+      value = value_as(parse_quantity(text, no_parameter, {}, &kind), kind, text);
+    if (value > 0.)
+      return value;
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+  throw std::invalid_argument(option + ": needs a " + kind.name + " above zero such as \"" + example + "\", got " +
+                              text);
+}
+
+double length_option(const std::string &option, const std::string &text)
+{
+  return option_of(option, text, kind::length, "80 mm");
+}
+
+constexpr double steel = 7850.; ///< [kg/m^3]
+
+/// "in steel", or of which density.
+std::string weighed(double density)
+{
+  std::ostringstream text;
+  text << density;
+  return density == steel ? "in steel" : "at " + text.str() + " kg/m^3";
+}
+
+void print_triple(const char *name, const std::array<double, 3> &x)
+{
+  std::cout << name << " [";
+  for (int d = 0; d < 3; ++d)
+    std::cout << (d > 0 ? ", " : "") << std::round(x[d] * 1e6) * 1e-6 + 0.; // OpenCASCADE widens boxes by 1e-7
+  std::cout << "]";
+}
+
+std::string gibibytes(double bytes)
+{
+  std::ostringstream text;
+  text << std::setprecision(3) << bytes / (1024. * 1024. * 1024.) << " GiB";
+  return text.str();
+}
+
+fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommandOptions &mesh)
+{
+  fem::FrameSpecification frame;
+  frame.cad            = std::filesystem::absolute(options.input).string();
+  frame.unit           = length_option("--unit", mesh.unit);
+  frame.mesh.size      = length_option("--size", mesh.size);
+  frame.mesh.gap       = length_option("--gap", mesh.gap);
+  frame.mesh.defeature = length_option("--defeature", mesh.defeature);
+  frame.mesh.bodies    = mesh.bodies;
+  frame.mesh.overlaps  = mesh.overlaps == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  frame.mesh.max_cells = mesh.max_cells;
+  frame.mesh.place     = "gestell mesh";
+  const double density = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
+  frame.material       = {210e9, 0.3, density > 0. ? density : steel, "gestell mesh"};
+  frame.place          = "gestell mesh";
+  frame.scripts        = options.scripts;
+  return frame;
+}
+
+void print_solids(const coupling::MeshReport &report, double density)
+{
+  for (const coupling::SolidReport &solid : report.solids)
+  {
+    std::cout << "  solid \"" << solid.name << "\": " << solid.volume << " m^3, " << solid.mass << " kg "
+              << weighed(density);
+    print_triple(", from", solid.min);
+    print_triple(" to", solid.max);
+    std::cout << '\n';
+  }
+}
+
+void print_mesh(const coupling::MeshReport &report)
+{
+  std::cout << "mesh: ";
+  if (report.size > 0.)
+    std::cout << "size " << report.size << " m, ";
+  std::cout << report.n_points << " points, " << report.n_cells << ' ' << report.cells;
+  if (report.expected_cells > 0.)
+    std::cout << " (about " << std::setprecision(2) << report.expected_cells << " expected)" << std::setprecision(6);
+  std::cout << ", about " << report.n_coordinates << " coordinates, quality " << report.worst_quality << " at worst, "
+            << report.mean_quality << " in the mean (1: regular)\n"
+            << "memory: a reduction takes about " << gibibytes(report.memory) << ", available are "
+            << gibibytes(report.available_memory) << '\n';
+  for (const std::string &feature : report.features)
+    std::cout << "features: " << feature << '\n';
+}
+
+void print_surfaces(const coupling::MeshReport &report)
+{
+  std::cout << "surfaces:\n";
+  for (const coupling::SurfaceReport &surface : report.surfaces)
+  {
+    std::cout << "  " << std::setw(4) << surface.tag << "  " << std::left << std::setw(10) << surface.type
+              << std::right;
+    if (!surface.name.empty())
+      std::cout << " \"" << surface.name << '"';
+    std::cout << "  area " << surface.area << " m^2";
+    print_triple("  from", surface.min);
+    print_triple("  to", surface.max);
+    std::cout << '\n';
+  }
+}
+
+/// As they can be put into a scene.
+void print_selectors(const coupling::MeshReport &report)
+{
+  for (const coupling::SurfaceReport &surface : report.surfaces)
+    std::cout << "\n[frame.surface.\"face " << surface.tag << "\"] # " << surface.type << ", area " << surface.area
+              << " m^2" << (surface.name.empty() ? "" : ", \"" + surface.name + "\"") << '\n'
+              << surface.selector;
+}
+} // namespace
+
+int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
+{
+  const fem::FrameSpecification frame = frame_of(options, mesh);
+  if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
+    std::cerr << "gestell: warning: --density " << suspicion << '\n';
+  ProgressLine progress(options.quiet);
+  const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
+                                                       { progress.show(phase, share); });
+  progress.done();
+
+  std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
+            << report.volume << " m^3, " << report.mass << " kg " << weighed(frame.material.rho) << '\n';
+  print_solids(report, frame.material.rho);
+  for (const std::string &statement : report.statements)
+    std::cout << statement << '\n';
+  for (const std::string &note : report.notes)
+    std::cout << "note: " << note << '\n';
+  print_mesh(report);
+  if (mesh.selectors)
+    print_selectors(report);
+  else
+    print_surfaces(report);
+  return exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,130 @@
+#include "apps/cli/commands.h"
+#include "apps/cli/modes_along.h"
+#include "apps/cli/modes_converge.h"
+#include "apps/cli/prepared_machine.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/report/frame_text.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/text/number_text.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+
+namespace gestell::apps
+{
+
+namespace
+{
+void print_modes(const std::string &kind, const std::vector<coupling::Mode> &modes, const std::string &at_zero,
+                 double limit)
+{
+  if (modes.empty())
+    return;
+  const bool refined = any_refined(modes);
+  std::cout << kind << "\n  mode   frequency [Hz]" << (refined ? "     refined [Hz]" : "")
+            << "   damping ratio   effective mass x / y / z [kg]\n";
+  for (std::size_t j = 0; j < modes.size(); ++j)
+  {
+    const coupling::Mode &mode = modes[j];
+    if (const std::string above = words_above(limit, j > 0 ? modes[j - 1].frequency_hz : 0., mode.frequency_hz);
+        !above.empty())
+      std::cout << "  " << above << '\n';
+    std::cout << "  " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << mode.frequency_hz;
+    if (refined)
+      std::cout << std::setw(17) << (std::isnan(mode.refined_hz) ? "unknown" : short_text(mode.refined_hz, 8));
+    std::cout << std::setprecision(4) << std::setw(16)
+              << (std::isnan(mode.damping_ratio) ? "-" : short_text(mode.damping_ratio)) << "   ";
+    for (const double mass : mode.effective_mass)
+      std::cout << std::setw(11) << mass;
+    if (mode.growth > 0.)
+      std::cout << "   unstable: grows with " << short_text(mode.growth, 3) << " 1/s, e-fold in "
+                << short_text(1. / mode.growth, 3) << " s";
+    else if (mode.frequency_hz == 0.)
+      std::cout << "   " << at_zero;
+    std::cout << '\n';
+  }
+  if (refined)
+    std::cout << "  " << refined_words << '\n';
+}
+
+void print_poles(const std::vector<coupling::Pole> &poles)
+{
+  if (poles.empty())
+    return;
+  std::cout << "with drives and controllers, at the speeds of the start\n"
+               "  damped frequency [Hz]   damping ratio       real part [1/s]   moves most\n";
+  for (const coupling::Pole &pole : poles)
+    std::cout << std::setw(23) << (pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "-") << std::setw(16)
+              << (pole.vibrates() ? short_text(pole.damping_ratio()) : "-") << std::setw(22)
+              << short_text(pole.s.real(), 6) << "   " << pole.moves << (pole.s.real() > 0. ? "   unstable" : "")
+              << '\n';
+}
+} // namespace
+
+int modes_command(const CommonOptions &options, const ModesCommandOptions &modes)
+{
+  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
+  check_scene(scene);
+  const std::filesystem::path folder = results_path(options, scene);
+  require_writable(folder);
+
+  ProgressLine                             progress(options.quiet);
+  std::optional<coupling::MeshConvergence> convergence;
+  if (modes.converge > 0.)
+    convergence = converge_frame(scene, modes, folder, progress);
+  PreparedMachine prepared =
+      convergence ? prepare_machine_on(scene, convergence->frame) : prepare_machine(scene, progress);
+
+  progress.show("modes");
+  const auto geometric =
+      modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
+  Result result = begin_result(scene, "modes", prepared, geometric);
+  result.asked  = {options.input, options.overrides, std::nullopt};
+  if (!modes.along.empty())
+  {
+    result.along = modes_along_result(scene, prepared, modes, progress);
+    for (const std::string &warning : along_warnings(*result.along))
+      result.warnings.push_back(warning);
+  }
+  if (convergence)
+    for (const std::string &warning : convergence_warnings(*convergence, modes.converge))
+      result.warnings.push_back(warning);
+  progress.done();
+  result.wall_s           = progress.wall_seconds();
+  const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  if (beside_a_run && incomplete(folder))
+    result.warnings.push_back(incomplete_words(folder));
+  if (beside_a_run)
+    write_modes(folder, result);
+  else
+  {
+    prepare_folder(folder);
+    write_results(folder, result);
+  }
+
+  for (const std::string &line : frame_lines(result.model))
+    std::cout << "frame: " << line << '\n';
+  if (convergence)
+  {
+    write_convergence(folder, *convergence);
+    print_convergence(*convergence, modes.converge);
+  }
+  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
+  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
+              result.model.frequency_limit);
+  print_poles(result.poles);
+  if (result.along)
+    print_along(*result.along);
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  if (beside_a_run)
+    std::cout << folder.string()
+              << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
+  else
+    std::cout << "report: " << (folder / "report.html").string() << '\n';
+  return convergence && !convergence->converged ? exit_failed : exit_done;
+}
+
+} // namespace gestell::apps

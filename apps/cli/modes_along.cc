@@ -1,0 +1,174 @@
+#include "apps/cli/modes_along.h"
+
+#include "apps/output/report/modes_along_report.h"
+#include "apps/output/text/number_text.h"
+#include "apps/scene/language/quantity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double doubtful = 0.5; ///< modal assurance below which a line may have changed its shape for another one
+
+double option_value(const std::string &option, const std::string &text, const Kind &kind)
+{
+  try
+  {
+    Quantity quantity = parse_quantity(
+        text, [](const std::string &) { return std::nullopt; }, {}, &kind);
+    char *end = nullptr;
+    std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0') // plain numbers are SI
+      return quantity.value;
+    return value_as(quantity, kind, text);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+}
+
+coupling::SweptCoordinate named(const std::string &option, const coupling::Machine &machine, const std::string &name)
+{
+  try
+  {
+    return coupling::swept_coordinate(machine, name);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+}
+
+void set_range(const coupling::SweptCoordinate &coordinate, const ModesCommandOptions &options,
+               coupling::AlongOptions &along)
+{
+  const bool given = !options.from.empty() || !options.to.empty();
+  if (!coordinate.full_turn && (options.from.empty() || options.to.empty()))
+    throw std::invalid_argument(
+        "--along " + coordinate.name + " is no angle that turns round; give its range, such as " +
+        (coordinate.unit == "rad" ? "--from \"-20 deg\" --to \"20 deg\"" : "--from \"2.4 m\" --to \"3.1 m\""));
+  const Kind &kind = coordinate.unit == "rad" ? kind::angle : kind::length;
+  along.from       = options.from.empty() ? 0. : option_value("--from", options.from, kind);
+  along.to         = options.to.empty() ? along.from + 2. * M_PI : option_value("--to", options.to, kind);
+  if (given && options.from.empty())
+    along.from = along.to - 2. * M_PI;
+}
+
+/// Speed of the coordinate at the start of the scene [rad/s]; 0 if it is no angle.
+double start_speed(const coupling::SweptCoordinate &coordinate, const coupling::InitialState &start)
+{
+  return coordinate.full_turn && coordinate.coordinate >= 0 ? std::abs(start.v[coordinate.coordinate]) : 0.;
+}
+
+std::string position_text(const coupling::SweptCoordinate &coordinate, double x)
+{
+  return coordinate.unit == "rad" ? short_text(x * 180. / M_PI, 5) + " deg" : short_text(x, 5) + " " + coordinate.unit;
+}
+
+} // namespace
+
+AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, const ModesCommandOptions &options,
+                               ProgressLine &progress)
+{
+  coupling::Machine              &machine    = prepared.small();
+  const coupling::SweptCoordinate coordinate = named("--along", machine, options.along);
+  coupling::AlongOptions          along;
+  AlongResult                     result;
+  set_range(coordinate, options, along);
+  along.positions          = options.positions;
+  along.configuration      = options.configuration == "undeformed" ? coupling::Configuration::undeformed
+                                                                   : coupling::Configuration::equilibrium;
+  along.lines              = scene.modes.number;
+  along.linearisation.open = scene.modes.open;
+  along.linearisation.geometric =
+      options.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
+  for (const std::string &name : options.hold)
+  {
+    const coupling::SweptCoordinate held = named("--hold", machine, name);
+    if (held.coordinate < 0)
+      throw std::invalid_argument("--hold " + name + ": only coordinates of bodies can be held, such as " +
+                                  machine.coordinate_name(machine.n_frame()));
+    along.linearisation.fixed.push_back(held.coordinate);
+    result.fixed += (result.fixed.empty() ? "" : ", ") + held.name;
+  }
+  result.orders    = options.orders;
+  result.band      = option_value("--band", options.band, kind::number);
+  result.geometric = along.linearisation.geometric;
+  if (!(result.band > 0.) || !(result.band < 1.))
+    throw std::invalid_argument("--band is " + options.band + "; it needs a share between 0 and 1, such as \"5 %\"");
+
+  const coupling::InitialState start = initial_state(scene, machine);
+  result.speed                       = options.speed.empty() ? start_speed(coordinate, start)
+                                                             : std::abs(option_value("--speed", options.speed, kind::angular_speed));
+  result.modes                       = coupling::modes_along(machine, coordinate, start, along,
+                                                             [&](double share) { progress.show("modes along " + coordinate.name, share); });
+  result.meetings = coupling::order_meetings(result.modes, result.speed / (2. * M_PI), result.orders, result.band);
+  return result;
+}
+
+std::vector<std::string> along_warnings(const AlongResult &along)
+{
+  const coupling::SweptCoordinate &coordinate = along.modes.coordinate;
+  std::vector<std::string>         warnings;
+  int                              gaps = 0, undeformed = 0;
+  std::string                      first_gap, first_undeformed;
+  for (const coupling::ModesAt &at : along.modes.positions)
+  {
+    if (!at.gap.empty() && gaps++ == 0)
+      first_gap = position_text(coordinate, at.x) + ": " + at.gap;
+    if (!at.no_equilibrium.empty() && undeformed++ == 0)
+      first_undeformed = position_text(coordinate, at.x) + ": " + at.no_equilibrium;
+    for (std::size_t i = 0; i < at.assurance.size(); ++i)
+      if (at.assurance[i] < doubtful && i < at.modes.size() && at.modes[i].frequency_hz > 0.)
+        warnings.push_back("line " + std::to_string(i + 1) + " is uncertain at " + position_text(coordinate, at.x) +
+                           ": its modal assurance is " + short_text(at.assurance[i], 2) +
+                           "; look at the shapes, or take more --positions");
+  }
+  constexpr std::size_t most_told = 5;
+  if (const std::size_t more = warnings.size(); more > most_told)
+  {
+    warnings.resize(most_told);
+    warnings.push_back("lines are uncertain at " + std::to_string(more - most_told) + " further positions");
+  }
+  if (gaps > 0)
+    warnings.insert(warnings.begin(), std::to_string(gaps) + " of " + std::to_string(along.modes.positions.size()) +
+                                          " positions are left out; " + first_gap);
+  if (undeformed > 0)
+    warnings.insert(warnings.begin(), std::to_string(undeformed) + " positions are undeformed; " + first_undeformed);
+  return warnings;
+}
+
+void print_along(const AlongResult &along)
+{
+  const coupling::SweptCoordinate &coordinate = along.modes.coordinate;
+  std::cout << "along " << coordinate.name
+            << "\n  line    lowest [Hz]             at   highest [Hz]             at   moves most\n";
+  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
+  {
+    const LineExtremes own = line_extremes(along.modes, i);
+    std::cout << "  " << std::setw(4) << i + 1;
+    if (along.modes.free[i])
+      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i];
+    else
+      std::cout << std::setw(15) << short_text(own.min, 6) << std::setw(15) << position_text(coordinate, own.x_min)
+                << std::setw(15) << short_text(own.max, 6) << std::setw(15) << position_text(coordinate, own.x_max)
+                << "   " << along.modes.moves_most[i];
+    if (own.growth > 0.)
+      std::cout << "   unstable: grows with up to " << short_text(own.growth, 3) << " 1/s at "
+                << position_text(coordinate, own.x_growth);
+    std::cout << '\n';
+  }
+  for (const coupling::OrderMeeting &meeting : along.meetings)
+    std::cout << "  order " << meeting.order << " is near line " << meeting.line + 1 << " at "
+              << position_text(coordinate, meeting.x) << ", " << short_text(meeting.frequency_hz, 5) << " Hz\n";
+}
+
+} // namespace gestell::apps

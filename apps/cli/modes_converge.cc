@@ -1,0 +1,151 @@
+#include "apps/cli/modes_converge.h"
+
+#include "apps/output/result_folder.h"
+#include "apps/output/text/number_text.h"
+#include "coupling/plugin/mesh_service.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+std::string percent(double share, int digits = 2)
+{
+  return short_text(100. * share, digits) + " %";
+}
+
+/// Full precision.
+std::string number(double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(17) << value;
+  return text.str();
+}
+
+template <typename Value>
+void add_row(std::string &table, const std::string &name, const coupling::MeshConvergence &convergence,
+             const Value &value)
+{
+  table += name + ",,,,";
+  for (const coupling::ConvergedQuantity &quantity : convergence.quantities)
+    table += "," + number(value(quantity)) + ",";
+  table += '\n';
+}
+
+double largest_bound(const coupling::MeshConvergence &convergence, const std::string &kind)
+{
+  double largest = 0.;
+  for (const auto &quantity : convergence.quantities)
+    if (quantity.name.rfind(kind, 0) == 0)
+      largest = std::max(largest, quantity.bound());
+  return largest;
+}
+
+/// "frequencies within 0.7 %, compliances within 1.5 %"
+std::string reached(const coupling::MeshConvergence &convergence)
+{
+  const double compliances = largest_bound(convergence, "compliance");
+  return "frequencies within " + percent(largest_bound(convergence, "frequency")) +
+         (compliances > 0. ? ", compliances within " + percent(compliances) : "");
+}
+
+} // namespace
+
+coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes,
+                                         const std::filesystem::path &folder, ProgressLine &progress)
+{
+  if (scene.frame.source != FrameSource::geometry || frame_path(scene) != FramePath::reduce)
+    throw std::invalid_argument(scene.file + ": --converge refines the mesh of a frame, but this scene's frame is not "
+                                             "made from geometry and reduced; give [frame] cad = \"FILE\" and "
+                                             "reduction.method = \"craig-bampton\"");
+  coupling::ConvergenceOptions options;
+  options.tolerance       = modes.converge;
+  options.n_frequencies   = modes.frequencies;
+  options.max_coordinates = modes.max_coordinates;
+  options.compliances     = modes.watch == "all";
+  options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far)
+  {
+    std::filesystem::create_directories(folder);
+    write_convergence(folder, so_far);
+  };
+  return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options,
+                                           [&progress](const std::string &phase, double share)
+                                           { progress.show(phase, share); });
+}
+
+void print_convergence(const coupling::MeshConvergence &convergence, double tolerance)
+{
+  std::cout << "meshes\n  largest cell [m]     cells   coordinates     CPU s";
+  for (const auto &quantity : convergence.quantities)
+    std::cout << "   " << quantity.name << " [" << quantity.unit << "]";
+  std::cout << '\n';
+  for (const coupling::MeshLevel &level : convergence.levels)
+  {
+    std::cout << std::setw(18) << short_text(level.size, 3) << std::setw(10) << level.n_cells << std::setw(14)
+              << level.n_coordinates << std::setw(10) << short_text(level.cpu_s, 3);
+    for (std::size_t j = 0; j < level.values.size(); ++j)
+      std::cout << std::setw(static_cast<int>(convergence.quantities[j].name.size() +
+                                              convergence.quantities[j].unit.size() + 6))
+                << short_text(level.values[j], 6);
+    std::cout << '\n';
+  }
+  std::cout << "the last mesh\n  value          limit          error          uncertain by   order   quantity\n";
+  for (std::size_t j = 0; j < convergence.quantities.size(); ++j)
+  {
+    const coupling::ConvergedQuantity &quantity = convergence.quantities[j];
+    std::cout << "  " << std::left << std::setw(15) << short_text(convergence.levels.back().values[j], 6)
+              << std::setw(15) << short_text(quantity.limit, 6) << std::setw(15) << percent(quantity.error)
+              << std::setw(15) << percent(quantity.uncertainty) << std::setw(8)
+              << (std::isnan(quantity.order) ? "-" : short_text(quantity.order, 2)) << quantity.name << " ["
+              << quantity.unit << "]" << (quantity.regular ? "" : ", does not converge regularly") << std::right
+              << '\n';
+  }
+  std::cout << reached(convergence) << ", uncertainty included: " << (convergence.converged ? "" : "not all ")
+            << "within " << percent(tolerance) << (convergence.converged ? "" : "; " + convergence.stopped) << '\n';
+}
+
+std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &convergence, double tolerance)
+{
+  std::vector<std::string> warnings;
+  for (const std::string &name : convergence.left_out)
+    warnings.push_back("mesh: " + name + " is left out, as not every mesh has it; keep more modes of the frame");
+  for (const std::string &name : convergence.at_points)
+    warnings.push_back("mesh: the compliance of " + name +
+                       " is not watched: under a force at a point it grows without limit as elements shrink; couple a "
+                       "surface (coupling = \"average\" or \"rigid\") where it matters");
+  if (!convergence.converged)
+    warnings.push_back("mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " +
+                       convergence.stopped);
+  return warnings;
+}
+
+void write_convergence(const std::filesystem::path &folder, const coupling::MeshConvergence &convergence)
+{
+  std::string table = "mesh,largest cell [m],cells,coordinates,CPU time [s]";
+  for (const auto &quantity : convergence.quantities)
+    table += "," + quantity.name + " [" + quantity.unit + "]," + quantity.name + " estimated error";
+  table += '\n';
+  for (std::size_t i = 0; i < convergence.levels.size(); ++i)
+  {
+    const coupling::MeshLevel &level = convergence.levels[i];
+    table += std::to_string(i + 1) + "," + number(level.size) + "," + std::to_string(level.n_cells) + "," +
+             std::to_string(level.n_coordinates) + "," + number(level.cpu_s);
+    for (std::size_t j = 0; j < level.values.size(); ++j)
+      table += "," + number(level.values[j]) + "," + number(level.estimates[j]);
+    table += '\n';
+  }
+  add_row(table, "limit", convergence, [](const auto &quantity) { return quantity.limit; });
+  add_row(table, "uncertainty", convergence, [](const auto &quantity) { return quantity.uncertainty; });
+  add_row(table, "error", convergence, [](const auto &quantity) { return quantity.error; });
+  add_row(table, "order", convergence, [](const auto &quantity) { return quantity.order; });
+  write_file(folder / "mesh_convergence.csv", table);
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,250 @@
+#include "apps/cli/prepared_machine.h"
+
+#include "apps/commit.h"
+#include "apps/scene/build/carried_bodies.h"
+#include "apps/scene/build/damping_text.h"
+#include "apps/scene/build/free_bodies.h"
+#include "apps/scene/language/matrix_units.h"
+#include "apps/version.h"
+#include "coupling/equilibrium/static_expansion.h"
+#include "coupling/frame/frame_cache.h"
+#include "coupling/modes/modes.h"
+#include "coupling/plugin/frame_service_loader.h"
+#include "coupling/plugin/mesh_service.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+namespace
+{
+/// Modes damped in an unreduced frame with modal damping, at least.
+constexpr int damped_modes = 60;
+
+coupling::Progress progress_of(ProgressLine &line)
+{
+  return [&line](const std::string &phase, double share) { line.show(phase, share); };
+}
+
+/// A frame made from geometry or given by matrices, with its reduced companion.
+coupling::MeshService::Unreduced unreduced_frame(const Scene &scene, ProgressLine &progress)
+{
+  const coupling::ReductionOptions &options = scene.reduction.options;
+  if (scene.frame.source == FrameSource::geometry)
+    return coupling::mesh_service().assemble(scene.frame.geometry, options, progress_of(progress));
+  const fem::FrameMatrices &given = scene.frame.matrices;
+  return {given, coupling::frame_service().reduce(given, options, progress_of(progress))};
+}
+} // namespace
+
+coupling::FrameOrigin frame_origin(const Scene &scene)
+{
+  const bool                        geometry = scene.frame.source == FrameSource::geometry;
+  const coupling::ReductionOptions &options  = scene.reduction.options;
+  coupling::FrameOrigin             origin;
+  origin.recipe = geometry ? coupling::recipe_of(scene.frame.geometry, options)
+                           : coupling::recipe_of(scene.frame.matrices, options);
+  origin.scene  = std::filesystem::absolute(scene.file).lexically_normal().string();
+  origin.source = geometry ? scene.frame.geometry.cad : "matrices";
+  return origin;
+}
+
+coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache)
+{
+  const coupling::FrameOrigin origin = frame_origin(scene);
+  std::string                 note;
+  auto                        known = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
+  from_cache                        = known.has_value();
+  if (known)
+    return std::move(*known);
+  coupling::ReducedFrame frame =
+      scene.frame.source == FrameSource::geometry
+          ? coupling::mesh_service().reduce(scene.frame.geometry, scene.reduction.options, progress_of(progress))
+          : coupling::frame_service().reduce(scene.frame.matrices, scene.reduction.options, progress_of(progress));
+  const std::string kept = coupling::keep_in_cache(frame, origin);
+  for (const std::string &text : {note, kept})
+    if (!text.empty())
+      frame.notes.push_back(text);
+  return frame;
+}
+
+namespace
+{
+void add_warnings(const Scene &scene, PreparedMachine &prepared)
+{
+  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  {
+    prepared.warnings = frame->notes;
+    if (scene.frame.source == FrameSource::matrices)
+      if (const std::string suspicion = suspect_frequency(*frame); !suspicion.empty())
+        prepared.warnings.push_back(suspicion);
+  }
+  prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+}
+} // namespace
+
+PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
+{
+  PreparedMachine prepared;
+  progress.show("frame");
+  switch (frame_path(scene))
+  {
+  case FramePath::none:
+  case FramePath::dense:
+    prepared.machine = build_machine(scene);
+    break;
+  case FramePath::from_file:
+    prepared.machine = build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
+    break;
+  case FramePath::reduce:
+    prepared.machine = build_machine(scene, reduced_frame(scene, progress, prepared.from_cache));
+    break;
+  case FramePath::sparse:
+  {
+    auto [frame, reduced] = unreduced_frame(scene, progress);
+    prepared.companion    = build_machine(scene, reduced);
+    if (frame.modal_damping_ratio.any())
+    {
+      const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
+      coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress_of(progress));
+    }
+    prepared.machine = build_machine(scene, std::move(frame));
+    break;
+  }
+  }
+  add_warnings(scene, prepared);
+  return prepared;
+}
+
+PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame)
+{
+  PreparedMachine prepared;
+  prepared.machine = build_machine(scene, frame);
+  add_warnings(scene, prepared);
+  return prepared;
+}
+
+Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
+{
+  Eigen::VectorXd projected = Eigen::VectorXd::Zero(companion->size());
+  const auto      n_bodies  = machine.n_mechanism();
+  projected.tail(n_bodies)  = state.tail(n_bodies);
+  for (const fem::Interface &interface : machine.full_frame()->interfaces)
+    for (const fem::Interface &other : companion->reduced_frame()->interfaces)
+      if (interface.name == other.name)
+        for (int m = 0; m < 6; ++m)
+          if (interface.coordinate[m] >= 0)
+            projected[other.coordinate[m]] = state[interface.coordinate[m]];
+  return projected;
+}
+
+coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared)
+{
+  const coupling::InitialState state = initial_state(scene, prepared.small());
+  return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+}
+
+std::string mesh_text(const FrameRequest &frame)
+{
+  return frame.source == FrameSource::matrices
+             ? "the frame is given by matrices; of the error of a mesh they may come from nothing is known"
+             : "";
+}
+
+ModelFacts model_facts(const PreparedMachine &prepared)
+{
+  ModelFacts facts;
+  facts.dofs      = prepared.machine.size();
+  facts.nonlinear = static_cast<int>(prepared.machine.directions().cols());
+  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  {
+    facts.interface  = frame->n_interface;
+    const bool modes = frame->modal && !prepared.companion;
+    facts.modes      = modes ? static_cast<int>(frame->M.rows()) - frame->n_interface : 0;
+    facts.frame_dofs = frame->n_full > 0 ? frame->n_full : static_cast<int>(frame->M.rows());
+    if (frame->n_cells > 0)
+      facts.cells = frame->n_cells;
+    if (frame->mass > 0.)
+      facts.frame_mass = frame->mass;
+    facts.frame        = frame->facts;
+    facts.free_motions = static_cast<int>((frame->frequencies_hz.array() == 0.).count());
+    facts.statements   = frame->statements;
+    if (frame->frequency_limit_hz > 0.)
+      facts.frequency_limit = frame->frequency_limit_hz;
+    if (frame->omega0.size() > 0 && !prepared.companion)
+    {
+      facts.static_residual = frame->static_residual;
+      for (Eigen::Index j = 0; j < frame->frequency_error.size(); ++j)
+        if (frame->frequencies_hz[j] <= frame->frequency_limit_hz)
+          facts.frequency_error = std::fmax(facts.frequency_error, frame->frequency_error[j]); // nan gives way
+    }
+  }
+  return facts;
+}
+
+namespace
+{
+
+/// The machine with its drives at the speeds of its start.
+void add_poles(const Scene &scene, coupling::Machine &machine, const Eigen::VectorXd &q,
+               const coupling::Linearisation &how, Result &result)
+{
+  Eigen::VectorXd speeds = Eigen::VectorXd::Zero(machine.size());
+  std::string     unknown;
+  try
+  {
+    speeds = initial_state(scene, machine).v;
+  }
+  catch (const std::exception &error)
+  {
+    unknown = error.what();
+  }
+  result.poles = coupling::operating_poles(machine, q, speeds, scene.run.options.begin, how);
+  if (!result.poles.empty() && !unknown.empty())
+    result.warnings.push_back("drives are linearised at rest, for the start has no speeds: " + unknown);
+  if (result.poles.size() > std::size_t(scene.modes.number))
+    result.poles.resize(scene.modes.number);
+}
+
+} // namespace
+
+Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
+                    coupling::GeometricStiffness geometric)
+{
+  coupling::Machine &small = prepared.small();
+  Result             result;
+  result.scene         = scene.name;
+  result.description   = scene.description;
+  result.version       = version;
+  result.commit        = commit();
+  result.command       = command;
+  result.model         = model_facts(prepared);
+  result.model.damping = damping_text(scene.frame);
+  result.model.mesh    = mesh_text(scene.frame);
+  result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
+  const coupling::Linearisation how{scene.modes.open, geometric};
+  const Eigen::VectorXd         q = modes_configuration(scene, small);
+  result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
+  for (int i = 0; i < small.size(); ++i)
+    result.coordinate_names.push_back(small.coordinate_name(i));
+  result.warnings = prepared.warnings;
+  for (const auto &warnings : {carried_warnings(scene, small), idle_bodies(scene, small), remote_joints(scene, small)})
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  if (const auto warning = free_frame(scene, small, result.coupled_modes); command == "run" && !warning.empty())
+    result.warnings.push_back(warning);
+  add_poles(scene, small, q, how, result);
+  result.scenery = scenery_of(small);
+  for (const BodyRequest &body : scene.bodies)
+    if (body.part)
+    {
+      result.bodies_from_cad.push_back(body.part->found);
+      if (!body.part->shape.points.empty())
+        result.scenery.parts.push_back({body.name, body.part->shape.points, body.part->shape.triangles});
+    }
+  return result;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "apps/cli/progress.h"
+#include "apps/output/result.h"
+#include "apps/scene/build/build_machine.h"
+#include "coupling/frame/reduced_frame_file.h"
+
+#include <optional>
+
+namespace gestell::apps
+{
+
+/// A scene's machine, ready to compute with.
+struct PreparedMachine
+{
+  coupling::Machine machine;
+  /// With an unreduced frame: the same machine on the reduced one, which serves start, modes and pictures.
+  std::optional<coupling::Machine> companion;
+  bool                             from_cache = false;
+  std::vector<std::string>         warnings;
+
+  const coupling::Machine &small() const { return companion ? *companion : machine; }
+  coupling::Machine       &small() { return companion ? *companion : machine; }
+
+  /// A state of the unreduced frame in the companion's coordinates: interfaces and bodies; its modes are left at rest.
+  Eigen::VectorXd project(const Eigen::VectorXd &state) const;
+};
+
+/// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
+PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress);
+
+/// The same on a reduced frame that was made before.
+PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
+
+/// Its initial state, that of an unreduced frame expanded from the companion's.
+coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared);
+
+/// What the reduced frame of such a scene is made from.
+coupling::FrameOrigin frame_origin(const Scene &scene);
+
+/// The reduced frame of a scene with geometry or large matrices; from_cache tells whether it was there already.
+coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache);
+
+/// What is to be said where no mesh is known whose error could be told: of frames given by matrices; else empty.
+std::string mesh_text(const FrameRequest &frame);
+
+/// What is known about the model, for summary and report.
+ModelFacts model_facts(const PreparedMachine &prepared);
+
+/// What modes, run and reduce write alike: scene, version, model, modes, scenery.
+Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
+                    coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
+
+} // namespace gestell::apps

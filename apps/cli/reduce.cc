@@ -1,0 +1,117 @@
+#include "apps/cli/cache_commands.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/export_frame.h"
+#include "apps/cli/prepared_machine.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/report/frame_text.h"
+#include "apps/output/result_folder.h"
+#include "apps/scene/build/damping_text.h"
+#include "apps/version.h"
+#include "coupling/frame/frame_cache.h"
+#include "coupling/modes/modes.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+Scene scene_to_reduce(const CommonOptions &options)
+{
+  if (options.input.empty())
+    throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
+  Scene scene = read_scene(options.input, options.overrides, options.scripts);
+  check_scene(scene);
+  if (frame_path(scene) != FramePath::reduce)
+    throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
+                                             "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
+  return scene;
+}
+
+} // namespace
+
+int reduce_command(const CommonOptions &options, const ReduceCommandOptions &reduce)
+{
+  if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
+    throw std::invalid_argument(
+        "gestell reduce: --all, --older-than and --larger-than say what --prune removes; add it");
+  if (reduce.check && !reduce.list && !reduce.prune)
+    throw std::invalid_argument("gestell reduce: --check goes with --list or --prune; add one of them");
+  if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
+    throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
+                                options.input);
+  if (reduce.prune)
+    prune_cache(reduce);
+  if (reduce.list)
+    list_cache(reduce);
+  if (reduce.explain)
+    explain_cache(scene_to_reduce(options));
+  if (reduce.prune || reduce.list || reduce.explain)
+    return exit_done;
+
+  const Scene       scene   = scene_to_reduce(options);
+  const bool        exports = !reduce.export_format.empty();
+  const auto        format  = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string folder  = exports ? results_path(options, scene).string() : options.folder;
+  if (!folder.empty())
+    require_writable(folder);
+  ProgressLine                 progress(options.quiet);
+  bool                         from_cache = false;
+  const coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
+  progress.done();
+
+  if (!folder.empty())
+  {
+    const std::filesystem::path file = std::filesystem::path(folder) / "reduced_frame.h5";
+    std::filesystem::create_directories(folder);
+    coupling::write_reduced_frame(file.string(), frame);
+    std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
+  }
+  if (exports)
+    for (const std::string &file : export_frame(
+             folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
+      std::cout << "written: " << file << '\n';
+  std::cout
+      << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   " << frame.n_full
+      << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
+      << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
+      << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
+         "accelerations; reduction.inertia_relief carries it)\n"
+      << "  supported frame, interface free:\n    mode   frequency [Hz]     refined [Hz]   estimated relative error\n";
+  const double limit = frame.frequency_limit_hz > 0. ? frame.frequency_limit_hz : INFINITY;
+  for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
+  {
+    if (const std::string above = words_above(limit, j > 0 ? frame.frequencies_hz[j - 1] : 0., frame.frequencies_hz[j]);
+        !above.empty())
+      std::cout << "    " << above << '\n';
+    std::cout << "    " << std::setw(4) << j + 1 << std::setprecision(8) << std::setw(17) << frame.frequencies_hz[j];
+    if (j < frame.frequency_error.size() && std::isnan(frame.frequency_error[j]))
+      std::cout << std::setw(17) << "unknown" << std::setw(27) << "unknown";
+    else if (j < frame.frequency_error.size())
+      std::cout << std::setw(17) << coupling::refined_hz(frame, j) << std::setprecision(3) << std::setw(27)
+                << frame.frequency_error[j];
+    std::cout << '\n';
+  }
+  std::cout << "  " << refined_words << '\n';
+  ModelFacts facts;
+  facts.frame        = frame.facts;
+  facts.frame_mass   = frame.mass;
+  facts.free_motions = static_cast<int>((frame.frequencies_hz.array() == 0.).count());
+  facts.damping      = damping_text(scene.frame);
+  facts.mesh         = mesh_text(scene.frame);
+  facts.statements   = frame.statements;
+  for (const std::string &line : frame_lines(facts))
+    std::cout << "  " << line << '\n';
+  for (const std::string &note : frame.notes)
+    std::cout << "  note: " << note << '\n';
+  for (const auto &[phase, seconds] : progress.wall_seconds())
+    std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';
+  return exit_done;
+}
+
+} // namespace gestell::apps

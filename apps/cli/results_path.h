@@ -1,0 +1,17 @@
+#pragma once
+
+#include "apps/cli/commands.h"
+#include "apps/scene/scene.h"
+
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+/// Folder for results: -o, or else results/<scene name>.
+inline std::filesystem::path results_path(const CommonOptions &options, const Scene &scene)
+{
+  return options.folder.empty() ? std::filesystem::path("results") / scene.name : std::filesystem::path(options.folder);
+}
+
+} // namespace gestell::apps

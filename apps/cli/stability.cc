@@ -1,0 +1,154 @@
+#include "apps/cli/atlas.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/prepared_machine.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/report/stability_report.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/text/number_text.h"
+#include "apps/version.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+void check_ratios(const std::vector<double> &zetas)
+{
+  for (const double zeta : zetas)
+    if (!(zeta >= 0.) || zeta > 10.)
+      throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios lie between 0 and 10");
+}
+
+MethodVerdict verdict(const coupling::LinearSpectrum &spectrum, const MappedMethod &method, double step)
+{
+  coupling::MethodOptions options = method.options;
+  options.step                    = step;
+  const coupling::StabilityGuard guard(spectrum, options);
+  const auto                    &modes = guard.modes();
+  MethodVerdict                  result;
+  result.method = options.method == coupling::Method::exact ? "exact, " + method.name : method.name;
+  for (const auto &mode : modes)
+    if (mode.unstable)
+    {
+      ++result.growing;
+      if (mode.spectral_radius > result.growth)
+      {
+        result.growth   = mode.spectral_radius;
+        result.worst_hz = mode.mode.omega / (2. * M_PI);
+      }
+    }
+  result.only_closed = result.growing > 0 && options.method == coupling::Method::exact;
+  if (result.growing > 0)
+    result.step_that_works = guard.largest_stable_step();
+  const auto closed = std::find_if(modes.begin(), modes.end(),
+                                   [](const auto &mode) { return mode.origin == coupling::ModeOrigin::closed; });
+  if (closed != modes.begin())
+  {
+    result.lowest_period_error  = modes.front().period_error;
+    result.highest_period_error = std::prev(closed)->period_error;
+  }
+  return result;
+}
+
+/// The scene's modes, its method and the others at its step.
+void study_scene(const CommonOptions &options, const StabilityCommandOptions &stability, const Scene &scene,
+                 const std::vector<MethodFamily> &families, StabilityStudy &study)
+{
+  ProgressLine    progress(options.quiet);
+  PreparedMachine prepared = prepare_machine(scene, progress);
+  progress.show("modes");
+  const coupling::Machine     &machine = prepared.small();
+  const coupling::InitialState start   = initial_state(scene, prepared.small());
+  coupling::MethodOptions      method  = scene.run.options.method;
+  if (stability.step > 0.)
+    method.step = stability.step;
+  if (!(method.step > 0.))
+    throw std::invalid_argument("stability: the scene names no step; give the one to look at, such as --step 1e-4");
+  if (method.tolerance > 0.)
+    study.notes.push_back("The scene controls its step; its modes are shown at " + short_text(method.step) + " s.");
+  method.tolerance = 0.;
+  if (prepared.companion)
+    study.notes.push_back("The frame is unreduced; modes are those of its reduced companion.");
+
+  std::ostringstream name;
+  name << coupling::method_name(method) << " with a step of " << method.step << " s";
+  study.method                            = name.str();
+  const coupling::LinearSpectrum spectrum = coupling::linear_spectrum(machine, start);
+  const coupling::StabilityGuard guard(spectrum, method);
+  study.modes = guard.modes();
+  for (const MethodFamily &family : families)
+    for (const MappedMethod &other : family.methods)
+      study.verdicts.push_back(verdict(spectrum, other, method.step));
+  try
+  {
+    guard.check();
+  }
+  catch (const std::invalid_argument &unstable)
+  {
+    study.notes.push_back(unstable.what());
+  }
+  for (const std::string &warning : guard.warnings())
+    study.notes.push_back(warning);
+}
+
+std::string ratio_name(double zeta)
+{
+  std::string text = std::to_string(zeta);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
+
+} // namespace
+
+int stability_command(const CommonOptions &options, const StabilityCommandOptions &stability)
+{
+  if (!stability.atlas.empty())
+    return write_atlas(stability.atlas, options.quiet);
+  check_ratios(stability.zetas);
+
+  const bool           with_scene = !options.input.empty();
+  std::optional<Scene> scene;
+  if (with_scene)
+  {
+    scene = read_scene(options.input, options.overrides, options.scripts);
+    check_scene(*scene);
+  }
+  const std::filesystem::path folder =
+      with_scene ? results_path(options, *scene)
+                 : std::filesystem::path(options.folder.empty() ? "results/stability" : options.folder);
+  require_writable(folder);
+
+  const std::vector<MethodFamily> families = method_families();
+  StabilityStudy                  study;
+  study.title   = with_scene ? scene->name + ": stability and accuracy of the integrators"
+                             : "Stability and accuracy of the integrators";
+  study.version = version;
+  study.zetas   = stability.zetas;
+  if (with_scene)
+    study_scene(options, stability, *scene, families, study);
+  const auto maps = stability_maps(families, study.zetas);
+  study.intervals = unstable_maps(families, study.zetas);
+  for (const double zeta : study.zetas)
+    study.charts.emplace_back(zeta, stability_charts(families, maps, zeta, study.modes));
+
+  std::filesystem::create_directories(folder / "charts");
+  write_file(folder / "stability_maps.csv", maps_csv(maps));
+  write_file(folder / "unstable_intervals.csv", intervals_csv(study.intervals));
+  if (with_scene)
+    write_file(folder / "stability_modes.csv", modes_csv(study.modes));
+  for (const auto &[zeta, charts] : study.charts)
+    for (const NamedSvg &chart : charts)
+      write_file(folder / "charts" / ("stability-" + chart.name + "-" + ratio_name(zeta) + ".svg"), chart.svg);
+  write_file(folder / "stability.html", stability_page(study));
+
+  std::cout << stability_text(study) << "maps: " << (folder / "stability.html").string() << '\n';
+  return exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,228 @@
+#include "apps/output/charts/signal_charts.h"
+
+#include "apps/output/charts/chart.h"
+#include "apps/output/text/number_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double      readable_ratio  = 15.;
+constexpr std::size_t most_per_chart  = 7;
+constexpr std::size_t fewest_for_zoom = 200; ///< rows
+/// A shock lasts no longer than this part of the run; what is slower is a vibration.
+constexpr std::size_t shock_share = 200;
+
+std::vector<double> column(const coupling::RunResult &run, std::size_t j)
+{
+  const std::size_t   width = run.columns.size(), n = run.rows.size() / width;
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = run.rows[i * width + j];
+  return values;
+}
+
+struct Range
+{
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+  double span() const { return high >= low ? high - low : 0.; }
+  double size() const { return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.; }
+};
+
+Range range_of(const coupling::RunResult &run, std::size_t j)
+{
+  Range             range;
+  const std::size_t width = run.columns.size();
+  for (std::size_t i = j; i < run.rows.size(); i += width)
+    if (std::isfinite(run.rows[i]))
+    {
+      range.low  = std::min(range.low, run.rows[i]);
+      range.high = std::max(range.high, run.rows[i]);
+    }
+  return range;
+}
+
+ChartTopic topic_of(const std::string &unit)
+{
+  if (unit == "N" || unit == "N m")
+    return ChartTopic::force;
+  if (unit == "J")
+    return ChartTopic::energy;
+  const std::string base = unit.substr(0, unit.find('/'));
+  return base == "m" || base == "rad" ? ChartTopic::motion : ChartTopic::other;
+}
+
+std::string quantity_of(const std::string &unit)
+{
+  static const std::map<std::string, std::string> names = {{"N", "Forces"},
+                                                           {"N m", "Moments"},
+                                                           {"m", "Displacements"},
+                                                           {"m/s", "Velocities"},
+                                                           {"m/s^2", "Accelerations"},
+                                                           {"rad", "Angles"},
+                                                           {"rad/s", "Angular speeds"},
+                                                           {"J", "Energy"},
+                                                           {"W", "Power"}};
+  const auto                                      name  = names.find(unit);
+  return name != names.end() ? name->second : "Signals";
+}
+
+std::string joined_names(const coupling::RunResult &run, const SignalGroup &group)
+{
+  std::string names;
+  for (const std::size_t j : group.columns)
+    names += (names.empty() ? "" : ", ") + run.columns[j];
+  return names;
+}
+
+LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
+{
+  double size = 0.;
+  for (const std::size_t j : group.columns)
+    size = std::max(size, range_of(run, j).size());
+  const DisplayUnit shown = display_unit(group.unit, size);
+
+  LineChart chart;
+  chart.title = quantity_of(group.unit);
+  if (topic_of(group.unit) != ChartTopic::energy)
+    chart.title += ": " + joined_names(run, group);
+  chart.x_label = "t [s]";
+  chart.y_label = "[" + shown.unit + "]";
+  chart.x       = column(run, 0);
+  for (const std::size_t j : group.columns)
+  {
+    Series series{run.columns[j], column(run, j)};
+    for (double &y : series.y)
+      y *= shown.factor;
+    chart.series.push_back(std::move(series));
+  }
+  int number = 0;
+  for (const coupling::Event &event : run.events)
+    chart.marks.push_back({event.t, ++number, short_text(event.t, 6) + " s  " + event.name + ": " + event.kind});
+  return chart;
+}
+
+/// Name for files from the title of a quantity: small letters, dashes for blanks.
+std::string file_name(std::string text)
+{
+  for (char &c : text)
+    c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Where a signal changes most within the time of a shock, and by how much.
+std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
+{
+  const std::vector<double> t = column(run, 0), y = column(run, j);
+  const std::size_t         reach = std::max<std::size_t>(1, y.size() / shock_share);
+  double                    at = t.front(), change = 0.;
+  for (std::size_t i = 0; i + reach < y.size(); ++i)
+    if (std::abs(y[i + reach] - y[i]) > change)
+    {
+      change = std::abs(y[i + reach] - y[i]);
+      at     = t[i];
+    }
+  return {at, change};
+}
+
+/// Whether the shock shows in one of the signals: a third of its way within the time of a shock.
+bool is_shaken(const coupling::RunResult &run, const SignalGroup &group)
+{
+  return std::any_of(group.columns.begin(), group.columns.end(),
+                     [&](std::size_t j) { return hardest_change(run, j).second > range_of(run, j).span() / 3.; });
+}
+
+} // namespace
+
+std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
+{
+  std::vector<std::string>                        units; // in the order of their first column
+  std::map<std::string, std::vector<std::size_t>> of_unit;
+  for (std::size_t j = 1; j < run.columns.size(); ++j)
+  {
+    if (of_unit.count(run.units[j]) == 0)
+      units.push_back(run.units[j]);
+    of_unit[run.units[j]].push_back(j);
+  }
+
+  std::vector<SignalGroup> groups;
+  for (const std::string &unit : units)
+  {
+    std::vector<std::pair<double, std::size_t>> by_span;
+    for (const std::size_t j : of_unit[unit])
+      by_span.emplace_back(range_of(run, j).span(), j);
+    std::stable_sort(by_span.begin(), by_span.end(), [](auto &a, auto &b) { return a.first > b.first; });
+
+    double widest = -1.;
+    for (const auto &[span, j] : by_span)
+    {
+      if (widest < 0. || span * readable_ratio < widest || groups.back().columns.size() == most_per_chart)
+      {
+        groups.push_back({unit, {}});
+        widest = span;
+      }
+      groups.back().columns.push_back(j);
+    }
+  }
+  for (SignalGroup &group : groups)
+    std::sort(group.columns.begin(), group.columns.end());
+  return groups;
+}
+
+std::pair<double, double> main_shock(const coupling::RunResult &run)
+{
+  const std::size_t width = run.columns.size(), n = width > 0 ? run.rows.size() / width : 0;
+  if (n < fewest_for_zoom || width < 2)
+    return {0., 0.};
+
+  double widest = 0.;
+  for (std::size_t j = 1; j < width; ++j)
+    if (run.units[j] == "N")
+      widest = std::max(widest, range_of(run, j).span());
+  double at      = hardest_change(run, 1).first,
+         hardest = 0.; // share of its range by which a force of some size changes: rings follow
+  for (std::size_t j = 1; j < width; ++j)
+    if (const double span = range_of(run, j).span(); run.units[j] == "N" && span > 0. && span >= widest / 3.)
+      if (const auto [t, change] = hardest_change(run, j); change / span > hardest)
+      {
+        hardest = change / span;
+        at      = t;
+      }
+  const double first = run.rows.front(), last = run.rows[(n - 1) * width], zoom = (last - first) / 8.;
+  const double begin = std::clamp(at - 0.25 * zoom, first, last - zoom);
+  return {begin, begin + zoom};
+}
+
+std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
+{
+  std::vector<SignalChart> charts;
+  if (run.columns.size() < 2 || run.rows.size() < 2 * run.columns.size())
+    return charts;
+
+  const auto                 shock = main_shock(run);
+  std::map<std::string, int> used; // how often a quantity has had a chart
+  for (const SignalGroup &group : group_signals(run))
+  {
+    LineChart   chart = chart_of(run, group);
+    std::string name  = file_name(quantity_of(group.unit));
+    if (const int n = ++used[name]; n > 1)
+      name += "-" + std::to_string(n);
+    charts.push_back({name, chart.title, line_chart_svg(chart), topic_of(group.unit)});
+    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(run, group))
+      continue;
+    chart.title += ", around the main shock";
+    std::tie(chart.x_begin, chart.x_end) = shock;
+    charts.push_back({name + "-shock", chart.title, line_chart_svg(chart), ChartTopic::force});
+  }
+  return charts;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,256 @@
+#include "apps/output/charts/stability_maps.h"
+
+#include "apps/output/charts/log_chart.h"
+#include "apps/output/text/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::ForceRule;
+using coupling::Method;
+using coupling::MethodOptions;
+using coupling::Spring;
+
+constexpr double lowest = 1e-2, highest = 1e3; // omega h of the maps
+constexpr int    points_per_decade = 100;
+constexpr double highest_seen      = 3.141592653589793; // two steps in a period: beyond it, no root follows the motion
+
+MappedMethod bdf(int order)
+{
+  MethodOptions o;
+  o.order = order;
+  return {o, Spring::base, "BDF " + std::to_string(order)};
+}
+
+MappedMethod newmark(double beta, double gamma, const std::string &name)
+{
+  MethodOptions o;
+  o.method = Method::newmark;
+  o.beta   = beta;
+  o.gamma  = gamma;
+  return {o, Spring::base, name};
+}
+
+MappedMethod wilson(double theta)
+{
+  MethodOptions o;
+  o.method = Method::wilson;
+  o.theta  = theta;
+  return {o, Spring::base, "Wilson " + short_text(theta)};
+}
+
+MappedMethod hht(double alpha)
+{
+  MethodOptions o;
+  o.method = Method::hht;
+  o.alpha  = alpha;
+  return {o, Spring::base, "HHT " + short_text(alpha)};
+}
+
+MappedMethod generalised_alpha(double rho_inf)
+{
+  MethodOptions o;
+  o.method  = Method::generalised_alpha;
+  o.rho_inf = rho_inf;
+  return {o, Spring::base, "generalised alpha " + short_text(rho_inf)};
+}
+
+MappedMethod central_difference()
+{
+  MethodOptions o;
+  o.method = Method::central_difference;
+  return {o, Spring::base, "central differences"};
+}
+
+MappedMethod exact(ForceRule force, int order, const std::string &name)
+{
+  MethodOptions o;
+  o.method = Method::exact;
+  o.force  = force;
+  o.order  = order;
+  return {o, Spring::contact, name};
+}
+
+void append_row(std::string &csv, const std::string &name, std::initializer_list<double> values)
+{
+  csv += name;
+  for (const double value : values)
+    append_exact(csv += ',', value);
+  csv += '\n';
+}
+
+const StabilityMap *map_of(const std::vector<StabilityMap> &maps, const std::string &method, double zeta)
+{
+  for (const StabilityMap &map : maps)
+    if (map.method == method && map.zeta == zeta)
+      return &map;
+  return nullptr;
+}
+
+std::vector<LogMark> marks_of(const std::vector<coupling::ModeAccuracy> &modes)
+{
+  std::vector<LogMark> marks;
+  for (const auto &mode : modes)
+  {
+    const bool closed = mode.origin == coupling::ModeOrigin::closed;
+    marks.push_back({mode.omega_h,
+                     std::string(closed ? "closed contacts" : "frame") + ", mode " + std::to_string(mode.number) +
+                         ": " + short_text(mode.mode.omega / 6.283185307179586) + " Hz",
+                     closed ? 1 : 0});
+  }
+  return marks;
+}
+
+/// The part of a curve where it is positive, and its mirrored rest.
+void add_signed(LogPanel &panel, const StabilityMap &map, const std::vector<double> &y, int colour)
+{
+  LogCurve above{map.method, map.omega_h, y, colour, false}, below{"", map.omega_h, y, colour, true};
+  for (double &value : below.y)
+    value = -value;
+  panel.curves.push_back(above);
+  if (std::any_of(below.y.begin(), below.y.end(), [](double value) { return value > 1e-16; }))
+    panel.curves.push_back(below);
+}
+
+} // namespace
+
+std::vector<MethodFamily> method_families()
+{
+  return {{"BDF", {bdf(1), bdf(2), bdf(3), bdf(4), bdf(5), bdf(6)}},
+          {"Newmark, central differences, Wilson",
+           {newmark(0.25, 0.5, "average acceleration"), newmark(1. / 6., 0.5, "linear acceleration"),
+            newmark(0.3025, 0.6, "Newmark 0.3025 0.6"), central_difference(), wilson(1.3), wilson(1.4)}},
+          {"HHT and generalised alpha",
+           {hht(-0.05), hht(-0.3), generalised_alpha(0.9), generalised_alpha(0.8), generalised_alpha(0.5),
+            generalised_alpha(0.)}},
+          {"Exact propagation, closed contact",
+           {exact(ForceRule::average, 2, "average force"), exact(ForceRule::linear, 2, "linear force"),
+            exact(ForceRule::collocation, 2, "collocation 2"), exact(ForceRule::collocation, 4, "collocation 4"),
+            exact(ForceRule::collocation, 6, "collocation 6"), exact(ForceRule::collocation, 8, "collocation 8")}}};
+}
+
+std::vector<StabilityMap> stability_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas)
+{
+  const int                 n = static_cast<int>(std::lround(points_per_decade * std::log10(highest / lowest)));
+  std::vector<StabilityMap> maps;
+  for (const double zeta : zetas)
+    for (std::size_t family = 0; family < families.size(); ++family)
+      for (const MappedMethod &method : families[family].methods)
+      {
+        StabilityMap map{method.name, static_cast<int>(family), zeta, {}, {}, {}};
+        for (int i = 0; i <= n; ++i)
+        {
+          const coupling::TestOscillator o{zeta, lowest * std::pow(highest / lowest, double(i) / n), method.spring};
+          map.omega_h.push_back(o.omega_h);
+          map.step.push_back(coupling::step_properties(method.options, o));
+          map.displaced.push_back(coupling::overshoot(method.options, o, coupling::OscillatorStart::displaced));
+        }
+        maps.push_back(std::move(map));
+      }
+  return maps;
+}
+
+std::vector<MappedInterval> unstable_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas)
+{
+  std::vector<MappedInterval> intervals;
+  for (const MethodFamily &family : families)
+    for (const MappedMethod &method : family.methods)
+      for (const double zeta : zetas)
+        for (const auto &interval : coupling::unstable_intervals(method.options, zeta, method.spring))
+          intervals.push_back({method.name, zeta, interval});
+  return intervals;
+}
+
+std::string maps_csv(const std::vector<StabilityMap> &maps)
+{
+  std::string csv = "method,damping ratio [1],omega h [1],spectral radius [1],period elongation [1],"
+                    "numerical damping [1],overshoot displacement [1],overshoot velocity [1]\n";
+  for (const StabilityMap &map : maps)
+    for (std::size_t i = 0; i < map.omega_h.size(); ++i)
+      append_row(csv, map.method,
+                 {map.zeta, map.omega_h[i], map.step[i].spectral_radius, map.step[i].period_elongation,
+                  map.step[i].numerical_damping, map.displaced[i].displacement, map.displaced[i].velocity});
+  return csv;
+}
+
+std::string intervals_csv(const std::vector<MappedInterval> &intervals)
+{
+  std::string csv = "method,damping ratio [1],unstable from omega h [1],to omega h [1],largest growth per step [1],"
+                    "at omega h [1]\n";
+  for (const MappedInterval &row : intervals)
+    append_row(csv, row.method,
+               {row.zeta, row.interval.from, row.interval.to, row.interval.growth, row.interval.at_omega_h});
+  return csv;
+}
+
+std::string modes_csv(const std::vector<coupling::ModeAccuracy> &modes)
+{
+  std::string csv = "kind,mode,frequency [Hz],damping ratio [1],omega h [1],spectral radius [1],numerical damping [1],"
+                    "period error [1],unstable\n";
+  for (const coupling::ModeAccuracy &mode : modes)
+    append_row(csv, mode.origin == coupling::ModeOrigin::base ? "frame" : "closed contacts",
+               {double(mode.number), mode.mode.omega / 6.283185307179586, mode.mode.zeta, mode.omega_h,
+                mode.spectral_radius, mode.numerical_damping, mode.period_error, mode.unstable ? 1. : 0.});
+  return csv;
+}
+
+std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families, const std::vector<StabilityMap> &maps,
+                                       double zeta, const std::vector<coupling::ModeAccuracy> &modes)
+{
+  const double      nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string at  = ", damping ratio " + short_text(zeta);
+  LogChart          radius{"Spectral radius" + at, "ω h", "spectral radius", lowest, highest, 0., 2., false, 1., {},
+                  marks_of(modes)};
+  LogChart          period = radius, damping = radius, overshoot = radius;
+  const auto        logarithmic =
+      [&](LogChart &chart, const std::string &title, const std::string &label, double from, double to)
+  {
+    chart.title   = title + at;
+    chart.y_label = label;
+    chart.log_y   = true;
+    chart.limit   = nan;
+    chart.y_begin = from;
+    chart.y_end   = to;
+  };
+  logarithmic(period, "Period error (dashed: too fast)", "relative", 1e-10, 10.);
+  logarithmic(damping, "Numerical damping (dashed: negative)", "damping ratio", 1e-10, 1.);
+  logarithmic(overshoot, "Overshoot from a displacement, 20 steps", "times the start", 1., 1e6);
+
+  period.x_end = damping.x_end = 10.;
+  for (const MethodFamily &family : families)
+  {
+    for (LogChart *chart : {&radius, &period, &damping, &overshoot})
+      chart->panels.push_back({family.title, {}});
+    for (std::size_t m = 0; m < family.methods.size(); ++m)
+    {
+      const StabilityMap *map = map_of(maps, family.methods[m].name, zeta);
+      if (!map)
+        continue;
+      std::vector<double> rho, elongation, ratio, peak;
+      for (std::size_t i = 0; i < map->omega_h.size(); ++i)
+      {
+        rho.push_back(map->step[i].spectral_radius);
+        const bool seen = map->omega_h[i] < highest_seen;
+        elongation.push_back(seen ? map->step[i].period_elongation : nan);
+        ratio.push_back(seen ? map->step[i].numerical_damping : nan);
+        peak.push_back(std::max(map->displaced[i].displacement, map->displaced[i].velocity));
+      }
+      const int colour = static_cast<int>(m);
+      radius.panels.back().curves.push_back({map->method, map->omega_h, rho, colour, false});
+      overshoot.panels.back().curves.push_back({map->method, map->omega_h, peak, colour, false});
+      add_signed(period.panels.back(), *map, elongation, colour);
+      add_signed(damping.panels.back(), *map, ratio, colour);
+    }
+  }
+  return {{"spectral-radius", log_chart_svg(radius)},
+          {"period-error", log_chart_svg(period)},
+          {"numerical-damping", log_chart_svg(damping)},
+          {"overshoot", log_chart_svg(overshoot)}};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "coupling/integration/stability/stability.h"
+#include "coupling/simulation/checks/stability_guard.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A method in the maps: exact propagation appears with its element forces, since its base modes have no error.
+struct MappedMethod
+{
+  coupling::MethodOptions options;
+  coupling::Spring        spring = coupling::Spring::base;
+  std::string             name;
+};
+
+/// Methods that share a panel of a chart.
+struct MethodFamily
+{
+  std::string               title;
+  std::vector<MappedMethod> methods;
+};
+
+/// Every method of Gestell, with the parameters that are usual or that show how it fails.
+std::vector<MethodFamily> method_families();
+
+/// One method at one damping ratio, over omega h.
+struct StabilityMap
+{
+  std::string                           method;
+  int                                   family;
+  double                                zeta;
+  std::vector<double>                   omega_h;
+  std::vector<coupling::StepProperties> step;
+  std::vector<coupling::Overshoot>      displaced; ///< from a displacement
+};
+
+/// Maps of `families` for omega h from 1e-2 to 1e3, a hundred points a decade.
+std::vector<StabilityMap> stability_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas);
+
+struct MappedInterval
+{
+  std::string                method;
+  double                     zeta;
+  coupling::UnstableInterval interval;
+};
+std::vector<MappedInterval> unstable_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas);
+
+/// stability_maps.csv, unstable_intervals.csv, stability_modes.csv
+std::string maps_csv(const std::vector<StabilityMap> &maps);
+std::string intervals_csv(const std::vector<MappedInterval> &intervals);
+std::string modes_csv(const std::vector<coupling::ModeAccuracy> &modes);
+
+struct NamedSvg
+{
+  std::string name, svg; ///< file name without ending
+};
+
+/// For one damping ratio: spectral radius, period error, numerical damping, overshoot; `modes` are drawn in as marks.
+std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families, const std::vector<StabilityMap> &maps,
+                                       double zeta, const std::vector<coupling::ModeAccuracy> &modes);
+
+} // namespace gestell::apps

@@ -1,0 +1,308 @@
+#include "apps/output/paraview/paraview.h"
+
+#include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/text/number_text.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr double shown_size = 0.05; ///< largest displacement of a mode shape as part of the frame's size
+
+/// Points and cells that stay, and the displacement that changes from instant to instant.
+struct Surface
+{
+  vtkNew<vtkPolyData>   poly;
+  vtkNew<vtkFloatArray> displacement;
+
+  Surface()
+  {
+    displacement->SetName("displacement [m]");
+    displacement->SetNumberOfComponents(3);
+    poly->GetPointData()->SetVectors(displacement);
+  }
+
+  template <typename Points>
+  void set_points(const Points &points)
+  {
+    vtkNew<vtkPoints> vtk_points;
+    vtk_points->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+    vtkIdType i = 0;
+    for (const auto &x : points)
+      vtk_points->SetPoint(i++, x[0], x[1], x[2]);
+    poly->SetPoints(vtk_points);
+    displacement->SetNumberOfTuples(i);
+  }
+
+  void set_triangles(const std::vector<std::array<int, 3>> &triangles)
+  {
+    vtkNew<vtkCellArray> cells;
+    cells->Use32BitStorage();
+    for (const auto &triangle : triangles)
+    {
+      const vtkIdType corners[3] = {triangle[0], triangle[1], triangle[2]};
+      cells->InsertNextCell(3, corners);
+    }
+    poly->SetPolys(cells);
+  }
+
+  /// A value of several components at every point.
+  template <typename Columns>
+  void add_field(const char *name, const Columns &values)
+  {
+    vtkNew<vtkFloatArray> field;
+    field->SetName(name);
+    field->SetNumberOfComponents(static_cast<int>(values.rows()));
+    field->SetNumberOfTuples(values.cols());
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      field->SetValue(i, static_cast<float>(values(i % values.rows(), i / values.rows())));
+    poly->GetPointData()->AddArray(field);
+  }
+
+  void set_vertices()
+  {
+    vtkNew<vtkCellArray> cells;
+    cells->Use32BitStorage();
+    for (vtkIdType i = 0; i < poly->GetNumberOfPoints(); ++i)
+      cells->InsertNextCell(1, &i);
+    poly->SetVerts(cells);
+  }
+
+  void write(const fs::path &path)
+  {
+    displacement->Modified();
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->WriteToOutputStringOn(); // VTK leaves half a file where the disk is full, and does not always say so
+    writer->SetInputData(poly);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    // Half the size of plain numbers at no cost in time; zlib would halve it again and take ten times as long.
+    writer->SetCompressorTypeToLZ4();
+    if (writer->Write() == 0)
+      throw std::runtime_error(path.string() + ": VTK cannot make this file");
+    write_file(path, writer->GetOutputString());
+  }
+};
+
+/// The frame: its skin, or where it has none its interfaces as points.
+class FrameSurface
+{
+public:
+  explicit FrameSurface(const Scenery &scenery) : scenery_(scenery)
+  {
+    if (scenery.has_skin())
+    {
+      surface_.set_points(scenery.points);
+      surface_.set_triangles(scenery.triangles);
+      return;
+    }
+    std::vector<std::array<double, 3>> positions;
+    for (const auto &interface : scenery.interface_positions)
+      positions.push_back(interface.second);
+    surface_.set_points(positions);
+    surface_.set_vertices();
+  }
+
+  bool empty() const { return surface_.poly->GetNumberOfPoints() == 0; }
+
+  /// Displacement [3 points; m] for the machine's or the frame's coordinates.
+  Eigen::VectorXd displacement(const Eigen::VectorXd &q) const
+  {
+    if (scenery_.has_skin())
+      return scenery_.displacement(q.head(scenery_.n_frame));
+    Eigen::VectorXd u(3 * static_cast<long>(scenery_.interfaces.size()));
+    for (std::size_t i = 0; i < scenery_.interfaces.size(); ++i)
+      u.segment<3>(3 * static_cast<long>(i)) = translation(scenery_.interfaces[i], q);
+    return u;
+  }
+
+  void write(const fs::path &path, const Eigen::VectorXd &u)
+  {
+    for (long i = 0; i < u.size(); ++i)
+      surface_.displacement->SetValue(i, static_cast<float>(u(i)));
+    surface_.write(path);
+  }
+
+  double size() const { return surface_.poly->GetLength(); }
+  void   note(const char *name, double value)
+  {
+    vtkNew<vtkDoubleArray> field;
+    field->SetName(name);
+    field->InsertNextValue(value);
+    surface_.poly->GetFieldData()->AddArray(field);
+  }
+
+private:
+  const Scenery &scenery_;
+  Surface        surface_;
+};
+
+/// All bodies in one surface; the cells tell which is which.
+void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes)
+{
+  std::vector<Eigen::Vector3d>    points, displacements;
+  std::vector<std::array<int, 3>> triangles;
+  vtkNew<vtkIntArray>             body;
+  body->SetName("body");
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    const Shape &shape = shapes[i];
+    const int    first = static_cast<int>(points.size());
+    points.insert(points.end(), shape.points.begin(), shape.points.end());
+    displacements.insert(displacements.end(), shape.displacement.begin(), shape.displacement.end());
+    for (const auto &t : shape.triangles)
+    {
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      body->InsertNextValue(static_cast<int>(i + 1));
+    }
+  }
+  Surface surface;
+  surface.set_points(points);
+  surface.set_triangles(triangles);
+  surface.poly->GetCellData()->AddArray(body);
+  for (std::size_t i = 0; i < displacements.size(); ++i)
+    surface.displacement->SetTuple(static_cast<vtkIdType>(i), displacements[i].data());
+  surface.write(path);
+}
+
+/// The collection a .pvd file is: data sets with their time and part.
+class Collection
+{
+public:
+  void add(double time, int part, const std::string &file)
+  {
+    entries_ += "    <DataSet timestep=\"" + exact_text(time) + "\" part=\"" + std::to_string(part) + "\" file=\"" +
+                file + "\"/>\n";
+  }
+  std::string document() const
+  {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           "  <Collection>\n" +
+           entries_ + "  </Collection>\n</VTKFile>\n";
+  }
+
+private:
+  std::string entries_;
+};
+
+std::string numbered(const std::string &stem, std::size_t n)
+{
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%05zu", n);
+  return stem + digits + ".vtp";
+}
+
+void write_frame_modes(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+{
+  FrameSurface frame(result.scenery);
+  if (frame.empty() || result.frame_modes.empty())
+    return;
+
+  Collection collection;
+  for (std::size_t j = 0; j < result.frame_modes.size(); ++j)
+  {
+    Eigen::VectorXd u       = frame.displacement(result.frame_modes[j].shape);
+    double          largest = 0.;
+    for (long i = 0; i < u.size(); i += 3)
+      largest = std::max(largest, u.segment<3>(i).norm());
+    if (largest > 0.)
+      u *= shown_size * (frame.size() > 0. ? frame.size() : 1.) / largest;
+    frame.note("frequency [Hz]", result.frame_modes[j].frequency_hz);
+    const std::string file = numbered("frame_modes/mode_", j + 1);
+    frame.write(folder / file, u);
+    names.push_back(file);
+    collection.add(static_cast<double>(j + 1), 0, file);
+  }
+  write_file(folder / "frame_modes.pvd", collection.document());
+  names.push_back("frame_modes.pvd");
+}
+
+void write_motion(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+{
+  const coupling::RunResult &run = *result.run;
+  FrameSurface               frame(result.scenery);
+
+  Collection collection;
+  for (std::size_t k = 0; k < run.picture_states.size(); ++k)
+  {
+    const Eigen::VectorXd &q    = run.picture_states[k];
+    int                    part = 0;
+    const auto             file = [&](const char *stem)
+    {
+      names.push_back(numbered(std::string("motion/") + stem, k));
+      collection.add(run.picture_times[k], part++, names.back());
+      return folder / names.back();
+    };
+    if (!frame.empty())
+      frame.write(file("frame_"), frame.displacement(q));
+    const std::vector<Shape> shapes = mechanism_shapes(result.scenery, q);
+    if (!shapes.empty())
+      write_mechanism(file("mechanism_"), shapes);
+  }
+  write_file(folder / "motion.pvd", collection.document());
+  names.push_back("motion.pvd");
+}
+
+void write_stress(const fs::path &folder, const StressResult &stress, std::vector<std::string> &names)
+{
+  Collection collection;
+  for (std::size_t k = 0; k < stress.instants.size(); ++k)
+  {
+    const StressAt  &at = stress.instants[k];
+    Eigen::Matrix3Xd principal(3, at.field.von_mises.size()), first(principal);
+    for (Eigen::Index i = 0; i < principal.cols(); ++i)
+    {
+      const auto values = coupling::principal_stresses(at.field.at(static_cast<int>(i)));
+      principal.col(i)  = values.values;
+      first.col(i)      = values.first;
+    }
+    Surface surface;
+    surface.set_points(stress.points);
+    surface.set_triangles(stress.triangles);
+    for (Eigen::Index i = 0; i < at.displacement.size(); ++i)
+      surface.displacement->SetValue(i, static_cast<float>(at.displacement(i % 3, i / 3)));
+    surface.add_field("von Mises stress [Pa]", at.field.von_mises.transpose());
+    surface.add_field("principal stresses [Pa]", principal);
+    surface.add_field("first principal direction", first);
+    surface.add_field("stress xx yy zz xy yz xz [Pa]", at.field.components);
+    const std::string file = numbered("stress/stress_", k + 1);
+    surface.write(folder / file);
+    names.push_back(file);
+    collection.add(at.t, 0, file);
+  }
+  write_file(folder / "stress.pvd", collection.document());
+  names.push_back("stress.pvd");
+}
+
+} // namespace
+
+std::vector<std::string> write_paraview(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+{
+  write_frame_modes(folder, result, names);
+  if (result.run && !result.run->picture_states.empty())
+    write_motion(folder, result, names);
+  if (result.stress && !result.stress->instants.empty())
+    write_stress(folder, *result.stress, names);
+  return {};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,182 @@
+#include "apps/output/pictures/skin.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+Vector3d normal(const Skin &skin, const std::array<int, 3> &t)
+{
+  const Vector3d &a = skin.points[t[0]];
+  return (skin.points[t[1]] - a).cross(skin.points[t[2]] - a).normalized();
+}
+
+/// The plane of a face, roughly: where it looks, and its distance from the origin.
+using Plane = std::array<long, 4>;
+
+/// The planes of the faces around every point: one inside a plane, two on an edge, three at a corner.
+std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
+{
+  std::vector<std::set<Plane>> planes(skin.points.size());
+  for (const auto &t : skin.triangles)
+  {
+    const Vector3d n     = normal(skin, t);
+    const double   level = n.dot(skin.points[t[0]]);
+    const Plane    plane = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
+                            std::lround(level / tolerance)};
+    for (const int i : t)
+      planes[i].insert(plane);
+  }
+  return planes;
+}
+
+/// Number of the group of every point, numbered as they are met: points in one cell of a grid on the same planes.
+std::vector<int> groups_of(const Skin &skin, double edge)
+{
+  using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;
+  const auto planes = planes_of(skin, 0.25 * edge);
+
+  std::map<Key, int> numbers;
+  std::vector<int>   group;
+  group.reserve(skin.points.size());
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+  {
+    const Vector3d place = skin.points[i] / edge;
+    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, planes[i]};
+    group.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
+  }
+  return group;
+}
+
+} // namespace
+
+double Skin::size() const
+{
+  if (points.empty())
+    return 0.;
+  Vector3d low = points.front(), high = low;
+  for (const Vector3d &x : points)
+  {
+    low  = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return (high - low).norm();
+}
+
+double Skin::largest_displacement() const
+{
+  double largest = 0.;
+  for (const Vector3d &u : displacement)
+    largest = std::max(largest, u.norm());
+  return largest;
+}
+
+CoarseMesh coarse_mesh(const Skin &skin, double edge)
+{
+  if (skin.points.empty())
+    return {};
+  const std::vector<int> group    = groups_of(skin, edge);
+  const std::size_t      n_groups = static_cast<std::size_t>(*std::max_element(group.begin(), group.end())) + 1;
+
+  std::vector<Vector3d> mean(n_groups, Vector3d::Zero());
+  std::vector<int>      count(n_groups, 0), nearest(n_groups, -1);
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    mean[group[i]] += skin.points[i];
+    ++count[group[i]];
+  }
+  const auto distance = [&](std::size_t i) { return (skin.points[i] - mean[group[i]] / count[group[i]]).norm(); };
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (int &best = nearest[group[i]]; best < 0 || distance(i) < distance(static_cast<std::size_t>(best)))
+      best = static_cast<int>(i);
+
+  CoarseMesh coarse;
+  coarse.points = nearest;
+  for (const auto &t : skin.triangles)
+  {
+    const std::array<int, 3> c = {group[t[0]], group[t[1]], group[t[2]]};
+    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+      coarse.triangles.push_back(c);
+  }
+  return coarse;
+}
+
+Skin refined(const Skin &skin, double edge)
+{
+  using Corner   = std::pair<Vector3d, Vector3d>; // point and displacement
+  using Triangle = std::array<Corner, 3>;
+
+  std::vector<Triangle> open;
+  for (const auto &t : skin.triangles)
+    open.push_back({Corner{skin.points[t[0]], skin.displacement[t[0]]},
+                    Corner{skin.points[t[1]], skin.displacement[t[1]]},
+                    Corner{skin.points[t[2]], skin.displacement[t[2]]}});
+  Skin fine;
+  while (!open.empty())
+  {
+    const Triangle t = open.back();
+    open.pop_back();
+    const auto    length  = [&](int i) { return (t[(i + 1) % 3].first - t[i].first).norm(); };
+    const int     longest = length(0) >= std::max(length(1), length(2)) ? 0 : length(1) >= length(2) ? 1 : 2;
+    const Corner &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+    if (length(longest) > edge)
+    {
+      const Corner middle(0.5 * (a.first + b.first), 0.5 * (a.second + b.second));
+      open.push_back({a, middle, c});
+      open.push_back({middle, b, c});
+      continue;
+    }
+    const int first = static_cast<int>(fine.points.size());
+    for (const Corner &corner : t)
+    {
+      fine.points.push_back(corner.first);
+      fine.displacement.push_back(corner.second);
+    }
+    fine.triangles.push_back({first, first + 1, first + 2});
+  }
+  return fine;
+}
+
+std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
+{
+  const double cosine = std::cos(degrees * 3.14159265358979323846 / 180.);
+
+  struct Edge
+  {
+    std::array<int, 2> ends;
+    Vector3d           first_normal;
+    int                n_triangles;
+    bool               sharp;
+  };
+  std::unordered_map<long, Edge> edges;
+  for (const auto &t : skin.triangles)
+  {
+    const Vector3d n = normal(skin, t);
+    for (int i = 0; i < 3; ++i)
+    {
+      const int  a = std::min(t[i], t[(i + 1) % 3]), b = std::max(t[i], t[(i + 1) % 3]);
+      const long key   = static_cast<long>(a) * static_cast<long>(skin.points.size()) + b;
+      const auto found = edges.emplace(key, Edge{{a, b}, n, 0, false}).first;
+      if (++found->second.n_triangles > 1 && n.dot(found->second.first_normal) < cosine)
+        found->second.sharp = true;
+    }
+  }
+  std::vector<std::array<int, 2>> sharp;
+  for (const auto &[key, edge] : edges)
+    if (edge.sharp || edge.n_triangles == 1)
+      sharp.push_back(edge.ends);
+  std::sort(sharp.begin(), sharp.end());
+  return sharp;
+}
+
+} // namespace gestell::apps

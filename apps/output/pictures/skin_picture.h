@@ -1,0 +1,43 @@
+#pragma once
+
+#include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/pictures/scenery.h"
+#include "apps/output/pictures/skin.h"
+#include "apps/output/text/number_text.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
+Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
+
+/// The scenery with a skin of so few triangles (20 000) that a picture stays below 300 kB.
+Scenery for_pictures(const Scenery &scenery);
+
+/// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
+/// undeformed edges.  Seen in parallel projection from front right and above.
+std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle);
+
+/// A field over the points of a skin.
+struct SkinField
+{
+  Skin                           skin;
+  std::vector<double>            values;   ///< [points] in SI, >= 0
+  double                         top = 0.; ///< where the scale of colours ends
+  DisplayUnit                    unit;     ///< of its bar
+  std::optional<Eigen::Vector3d> mark;     ///< [m] a place that is ringed
+};
+
+/// A picture of a field on the skin deformed as of a mode, with the bar of its colours.
+std::string field_picture_svg(const SkinField &field, const std::string &title, const std::string &subtitle);
+
+/// A picture of the machine: the frame pale, the bodies of the mechanism over it as if the frame were glass; faint, the
+/// edges of the bodies at another time.
+std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
+                              const std::vector<Shape> &later = {});
+
+} // namespace gestell::apps

@@ -1,0 +1,110 @@
+#include "apps/output/report/frame_text.h"
+
+#include "apps/output/text/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double      rounding     = 1e-11; // of the energies that cancel in a rigid motion
+constexpr std::size_t parts_listed = 20;
+
+/// Zeros that are only rounding are said to be zero.
+std::string triple(const Eigen::Vector3d &x, double scale)
+{
+  std::string text = "[";
+  for (int d = 0; d < 3; ++d)
+    text += (d > 0 ? ", " : "") + short_text(std::abs(x[d]) > 1e-9 * scale ? x[d] : 0., 6);
+  return text + "]";
+}
+
+std::string mass_line(const fem::FrameFacts &frame)
+{
+  std::string line = "mass " + short_text(frame.whole.mass, 6) + " kg";
+  for (std::size_t i = 0; i < std::min(frame.parts.size(), parts_listed); ++i)
+  {
+    const auto &[name, material, mass] = frame.parts[i];
+    line += (i == 0 ? ": " : ", ") + name + " " + short_text(mass, 6) + " kg " +
+            (material.empty() ? "attached" : "of " + material);
+  }
+  return line + (frame.parts.size() > parts_listed ? ", ..." : "");
+}
+
+std::string inertia_line(const fem::MassProperties &whole)
+{
+  const Eigen::Matrix3d &J      = whole.inertia;
+  const double           radius = std::sqrt(J.trace() / whole.mass);
+  return "centre of mass " + triple(whole.centre, radius) + " m, moments of inertia about it " +
+         triple(J.diagonal(), J.trace()) + " kg m^2, products Jxy, Jxz, Jyz " +
+         triple({J(0, 1), J(0, 2), J(1, 2)}, J.trace()) + " kg m^2";
+}
+
+std::string free_line(const ModelFacts &model)
+{
+  const auto &names = model.frame.free_motions;
+  const int   n     = std::max(model.free_motions, static_cast<int>(names.size()));
+  std::string line  = "free to move without elastic energy in " + std::to_string(n) + (n == 1 ? " way" : " ways");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    line += (i == 0 ? ": " : ", ") + names[i];
+  if (const int more = n - static_cast<int>(names.size()); more > 0)
+    line += names.empty() ? "" : ", and " + std::to_string(more) + " more, in which its parts move against each other";
+  return line;
+}
+
+} // namespace
+
+bool any_refined(const std::vector<coupling::Mode> &modes)
+{
+  return std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return !std::isnan(mode.refined_hz); });
+}
+
+const char *const refined_words = "The machine runs on the reduced frame, whose frequencies lie above those of the "
+                                  "whole mesh. The refined ones, by one more step of inverse iteration, are nearer to "
+                                  "them, from above, too.";
+
+const char *const static_residual_words =
+    "The static load the modes do not carry is that of weight inside the frame, by the energy of the deflection "
+    "between "
+    "the interfaces. Statics at the interfaces are exact without it, and signals and stresses have it added for "
+    "constant "
+    "weight: it matters where deflections inside follow quick accelerations of the whole frame. More modes or "
+    "reduction.inertia_relief carry it.";
+
+std::string words_above(double limit, double before, double frequency)
+{
+  const double reach = 1.02 * limit; // which may be the frequency of a mode, better known than by the model itself
+  if (!(before <= reach && frequency > reach))
+    return "";
+  return "above " + short_text(limit, 4) +
+         " Hz the reduced frame is not made to hold: these follow from too few modes (reduction.frequency raises it)";
+}
+
+std::vector<std::string> frame_lines(const ModelFacts &model)
+{
+  std::vector<std::string> lines;
+  if (model.frame.whole.mass > 0.)
+  {
+    lines.push_back(mass_line(model.frame));
+    lines.push_back(inertia_line(model.frame.whole));
+  }
+  else if (model.frame_mass > 0.)
+    lines.push_back("mass " + short_text(model.frame_mass, 6) + " kg");
+  if (const double share = model.frame.rigid_energy; !std::isnan(share))
+    lines.push_back("rigid motions of the frame without supports cost " + short_text(share, 2) +
+                    " of the elastic energies that cancel in them" +
+                    (share < rounding ? ", which is rounding" : "; it should be rounding: look at the mesh"));
+  if (model.free_motions > 0 || !model.frame.free_motions.empty())
+    lines.push_back(free_line(model));
+  if (!model.damping.empty())
+    lines.push_back("damping: " + model.damping);
+  if (!model.mesh.empty())
+    lines.push_back("mesh: " + model.mesh);
+  lines.insert(lines.end(), model.statements.begin(), model.statements.end());
+  return lines;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,363 @@
+#include "apps/output/report/modes_along_report.h"
+
+#include "apps/output/charts/mode_charts.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/number_text.h"
+#include "apps/output/text/svg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double      widest_chart = 3., least_span = 0.1; ///< highest to lowest frequency; of the height, relative
+constexpr double      no_damping  = 1e-12;                 ///< what rounding leaves
+constexpr double      seen_change = 0.02;                  ///< of a frequency, from which on shapes are drawn
+constexpr std::size_t most_lines = 7, most_shapes = 4;
+
+using coupling::ModesAlong;
+using coupling::ModesAt;
+
+/// The coordinate as shown: angles in degrees.
+DisplayUnit shown_unit(const ModesAlong &modes)
+{
+  if (modes.coordinate.unit == "rad")
+    return {180. / M_PI, "°"};
+  double largest = 0.;
+  for (const ModesAt &at : modes.positions)
+    largest = std::max(largest, std::abs(at.x));
+  return display_unit(modes.coordinate.unit, largest);
+}
+
+std::string at_text(const ModesAlong &modes, double x)
+{
+  const DisplayUnit unit = shown_unit(modes);
+  return short_text(x * unit.factor, 5) + (unit.unit == "°" ? "" : " ") + unit.unit;
+}
+
+std::vector<double> frequencies(const ModesAlong &modes, std::size_t line)
+{
+  std::vector<double> f;
+  for (const ModesAt &at : modes.positions)
+    f.push_back(line < at.modes.size() ? at.modes[line].frequency_hz : std::nan(""));
+  return f;
+}
+
+/// Lines that have a frequency somewhere, by their largest one, in the groups that share a chart; those that lose it
+/// somewhere, a drive that weights hold here and drive away there, come last.
+std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
+{
+  std::vector<std::size_t> lines;
+  for (std::size_t i = 0; i < modes.free.size(); ++i)
+    if (line_extremes(modes, i).max > 0.)
+      lines.push_back(i);
+  const auto key = [&](std::size_t i)
+  {
+    const LineExtremes own = line_extremes(modes, i);
+    return std::pair(own.min == 0., own.max);
+  };
+  std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<std::vector<std::size_t>> all;
+  double                                lowest = 0.;
+  bool                                  lost   = false;
+  for (const std::size_t i : lines)
+  {
+    const LineExtremes own = line_extremes(modes, i);
+    if (all.empty() || own.max > widest_chart * lowest || std::exchange(lost, own.min == 0.) != (own.min == 0.) ||
+        all.back().size() == most_lines)
+    {
+      all.emplace_back();
+      lowest = own.max;
+    }
+    lowest = std::min(lowest, std::max(own.min, own.max / widest_chart));
+    all.back().push_back(i);
+  }
+  return all;
+}
+
+std::string meeting_text(const AlongResult &along, const coupling::OrderMeeting &meeting)
+{
+  return "order " + std::to_string(meeting.order) + " meets line " + std::to_string(meeting.line + 1) + " at " +
+         at_text(along.modes, meeting.x) + ", " + short_text(meeting.frequency_hz, 5) + " Hz";
+}
+
+void add_orders(const AlongResult &along, const std::vector<std::size_t> &lines, LineChart &chart)
+{
+  const double f_0 = along.speed / (2. * M_PI), factor = shown_unit(along.modes).factor;
+  for (int k = 1; f_0 > 0. && k <= along.orders; ++k)
+    if (k * f_0 > chart.y_begin && k * f_0 < chart.y_end)
+      chart.levels.push_back({k * f_0, std::to_string(k) + " Ω"});
+  for (const coupling::OrderMeeting &meeting : along.meetings)
+    if (std::find(lines.begin(), lines.end(), std::size_t(meeting.line)) != lines.end())
+      chart.rings.push_back({meeting.x * factor, meeting.frequency_hz, meeting_text(along, meeting)});
+}
+
+/// Multiples of 5, 15, 30 or 90 degrees.
+std::vector<double> degree_ticks(double low, double high)
+{
+  std::vector<double> ticks;
+  for (const double step : {5., 15., 30., 90., 360.})
+    if ((high - low) / step <= 12.5)
+    {
+      for (double x = step * std::ceil(low / step - 1e-9); x <= high + 1e-9 * step; x += step)
+        ticks.push_back(x);
+      break;
+    }
+  return ticks;
+}
+
+/// Room for the curves, for orders that lie just beside them, and so much that what does not change looks flat.
+void set_height(const AlongResult &along, const std::vector<std::size_t> &lines, LineChart &chart)
+{
+  double low = std::numeric_limits<double>::infinity(), high = 0.;
+  for (const std::size_t i : lines)
+  {
+    const LineExtremes own = line_extremes(along.modes, i);
+    low                    = std::min(low, own.min);
+    high                   = std::max(high, own.max);
+  }
+  const double f_0 = along.speed / (2. * M_PI), l = low, h = high;
+  for (int k = 1; f_0 > 0. && k <= along.orders; ++k)
+    if (k * f_0 > l / (1. + 2. * along.band) && k * f_0 < h * (1. + 2. * along.band))
+    {
+      low  = std::min(low, k * f_0);
+      high = std::max(high, k * f_0);
+    }
+  const double middle = 0.5 * (low + high), half = std::max(0.55 * (high - low), 0.5 * least_span * middle);
+  chart.y_begin = std::max(0., middle - half);
+  chart.y_end   = middle + half;
+}
+
+std::string extremes_table(const AlongResult &along)
+{
+  std::string html = "<div class=\"wide\"><table><tr><th class=\"n\">line</th><th class=\"n\">lowest f [Hz]</th>"
+                     "<th class=\"n\">at</th><th class=\"n\">highest f [Hz]</th><th class=\"n\">at</th><th "
+                     "class=\"n\">damping ratio from</th><th class=\"n\">to</th><th class=\"n\">least "
+                     "MAC</th><th>moves most at first</th></tr>\n";
+  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
+  {
+    const LineExtremes own = line_extremes(along.modes, i);
+    html += "<tr>" + cell(std::to_string(i + 1), "n");
+    if (along.modes.free[i])
+      html += "<td colspan=\"6\">free motion, no frequency</td>";
+    else
+      html += number_cell(own.min, 6) + cell(at_text(along.modes, own.x_min), "n") + number_cell(own.max, 6) +
+              cell(at_text(along.modes, own.x_max), "n") + number_cell(own.least_damping, 3) +
+              number_cell(own.largest_damping, 3);
+    const std::string grows = own.growth > 0. ? "; unstable at " + at_text(along.modes, own.x_growth) +
+                                                    ", grows by exp(" + short_text(own.growth, 3) + " t/s)"
+                                              : "";
+    html += number_cell(own.least_assurance, 3) + cell(escape_xml(along.modes.moves_most[i]) + grows) + "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+std::string meetings_table(const AlongResult &along)
+{
+  if (!(along.speed > 0.))
+    return "<p class=\"soft\">No speed is known, so that there are no orders to compare with: give --speed \"30 "
+           "1/min\".</p>\n";
+  const std::string speed = short_text(along.speed * 30. / M_PI, 5) + " 1/min";
+  if (along.meetings.empty())
+    return "<p>At " + speed + " none of the orders 1 to " + std::to_string(along.orders) + " comes within " +
+           short_text(100. * along.band, 3) + " % of a frequency.</p>\n";
+  std::string html = "<h3>Orders of " + speed + " within " + short_text(100. * along.band, 3) +
+                     " % of a frequency</h3><div class=\"scroll\"><table><tr><th class=\"n\">order</th><th "
+                     "class=\"n\">line</th><th class=\"n\">from</th><th class=\"n\">to</th><th class=\"n\">nearest "
+                     "at</th><th class=\"n\">f [Hz]</th><th class=\"n\">apart</th></tr>\n";
+  for (const coupling::OrderMeeting &meeting : along.meetings)
+    html += "<tr>" + cell(std::to_string(meeting.order), "n") + cell(std::to_string(meeting.line + 1), "n") +
+            cell(at_text(along.modes, meeting.begin), "n") + cell(at_text(along.modes, meeting.end), "n") +
+            cell(at_text(along.modes, meeting.x), "n") + number_cell(meeting.frequency_hz, 5) +
+            cell(short_text(100. * meeting.distance, 2) + " %", "n") + "</tr>\n";
+  return html + "</table></div>\n";
+}
+
+/// Shapes of the lines that change most, where their frequencies are lowest and highest.
+std::string extreme_shapes(const Result &result, Report &report)
+{
+  const ModesAlong        &modes = result.along->modes;
+  std::vector<std::size_t> lines;
+  const auto               change = [&](std::size_t i)
+  {
+    const LineExtremes own = line_extremes(modes, i);
+    return own.min > 0. ? own.max / own.min - 1. : 0.;
+  };
+  for (std::size_t i = 0; i < modes.free.size(); ++i)
+    if (change(i) > seen_change)
+      lines.push_back(i);
+  std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
+  lines.resize(std::min(lines.size(), most_shapes));
+  std::string html;
+  for (const std::size_t i : lines)
+    for (const bool highest : {false, true})
+    {
+      const LineExtremes own = line_extremes(modes, i);
+      for (const ModesAt &at : modes.positions)
+        if (i < at.modes.size() && at.x == (highest ? own.x_max : own.x_min))
+        {
+          const std::string title = "Line " + std::to_string(i + 1) + " at " + at_text(modes, at.x) + ": " +
+                                    short_text(at.modes[i].frequency_hz) + " Hz";
+          report.charts.emplace_back("shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
+                                     shape_svg(result, title, at.modes[i]));
+          html += figure(report.charts.back().second);
+        }
+    }
+  return html.empty() ? ""
+                      : "<h3>Shapes where lines are lowest and highest</h3><div class=\"bars\">" + html + "</div>\n";
+}
+
+std::string statement(const AlongResult &along)
+{
+  long deflected = 0, undeformed = 0;
+  for (const ModesAt &at : along.modes.positions)
+    if (at.gap.empty())
+      ++(at.configuration == coupling::Configuration::equilibrium ? deflected : undeformed);
+  std::string text = "<p>The machine linearised at " + std::to_string(deflected + undeformed) + " positions of " +
+                     escape_xml(along.modes.coordinate.name) + ": ";
+  if (deflected > 0)
+    text += std::to_string(deflected) + " in static equilibrium" + (undeformed > 0 ? ", " : "");
+  if (undeformed > 0)
+    text += std::to_string(undeformed) + " undeformed";
+  text += along.geometric == coupling::GeometricStiffness::included ? "; with" : "; without";
+  text += " geometric stiffness. Technological forces and drives rest. ";
+  text += !along.fixed.empty()                ? "At rest: " + escape_xml(along.fixed) + "."
+          : along.modes.coordinate.joint >= 0 ? "The driven joint keeps its length in the linearised machine."
+                                              : "The coordinate moves freely about each position.";
+  return text + " A line follows one shape by its modal assurance (MAC) in the metric of mass.</p>\n";
+}
+
+} // namespace
+
+LineExtremes line_extremes(const ModesAlong &along, std::size_t line)
+{
+  LineExtremes own;
+  own.min = own.least_damping = own.largest_damping = own.least_assurance = std::nan("");
+  for (const ModesAt &at : along.positions)
+  {
+    if (line >= at.modes.size())
+      continue;
+    const coupling::Mode &mode = at.modes[line];
+    if (std::isnan(own.min) || mode.frequency_hz < own.min)
+    {
+      own.min   = mode.frequency_hz;
+      own.x_min = at.x;
+    }
+    if (mode.frequency_hz > own.max)
+    {
+      own.max   = mode.frequency_hz;
+      own.x_max = at.x;
+    }
+    if (mode.growth > own.growth)
+    {
+      own.growth   = mode.growth;
+      own.x_growth = at.x;
+    }
+    const double damping = std::abs(mode.damping_ratio) < no_damping ? 0. : mode.damping_ratio;
+    own.least_damping    = std::fmin(own.least_damping, damping); // nan gives way
+    own.largest_damping  = std::fmax(own.largest_damping, damping);
+    if (line < at.assurance.size())
+      own.least_assurance = std::fmin(own.least_assurance, at.assurance[line]);
+  }
+  return own;
+}
+
+std::vector<LineChart> along_charts(const AlongResult &along)
+{
+  const DisplayUnit      unit = shown_unit(along.modes);
+  std::vector<LineChart> charts;
+  for (const std::vector<std::size_t> &lines : groups(along.modes))
+  {
+    LineChart chart;
+    chart.title   = "Natural frequencies along " + along.modes.coordinate.name;
+    chart.x_label = along.modes.coordinate.name + " [" + unit.unit + "]";
+    chart.y_label = "frequency [Hz]";
+    for (const ModesAt &at : along.modes.positions)
+      chart.x.push_back(at.x * unit.factor);
+    for (const std::size_t i : lines)
+      chart.series.push_back({"line " + std::to_string(i + 1), frequencies(along.modes, i)});
+    if (chart.x.front() > chart.x.back()) // drawn from left to right
+    {
+      std::reverse(chart.x.begin(), chart.x.end());
+      for (Series &series : chart.series)
+        std::reverse(series.y.begin(), series.y.end());
+    }
+    if (unit.unit == "°")
+      chart.x_ticks = degree_ticks(chart.x.front(), chart.x.back());
+    set_height(along, lines, chart);
+    add_orders(along, lines, chart);
+    charts.push_back(chart);
+  }
+  return charts;
+}
+
+std::vector<std::pair<std::string, std::string>> along_pictures(const AlongResult &along)
+{
+  std::vector<std::pair<std::string, std::string>> pictures;
+  for (const LineChart &chart : along_charts(along))
+    pictures.emplace_back("modes-along" +
+                              (pictures.empty() ? std::string() : "-" + std::to_string(pictures.size() + 1)),
+                          line_chart_svg(chart));
+  return pictures;
+}
+
+std::string along_section(const Result &result, Report &report)
+{
+  if (!result.along)
+    return "";
+  const AlongResult &along = *result.along;
+  std::string        html  = statement(along);
+  for (const auto &picture : along_pictures(along))
+  {
+    report.charts.push_back(picture);
+    html += figure(picture.second);
+  }
+  if (!along.meetings.empty())
+    html += "<p class=\"soft\">Rings: an order of the excitation comes near a frequency.</p>\n";
+  html +=
+      meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) + extreme_shapes(result, report);
+  return section("along", "Natural frequencies along " + escape_xml(along.modes.coordinate.name), html);
+}
+
+std::string modes_along_csv(const AlongResult &along)
+{
+  std::string csv = along.modes.coordinate.name + " [" + along.modes.coordinate.unit +
+                    "],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration,growth [1/s]\n";
+  for (const ModesAt &at : along.modes.positions)
+    for (std::size_t i = 0; i < at.modes.size(); ++i)
+    {
+      append_exact(csv, at.x);
+      csv += ',' + std::to_string(i + 1);
+      for (const double value : {at.modes[i].frequency_hz, at.modes[i].damped_frequency_hz, at.modes[i].damping_ratio,
+                                 i < at.assurance.size() ? at.assurance[i] : std::nan("")})
+        append_exact(csv += ',', value);
+      csv += at.configuration == coupling::Configuration::equilibrium ? ",equilibrium," : ",undeformed,";
+      append_exact(csv, at.modes[i].growth);
+      csv += '\n';
+    }
+  return csv;
+}
+
+std::string modes_along_shapes_csv(const AlongResult &along, const std::vector<std::string> &coordinates)
+{
+  std::string csv = along.modes.coordinate.name + " [" + along.modes.coordinate.unit + "],line";
+  for (const std::string &name : coordinates)
+    csv += ',' + name;
+  csv += '\n';
+  for (const ModesAt &at : along.modes.positions)
+    for (std::size_t i = 0; i < at.modes.size(); ++i)
+    {
+      append_exact(csv, at.x);
+      csv += ',' + std::to_string(i + 1);
+      for (const double value : at.modes[i].shape)
+        append_exact(csv += ',', value);
+      csv += '\n';
+    }
+  return csv;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,382 @@
+#include "apps/output/report/report.h"
+
+#include "apps/output/charts/mode_charts.h"
+#include "apps/output/charts/signal_charts.h"
+#include "apps/output/pictures/skin_picture.h"
+#include "apps/output/report/frame_text.h"
+#include "apps/output/report/modes_along_report.h"
+#include "apps/output/report/stress_report.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/number_text.h"
+#include "apps/output/text/report_style.h"
+#include "apps/output/text/svg.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
+constexpr double      seen_motion = 0.02; ///< of the machine's size
+
+/// A table of two columns for facts; those without a value are left out.
+class Facts
+{
+public:
+  void add(const std::string &name, const std::string &value)
+  {
+    rows_ += "<tr><th>" + name + "</th>" + cell(value, "n") + "</tr>\n";
+  }
+  void count(const std::string &name, long n)
+  {
+    if (n >= 0)
+      add(name, std::to_string(n));
+  }
+  void quantity(const std::string &name, double x, const std::string &unit)
+  {
+    if (!std::isnan(x))
+      add(name, short_text(x) + (unit.empty() ? "" : " " + unit));
+  }
+  std::string table() const { return rows_.empty() ? "" : "<table>" + rows_ + "</table>\n"; }
+
+private:
+  std::string rows_;
+};
+
+std::string warning_box(const Result &result)
+{
+  const auto warnings = all_warnings(result);
+  if (warnings.empty())
+    return "";
+  std::string html = "<div class=\"warnings\" role=\"note\"><strong>Warnings</strong><ul>";
+  for (const std::string &warning : warnings)
+    html += "<li>" + escape_xml(warning) + "</li>";
+  return html + "</ul></div>\n";
+}
+
+/// Whether bodies move so far that a second pose tells something.
+bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
+{
+  double way = 0.;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t j = 0; j < std::min(before[i].points.size(), after[i].points.size()); ++j)
+      way = std::max(way, (after[i].points[j] - before[i].points[j]).norm());
+  return way > seen_motion * machine_size;
+}
+
+/// Picture of the machine at the start of the run; empty if there is nothing to be seen.
+std::string machine_figure(const Result &result, Report &report)
+{
+  const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
+  std::vector<Shape>    shapes, later;
+  std::string           caption = "The frame.";
+  if (result.run && !result.run->picture_states.empty())
+    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
+  if (!shapes.empty())
+  {
+    caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
+              short_text(result.run->picture_times.front()) + " s.";
+    later = mechanism_shapes(result.scenery, result.run->picture_states.back());
+    if (!far_apart(shapes, later, result.scenery.size()))
+      later.clear();
+    else
+      caption.insert(caption.size() - 1, ", in outline at t = " + short_text(result.run->picture_times.back()) + " s");
+  }
+  const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene, later);
+  if (svg.empty())
+    return "";
+  report.charts.emplace_back("machine", svg);
+  return figure(svg, caption);
+}
+
+std::string peaks_table(const Result &result)
+{
+  if (!result.run || result.run->signals.empty())
+    return "";
+  std::string html = "<div class=\"wide\"><table><tr><th>signal</th><th>unit</th><th class=\"n\">largest</th>"
+                     "<th class=\"n\">at t [s]</th><th class=\"n\">smallest</th><th class=\"n\">at t [s]</th>"
+                     "<th class=\"n\">at the end</th></tr>\n";
+  for (const coupling::SignalSummary &signal : result.run->signals)
+  {
+    const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
+    const auto        value = [&](double x) { return short_text(x * shown.factor, 5); };
+    html += "<tr>" + cell(escape_xml(signal.name)) + cell(escape_xml(shown.unit)) + cell(value(signal.max), "n peak") +
+            number_cell(signal.t_max, 6) + cell(value(signal.min), "n peak") + number_cell(signal.t_min, 6) +
+            cell(value(signal.final), "n") + "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+std::string answer_section(const Result &result, Report &report)
+{
+  const std::string table = peaks_table(result), picture = machine_figure(result, report);
+  if (table.empty() && picture.empty())
+    return "";
+  return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
+                 "<div class=\"row\">" + table + picture + "</div>\n");
+}
+
+std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
+                          const std::string &title)
+{
+  std::string html;
+  for (const SignalChart &chart : charts)
+    if (chart.topic == topic)
+      html += figure(chart.svg);
+  return section(id, title, html);
+}
+
+std::string events_section(const Result &result)
+{
+  if (!result.run || result.run->events.empty())
+    return "";
+  std::string html   = "<p class=\"soft\">The numbers are those above the charts.</p>"
+                       "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
+                       "<th>object</th><th>transition</th></tr>\n";
+  int         number = 0;
+  for (const coupling::Event &event : result.run->events)
+    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(event.t, 7) + cell(escape_xml(event.name)) +
+            cell(escape_xml(event.kind)) + "</tr>\n";
+  return section("events", "Events", html + "</table></div>\n");
+}
+
+/// What the residual of the balance says, and what it does not.
+std::string energy_statement(const coupling::EnergySummary &energy, bool has_frame)
+{
+  return "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than "
+         "<strong>" +
+         short_text(energy.residual, 3) + " J</strong>" +
+         (energy.exchanged > 0.
+              ? ", <strong>" + short_text(100. * energy.residual / energy.exchanged, 2) + " %</strong> of the " +
+                    short_text(energy.exchanged, 3) + " J that the motion exchanges"
+              : "") +
+         ".</p><p>This residual measures the error of the integration in time alone." +
+         (has_frame ? " The errors of mesh and reduction do not show in it." : "") + "</p>\n";
+}
+
+std::string energy_section(const Result &result, const std::vector<SignalChart> &charts)
+{
+  if (!result.run)
+    return "";
+  const coupling::EnergySummary &energy = result.run->energy;
+  if (energy.input == 0. && energy.stored == 0. && energy.dissipated == 0. && energy.residual == 0.)
+    return "";
+  Facts facts;
+  facts.quantity("input by drives", energy.input, "J");
+  facts.quantity("stored since the start", energy.stored, "J");
+  facts.quantity("dissipated, work of tools included", energy.dissipated, "J");
+  facts.quantity("exchanged by the motion", energy.exchanged, "J");
+  facts.quantity("largest residual", energy.residual, "J");
+  std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
+  for (const SignalChart &chart : charts)
+    if (chart.topic == ChartTopic::energy)
+      html += figure(chart.svg);
+  return section("energy", "Energy balance", html);
+}
+
+/// Says where the frequencies begin that a reduced frame is not made for.
+/// @param limit  [Hz]; nan: none
+std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
+{
+  const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
+  const bool  refined = any_refined(modes);
+  std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>" +
+                     std::string(refined ? "<th class=\"n\">refined [Hz]</th>" : "") +
+                     "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th>" +
+                     std::string(growing ? "<th class=\"n\">grows by</th>" : "") +
+                     "<th class=\"n\">effective mass x "
+                     "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
+  int number = 0;
+  for (const coupling::Mode &mode : modes)
+  {
+    if (const std::string above =
+            words_above(limit, number > 0 ? modes[number - 1].frequency_hz : 0., mode.frequency_hz);
+        !above.empty())
+      html += "<tr><td class=\"soft\" colspan=\"" + std::to_string(7 + growing + refined) + "\">" + escape_xml(above) +
+              "</td></tr>\n";
+    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6);
+    if (refined)
+      html += number_cell(mode.refined_hz, 6);
+    html += number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
+    if (growing)
+      html += cell(mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–", "n");
+    for (const double mass : mode.effective_mass)
+      html += number_cell(mass);
+    html += "</tr>\n";
+  }
+  return html + "</table></div>\n" + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
+}
+
+std::string pole_table(const std::vector<coupling::Pole> &poles)
+{
+  std::string html =
+      "<h3>With drives and controllers, at the speeds of the start</h3><div class=\"wide\"><table><tr><th "
+      "class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th><th class=\"n\">goes by</th><th>moves "
+      "most</th></tr>\n";
+  for (const coupling::Pole &pole : poles)
+    html += "<tr>" + cell(pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "–", "n") +
+            cell(pole.vibrates() ? short_text(pole.damping_ratio()) : "–", "n") +
+            cell("exp(" + short_text(pole.s.real()) + " t/s)", pole.s.real() > 0. ? "n peak" : "n") +
+            cell(escape_xml(pole.moves)) + "</tr>\n";
+  return html + "</table></div>\n";
+}
+
+std::string modes_section(const Result &result, Report &report)
+{
+  const auto pictures = [&](const std::vector<coupling::Mode> &modes, const std::string &name, auto svg_of, bool wide)
+  {
+    std::string html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
+    for (std::size_t j = 0; j < std::min(modes.size(), most_mode_pictures); ++j)
+    {
+      report.charts.emplace_back("mode-" + name + "-" + std::to_string(j + 1), svg_of(result, j));
+      html += figure(report.charts.back().second);
+    }
+    return html + "</div>\n";
+  };
+  std::string html;
+  if (!result.coupled_modes.empty())
+    html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
+            pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+  if (!result.poles.empty())
+    html += pole_table(result.poles);
+  if (!result.frame_modes.empty())
+    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
+            pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
+  return section("modes", "Natural frequencies and modes", html);
+}
+
+/// What the method makes of each mode, the lowest first; modes above them follow the motion of the drives only.
+std::string accuracy_table(const coupling::RunResult &run)
+{
+  if (run.accuracy.empty())
+    return "";
+  std::string html = "<h3>Modes as " + escape_xml(run.method) +
+                     " carries them</h3><div class=\"scroll\"><table><tr><th>modes of</th><th class=\"n\">f [Hz]</th>"
+                     "<th class=\"n\">damping ratio</th><th class=\"n\">ω h</th><th class=\"n\">numerical damping "
+                     "ratio</th><th class=\"n\">period too long by</th><th class=\"n\">growth per step</th></tr>\n";
+  std::size_t shown = 0;
+  for (const coupling::ModeAccuracy &mode : run.accuracy)
+  {
+    if (++shown > most_accuracy_rows && !mode.unstable)
+      continue;
+    html += "<tr>" + cell(mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements") +
+            number_cell(mode.mode.omega / (2. * M_PI)) + number_cell(mode.mode.zeta) + number_cell(mode.omega_h) +
+            number_cell(mode.numerical_damping, 3) + cell(short_text(100. * mode.period_error, 3) + " %", "n") +
+            (mode.unstable ? cell(short_text(mode.spectral_radius, 6), "n peak") : cell("stable", "n")) + "</tr>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+std::string numerics_section(const Result &result)
+{
+  const ModelFacts &m = result.model;
+  Facts             model;
+  model.count("coordinates integrated", m.dofs);
+  model.count("interface coordinates", m.interface);
+  model.count("internal modes kept", m.modes);
+  model.count("measures of nonlinear elements", m.nonlinear);
+  model.count("coordinates of the frame unreduced", m.frame_dofs);
+  model.count("finite elements", m.cells);
+  model.quantity("mass of the frame", m.frame_mass, "kg");
+  model.quantity("estimated error of frequencies by reduction", 100. * m.frequency_error, "%");
+  model.quantity("static load the modes do not carry", 100. * m.static_residual, "%");
+
+  Facts work;
+  if (result.run)
+  {
+    const coupling::WorkCounts &w = result.run->work;
+    work.count("steps", w.steps);
+    work.count("steps rejected", w.rejected);
+    work.count("Newton iterations", w.newton);
+    work.quantity("Newton iterations per step", w.steps > 0 ? static_cast<double>(w.newton) / w.steps : std::nan(""),
+                  "");
+    work.count("factorisations", w.factorisations);
+    work.count("evaluations of the elements", w.evaluations);
+    if (w.chatter > 0)
+      work.count("steps of chatter, gone over", w.chatter);
+    work.quantity("time per step",
+                  w.steps > 0 && result.run->wall_s > 0. ? 1e6 * result.run->wall_s / w.steps : std::nan(""), "µs");
+  }
+  for (const auto &[phase, seconds] : result.wall_s)
+    work.quantity("wall time: " + escape_xml(phase), seconds, "s");
+
+  std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  if (!std::isnan(m.static_residual))
+    html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
+  if (const auto lines = frame_lines(m); !lines.empty())
+  {
+    html += "<h3>The frame</h3><ul>";
+    for (const std::string &line : lines)
+      html += "<li>" + escape_xml(line) + "</li>";
+    html += "</ul>\n";
+  }
+  if (!result.bodies_from_cad.empty())
+  {
+    html += "<h3>Bodies from CAD</h3><ul>";
+    for (const std::string &body : result.bodies_from_cad)
+      html += "<li>" + escape_xml(body) + "</li>";
+    html += "</ul>\n";
+  }
+  if (!result.settings.empty())
+    html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
+  if (result.run)
+    html += accuracy_table(*result.run);
+  return section("numerics", "Model and work", html);
+}
+
+/// Links to the sections there are.
+std::string contents(const std::string &body)
+{
+  std::string html = "<nav>";
+  for (const auto &[id, name] : {std::pair("peaks", "Answer"),
+                                 {"forces", "Forces"},
+                                 {"motion", "Motion"},
+                                 {"stress", "Stress"},
+                                 {"events", "Events"},
+                                 {"energy", "Energy"},
+                                 {"along", "Frequencies along"},
+                                 {"modes", "Modes"},
+                                 {"numerics", "Model and work"}})
+    if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
+      html += "<a href=\"#" + std::string(id) + "\">" + name + "</a>";
+  return html + "</nav>\n";
+}
+
+} // namespace
+
+Report make_report(const Result &full)
+{
+  Result result  = full;
+  result.scenery = for_pictures(full.scenery);
+
+  Report                         report;
+  const std::vector<SignalChart> charts = result.run ? signal_charts(*result.run) : std::vector<SignalChart>();
+  for (const SignalChart &chart : charts)
+    report.charts.emplace_back(chart.name, chart.svg);
+
+  const std::string body = answer_section(result, report) + stress_section(result, report) +
+                           chart_section(charts, ChartTopic::force, "forces", "Forces") +
+                           chart_section(charts, ChartTopic::motion, "motion", "Motion") +
+                           chart_section(charts, ChartTopic::other, "signals", "Other signals") +
+                           events_section(result) + energy_section(result, charts) + along_section(result, report) +
+                           modes_section(result, report) + numerics_section(result);
+
+  const std::string title = escape_xml(result.scene);
+  report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+                "content=\"width=device-width, initial-scale=1\"><title>" +
+                title + "</title><style>" + report_style + "</style></head>\n<body>\n<header><h1>" + title + "</h1>\n";
+  if (!result.description.empty())
+    report.html += "<p class=\"lead\">" + escape_xml(result.description) + "</p>\n";
+  report.html +=
+      "</header>\n" + warning_box(result) + contents(body) + body + "<footer>Computed with gestell " +
+      escape_xml(result.version) +
+      ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
+      (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "") +
+      "</footer>\n</body>\n</html>\n";
+  return report;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,216 @@
+#include "apps/output/report/stability_report.h"
+
+#include "apps/output/text/number_text.h"
+#include "apps/output/text/report_style.h"
+#include "apps/output/text/svg.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string cell(const std::string &text, const char *kind = "n")
+{
+  return std::string("<td class=\"") + kind + "\">" + text + "</td>";
+}
+
+std::string header(std::initializer_list<const char *> names)
+{
+  std::string html = "<tr>";
+  bool        text = true; // the first column is text, the others are numbers
+  for (const char *name : names)
+  {
+    html += std::string(text ? "<th>" : "<th class=\"n\">") + name + "</th>";
+    text = false;
+  }
+  return html + "</tr>\n";
+}
+
+const char *origin_text(coupling::ModeOrigin origin)
+{
+  return origin == coupling::ModeOrigin::base ? "frame" : "closed contacts";
+}
+
+std::string percent(double share)
+{
+  return std::isnan(share) ? "–" : short_text(100. * share, 3) + " %";
+}
+
+std::string verdict_of(const coupling::ModeAccuracy &mode)
+{
+  return mode.unstable ? "grows" : "stable";
+}
+
+std::string verdict_of(const MethodVerdict &verdict)
+{
+  if (verdict.growing == 0)
+    return "stable";
+  return verdict.only_closed ? "while contacts are closed, grows" : "unstable";
+}
+
+std::string step_text(double step)
+{
+  const DisplayUnit unit = step < 1e-3 ? DisplayUnit{1e6, "us"}
+                           : step < 1. ? DisplayUnit{1e3, "ms"}
+                                       : DisplayUnit{1., "s"};
+  return short_text(step * unit.factor) + " " + unit.unit;
+}
+
+std::string modes_section(const StabilityStudy &study)
+{
+  if (study.modes.empty())
+    return "";
+  std::string html = "<section id=\"modes\"><h2>The modes under " + escape_xml(study.method) +
+                     "</h2><div class=\"scroll\"><table>" +
+                     header({"modes of", "mode", "f [Hz]", "damping ratio", "ω h", "spectral radius",
+                             "numerical damping", "period error", "verdict"});
+  for (const auto &mode : study.modes)
+    html += "<tr>" + cell(origin_text(mode.origin), "") + cell(std::to_string(mode.number)) +
+            cell(short_text(mode.mode.omega / two_pi, 6)) + cell(short_text(mode.mode.zeta)) +
+            cell(short_text(mode.omega_h)) + cell(short_text(mode.spectral_radius, 7)) +
+            cell(short_text(mode.numerical_damping, 3)) + cell(percent(mode.period_error)) +
+            cell(verdict_of(mode), mode.unstable ? "n peak" : "n") + "</tr>\n";
+  html +=
+      "</table></div>\n<p class=\"soft\">Numerical damping comes beyond the physical one; a period error above zero "
+      "means too slow. Modes that do not vibrate are left out.</p>";
+  html += "<h3>Other methods at this step</h3><div class=\"wide\"><table>" +
+          header({"method", "verdict", "modes that grow", "worst, f [Hz]", "growth per step", "largest step that works",
+                  "period error, lowest mode of the frame", "highest mode"});
+  for (const MethodVerdict &verdict : study.verdicts)
+  {
+    const bool grows = verdict.growing > 0;
+    html += "<tr>" + cell(escape_xml(verdict.method), "") + cell(verdict_of(verdict), grows ? "n peak" : "n") +
+            cell(std::to_string(verdict.growing)) + cell(grows ? short_text(verdict.worst_hz) : "–") +
+            cell(grows ? short_text(verdict.growth, 6) : "–") +
+            cell(!grows                         ? "–"
+                 : verdict.step_that_works > 0. ? step_text(verdict.step_that_works)
+                                                : "none") +
+            cell(percent(verdict.lowest_period_error)) + cell(percent(verdict.highest_period_error)) + "</tr>\n";
+  }
+  return html + "</table></div></section>\n";
+}
+
+std::string maps_section(const StabilityStudy &study)
+{
+  std::string html = "<section id=\"maps\"><h2>Maps of the methods</h2>\n<p>The oscillator x″ + 2ζω x′ + ω² x = 0 with "
+                     "the step h. Above the line at 1 a mode grows.";
+  if (!study.modes.empty())
+    html += " Ticks at the bottom: modes of the frame (blue) and of the machine with closed contacts (orange) at the "
+            "scene's step, those below omega h = 0.01 left out; under exact propagation the frame's modes have no "
+            "error. What "
+            "has no damping or period error of its own has no curve there.";
+  html += "</p>\n";
+  bool first = true;
+  for (const auto &[zeta, charts] : study.charts)
+  {
+    html += std::string("<details") + (first ? " open" : "") + "><summary>damping ratio " + short_text(zeta) +
+            "</summary>\n";
+    for (const NamedSvg &chart : charts)
+      html += "<figure>" + chart.svg + "</figure>\n";
+    html += "</details>\n";
+    first = false;
+  }
+  return html + "</section>\n";
+}
+
+std::string intervals_section(const StabilityStudy &study)
+{
+  std::string html = "<section id=\"intervals\"><h2>Where each method grows</h2>\n<div class=\"wide\"><table>" +
+                     header({"method", "damping ratio", "from ω h", "to ω h", "largest growth per step", "at ω h"});
+  for (const MappedInterval &row : study.intervals)
+  {
+    const bool endless = std::isinf(row.interval.to);
+    html += "<tr>" + cell(escape_xml(row.method), "") + cell(short_text(row.zeta)) +
+            cell(short_text(row.interval.from, 8)) + cell(short_text(row.interval.to, 8)) +
+            cell(endless ? "–" : short_text(row.interval.growth, 6)) +
+            cell(endless ? "–" : short_text(row.interval.at_omega_h)) + "</tr>\n";
+  }
+  return html + "</table></div>\n<p class=\"soft\">Methods that are not listed grow nowhere. Exact propagation stands "
+                "here with the force of a closed contact on a free mass; modes of the base system it carries exactly."
+                "</p></section>\n";
+}
+
+std::string padded(const std::string &text, std::size_t width, bool left = false)
+{
+  std::size_t letters = 0;
+  for (const char c : text)
+    letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80 ? 1 : 0;
+  const std::string space(width > letters ? width - letters : 0, ' ');
+  return left ? text + space : space + text;
+}
+
+std::string mode_row(const coupling::ModeAccuracy &mode)
+{
+  return "  " + padded(origin_text(mode.origin), 15, true) + padded(std::to_string(mode.number), 5) +
+         padded(short_text(mode.mode.omega / two_pi, 6), 12) + padded(short_text(mode.mode.zeta), 10) +
+         padded(short_text(mode.omega_h), 11) + padded(short_text(mode.spectral_radius, 7), 12) +
+         padded(short_text(mode.numerical_damping, 3), 12) + padded(percent(mode.period_error), 12) + "   " +
+         verdict_of(mode) + "\n";
+}
+
+} // namespace
+
+std::string stability_text(const StabilityStudy &study, std::size_t most_rows)
+{
+  std::string text;
+  if (!study.modes.empty())
+  {
+    text += study.method + "\n  modes of        mode      f [Hz]   damping    omega h  spec.radius   num.damping"
+                           " period error   verdict\n";
+    std::size_t left_out = 0;
+    for (std::size_t i = 0; i < study.modes.size(); ++i)
+      if (i < most_rows || study.modes[i].unstable)
+        text += mode_row(study.modes[i]);
+      else
+        ++left_out;
+    if (left_out > 0)
+      text += "  ... " + std::to_string(left_out) + " more, all stable, in stability_modes.csv\n";
+    text += "other methods at this step\n  " + padded("method", 24, true) + padded("modes that grow", 16) +
+            padded("worst [Hz]", 13) + padded("growth", 12) + padded("step that works", 17) +
+            padded("period error", 14) + padded("highest mode", 14) + "\n";
+    for (const MethodVerdict &verdict : study.verdicts)
+    {
+      const bool grows = verdict.growing > 0;
+      text += "  " + padded(verdict.method, 24, true) + padded(std::to_string(verdict.growing), 16) +
+              padded(grows ? short_text(verdict.worst_hz) : "-", 13) +
+              padded(grows ? short_text(verdict.growth, 6) : "-", 12) +
+              padded(!grows                         ? "-"
+                     : verdict.step_that_works > 0. ? step_text(verdict.step_that_works)
+                                                    : "none",
+                     17) +
+              padded(percent(verdict.lowest_period_error), 14) + padded(percent(verdict.highest_period_error), 14) +
+              (verdict.only_closed ? "   while contacts are closed" : "") + "\n";
+    }
+    text += "  (period error: of the lowest and of the highest mode of the frame)\n";
+  }
+  for (const std::string &note : study.notes)
+    text += note + "\n";
+  return text;
+}
+
+std::string stability_page(const StabilityStudy &study)
+{
+  const std::string title = escape_xml(study.title);
+  std::string       html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\"><title>" +
+      title + "</title><style>" + report_style +
+      "details{margin:.6rem 0}summary{cursor:pointer;font-weight:600}</style></head>\n<body>\n<header><h1>" + title +
+      "</h1></header>\n";
+  if (!study.notes.empty())
+  {
+    html += "<div class=\"warnings\" role=\"note\"><ul>";
+    for (const std::string &note : study.notes)
+      html += "<li>" + escape_xml(note) + "</li>";
+    html += "</ul></div>\n";
+  }
+  html += modes_section(study) + maps_section(study) + intervals_section(study);
+  return html + "<footer>Computed with gestell " + escape_xml(study.version) +
+         ". All numbers stand in full precision in the .csv files beside this page.</footer>\n</body>\n</html>\n";
+}
+
+} // namespace gestell::apps

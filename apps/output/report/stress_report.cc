@@ -1,0 +1,112 @@
+#include "apps/output/report/stress_report.h"
+
+#include "apps/output/pictures/skin_picture.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/number_text.h"
+#include "apps/output/text/svg.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_pictures = 4;
+
+std::string time_text(double t)
+{
+  return short_text(t, 6) + " s";
+}
+
+std::string row_of(const StressAt &at, const StressPlace &place, const DisplayUnit &unit)
+{
+  const auto  value = [&](double x) { return short_text(x * unit.factor); };
+  std::string where;
+  for (int d = 0; d < 3; ++d)
+    where += (d > 0 ? ", " : "(") + short_text(place.at[d]);
+  std::string html = "<tr>" + cell(escape_xml(at.label)) + number_cell(at.t, 6) +
+                     cell(value(place.von_mises), "n peak") + cell(where + ")") +
+                     cell(place.beside.empty() ? "" : "beside " + escape_xml(place.beside));
+  for (const double principal : place.principal.values)
+    html += cell(value(principal), "n");
+  return html + cell(short_text(100. * place.disagreement, 2) + " %", "n") + "</tr>\n";
+}
+
+std::string table(const StressResult &stress, const DisplayUnit &unit)
+{
+  std::string html = "<div class=\"wide\"><table><tr><th>instant</th><th class=\"n\">t [s]</th><th class=\"n\">largest "
+                     "σ<sub>v</sub> [" +
+                     unit.unit + "]</th><th>at x, y, z [m]</th><th></th><th class=\"n\">σ<sub>1</sub> [" + unit.unit +
+                     "]</th><th class=\"n\">σ<sub>2</sub></th><th class=\"n\">σ<sub>3</sub></th><th class=\"n\">"
+                     "elements disagree</th></tr>\n";
+  for (const StressAt &at : stress.instants)
+    for (const auto *place : {&at.peak, &at.beside_rigid})
+      if (*place)
+        html += row_of(at, **place, unit);
+  return html + "</table></div>\n";
+}
+
+/// What the numbers are, and what they are not.
+std::string statement(const StressResult &stress)
+{
+  std::string html =
+      "<p>Equivalent stress after von Mises at the skin of the frame, from the static deflection under the "
+      "forces at the interfaces and the weight, and the vibration in the modes kept.";
+  if (stress.n_states > 0)
+    html += " The largest one was looked for at all " + std::to_string(stress.points.size()) +
+            " points of the skin and in " + std::to_string(stress.n_states) + " states of the run, " +
+            short_text(stress.step, 3) + " s apart: among these none is larger.";
+  const auto beside = [](const StressAt &at) { return at.beside_rigid.has_value(); };
+  if (std::any_of(stress.instants.begin(), stress.instants.end(), beside))
+    html +=
+        " Rows “beside” tell the elements at surfaces that are held rigid: at their rims the stress has no limit as "
+        "the mesh is refined, so that it tells the mesh more than the frame.";
+  const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };
+  html += " The last column tells how much neighbouring elements disagree about the stress there.";
+  if (std::any_of(stress.instants.begin(), stress.instants.end(), coarse))
+    html += " <strong>Above some 10 % the mesh is too coarse for a value of stress: make it finer there.</strong>";
+  return html + "</p>\n";
+}
+
+/// Largest value away from rigid surfaces, where the colours end.
+double top_of(const StressAt &at)
+{
+  return at.peak ? at.peak->von_mises : at.field.von_mises.size() > 0 ? at.field.von_mises.maxCoeff() : 0.;
+}
+
+} // namespace
+
+std::string stress_section(const Result &result, Report &report)
+{
+  if (!result.stress || result.stress->instants.empty())
+    return "";
+  const StressResult &stress  = *result.stress;
+  double              largest = 0.;
+  for (const StressAt &at : stress.instants)
+    largest = std::max(largest, top_of(at));
+  const DisplayUnit unit = display_unit("Pa", largest);
+
+  std::string html = statement(stress) + table(stress, unit) + "<div class=\"modes\">";
+  for (std::size_t k = 0; k < std::min(stress.instants.size(), most_pictures); ++k)
+  {
+    const StressAt &at = stress.instants[k];
+    SkinField       field;
+    field.skin.points    = stress.points;
+    field.skin.triangles = stress.triangles;
+    for (Eigen::Index i = 0; i < at.displacement.cols(); ++i)
+      field.skin.displacement.push_back(at.displacement.col(i));
+    field.values.assign(at.field.von_mises.begin(), at.field.von_mises.end());
+    field.top  = top_of(at);
+    field.unit = unit;
+    if (at.peak)
+      field.mark = at.peak->at;
+    report.charts.emplace_back("stress-" + std::to_string(k + 1),
+                               field_picture_svg(field, at.label.empty() ? "t = " + time_text(at.t) : at.label,
+                                                 "σᵥ [" + unit.unit + "], t = " + time_text(at.t)));
+    html += figure(report.charts.back().second);
+  }
+  return section("stress", "Stress in the frame", html + "</div>\n");
+}
+
+} // namespace gestell::apps

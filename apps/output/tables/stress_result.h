@@ -1,0 +1,49 @@
+#pragma once
+
+#include "coupling/frame/stress_field.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Disagreement of neighbouring elements below which a stress stands; above, the mesh is too coarse there.
+constexpr double resolved_disagreement = 0.1;
+
+/// A point of the skin and what it bears.
+struct StressPlace
+{
+  Eigen::Vector3d             at;             ///< [m]
+  double                      von_mises = 0.; ///< [Pa]
+  coupling::PrincipalStresses principal;
+  double                      disagreement = 0.; ///< see coupling::disagreement()
+  std::string                 beside;            ///< support or interface that holds the surface there rigid, or ""
+};
+
+/// The stresses at one instant.
+struct StressAt
+{
+  std::string                label; ///< why this instant: "largest F_P"; may be empty
+  double                     t = 0.;
+  coupling::StressField      field;
+  Eigen::Matrix3Xd           displacement; // [3 x points] m
+  std::optional<StressPlace> peak;         ///< largest away from rigid surfaces
+  std::optional<StressPlace> beside_rigid; ///< largest beside them
+};
+
+/// Stresses of a run at the skin of its frame.
+struct StressResult
+{
+  std::vector<Eigen::Vector3d>    points; ///< [m]
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<StressAt>           instants;      ///< ascending in time
+  int                             n_states = 0;  ///< among which the largest stress was looked for; 0: it was not
+  double                          step     = 0.; ///< [s] between them
+};
+
+} // namespace gestell::apps

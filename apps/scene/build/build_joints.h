@@ -1,0 +1,16 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "coupling/machine/machine.h"
+
+namespace gestell::apps
+{
+
+/// The joints and switches of a scene, in the machine; bodies and elements must be there.
+void add_joint(coupling::Machine &machine, const JointRequest &joint);
+void add_switch(coupling::Machine &machine, const SwitchRequest &request);
+
+/// Attaches a law that acts between two places, on the measures of its PairRequest.
+void attach_between(coupling::Machine &machine, const ElementRequest &element);
+
+} // namespace gestell::apps

@@ -1,0 +1,209 @@
+#include "apps/scene/build/build_measures.h"
+
+#include "mechanism/elements/follower_load.h"
+#include "mechanism/joints/measure_joint.h"
+#include "mechanism/transmitted_element.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+using mechanism::CombinedMeasure;
+using mechanism::PlacedMeasure;
+
+/// A measure and the motions of the machine it depends on.
+template <class Measure>
+struct Built
+{
+  Measure                        measure;
+  std::vector<coupling::Measure> measures;
+};
+
+/// Of wheels at their places as described: the radii follow from the distance of the centres.
+mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::Placement &first,
+                                   const mechanism::Placement &second)
+{
+  using mechanism::Vector3d;
+  const Vector3d axis    = vector(request.axis);
+  Vector3d       centres = second.point() - first.point();
+  centres -= axis.dot(centres) * axis;
+  const double distance = centres.norm();
+  if (!(distance > 1e-9 * (first.point().norm() + second.point().norm())))
+    throw std::invalid_argument("the two wheels have one axis, so that no teeth are in mesh; a joint of type \"gear\" "
+                                "with a carrier couples them");
+  const double               angle = std::abs(request.pressure_angle), to = distance / std::abs(1. - request.ratio);
+  mechanism::RelativeMeasure mesh;
+  mesh.form           = mechanism::RelativeMeasure::Form::mesh;
+  mesh.a              = centres / distance;
+  mesh.b              = axis.cross(mesh.a);
+  mesh.pressure_angle = angle;
+  mesh.reach          = to * (1. - request.ratio) * std::cos(angle);
+  // Teeth push: apart the wheels, or the wheel out of its ring.
+  const bool apart = (request.ratio < 0.) == (request.pressure_angle > 0.);
+  mesh.flank       = angle > 0. ? (apart ? 1. : -1.) * std::abs(mesh.reach) : 0.;
+  for (int i = 0; i < first.n_measures(); ++i)
+    mesh.ratios.push_back(-request.ratio * to * std::cos(angle) * first.rotation(i).dot(axis));
+  for (int i = 0; i < second.n_measures(); ++i)
+    mesh.ratios.push_back(to * std::cos(angle) * second.rotation(i).dot(axis));
+  return mesh;
+}
+
+Built<PlacedMeasure> build_placed(coupling::Machine &machine, const MeasureRequest &request)
+{
+  const auto                 first = placed(machine, request.first), second = placed(machine, request.second);
+  mechanism::RelativeMeasure measure;
+  measure.form    = request.form;
+  measure.a       = vector(request.a);
+  measure.b       = vector(request.b);
+  measure.carrier = request.carrier;
+  if (request.mesh)
+    measure = mesh_of(*request.mesh, first.placement, second.placement);
+  auto measures = first.measures;
+  measures.insert(measures.end(), second.measures.begin(), second.measures.end());
+  draw_places(machine, request.first, request.second);
+  return {{first.placement, second.placement, measure}, measures};
+}
+
+Built<PlacedMeasure> build_term(coupling::Machine &machine, const TermRequest &term)
+{
+  if (term.placed)
+    return build_placed(machine, *term.placed);
+  const auto u = measure_of(term.motion, machine);
+  if (u.empty())
+  {
+    const MotionTerm &motion = term.motion.front();
+    throw std::invalid_argument("\"" + motion.marker + "\" does not " +
+                                (motion.rotation ? "turn about" : "move along") +
+                                " the axis that is asked for, nor does its partner; name another motion");
+  }
+  return {PlacedMeasure::linear(), {u}};
+}
+
+Built<CombinedMeasure> build(coupling::Machine &machine, const MeasureRequest &request)
+{
+  if (request.terms.empty())
+  {
+    const auto plain = build_placed(machine, request);
+    return {CombinedMeasure(plain.measure), plain.measures};
+  }
+  std::vector<CombinedMeasure::Term> terms;
+  std::vector<coupling::Measure>     measures;
+  const auto                         take = [&](const TermRequest &request)
+  {
+    auto term = build_term(machine, request);
+    measures.insert(measures.end(), term.measures.begin(), term.measures.end());
+    return term.measure;
+  };
+  for (const TermRequest &term : request.terms)
+    terms.push_back({term.weight, take(term)});
+  if (!request.function)
+    return {CombinedMeasure(terms), measures};
+  const PlacedMeasure x = take(request.argument);
+  return {CombinedMeasure(terms, x, request.function), measures};
+}
+
+/// What the measure is in the position described.
+double described_value(const CombinedMeasure &measure)
+{
+  const double zero[CombinedMeasure::max_measures] = {};
+  double       gradient[CombinedMeasure::max_measures];
+  return measure.evaluate(zero, zero, gradient).s;
+}
+
+} // namespace
+
+coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine)
+{
+  using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
+  coupling::Measure u;
+  for (const auto &term : motion)
+  {
+    const auto &marker = machine.marker(term.marker);
+    u                  = u + term.weight * (term.rotation ? marker.about(term.axis) : marker.along(term.axis));
+  }
+  return u;
+}
+
+Vector3 point_of(const coupling::Machine &machine, const PlaceRequest &place)
+{
+  return place.at ? *place.at : machine.position(place.marker);
+}
+
+coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place)
+{
+  return machine.place(place.marker, point_of(machine, place));
+}
+
+void draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+{
+  for (const PlaceRequest *place : {&from, &to})
+    machine.draw_point(place->marker, point_of(machine, *place));
+}
+
+void add_measures(coupling::Machine &machine, const Scene &scene)
+{
+  for (const MeasureRequest &request : scene.measures)
+  {
+    try
+    {
+      const auto built = build(machine, request);
+      machine.add_measure({request.name, request.unit, built.measure, built.measures});
+    }
+    catch (const std::invalid_argument &e)
+    {
+      throw std::invalid_argument(request.place + ": " + e.what());
+    }
+  }
+}
+
+void add_measure_joint(coupling::Machine &machine, const JointRequest &joint)
+{
+  const bool turns = joint.measure.unit == "rad";
+  const auto built = build(machine, joint.measure);
+  machine.attach(
+      joint.name,
+      std::make_shared<mechanism::MeasureJoint>(
+          mechanism::MeasureJoint::Parameters{built.measure, joint.value.value_or(described_value(built.measure)),
+                                              turns ? "torque" : "force", turns ? "N m" : "N", joint.reaction_unit},
+          joint.law),
+      built.measures);
+}
+
+void attach_on_measure(coupling::Machine &machine, const ElementRequest &element)
+{
+  const auto attach = [&](const CombinedMeasure &measure, std::vector<coupling::Measure> measures, double rest)
+  {
+    for (const LagRequest &lag : element.lags)
+      measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
+    machine.attach(element.name, std::make_shared<mechanism::TransmittedElement>(measure, element.element, rest),
+                   measures, element.kind);
+  };
+  if (element.follows)
+  {
+    const auto point = placed(machine, element.own->second);
+    machine.attach(element.name,
+                   std::make_shared<mechanism::FollowerLoad>(point.placement, vector(element.own->a), element.element),
+                   point.measures, element.kind);
+    machine.draw_point(element.own->second.marker, point_of(machine, element.own->second));
+    return;
+  }
+  if (element.own)
+  {
+    const auto built = build(machine, *element.own);
+    attach(built.measure, built.measures, described_value(built.measure));
+    return;
+  }
+  const coupling::NamedMeasure &measure = machine.measure(element.on);
+  attach(measure.measure, measure.measures, 0.);
+  const PlacedMeasure *plain = measure.measure.plain();
+  if (!plain || plain->measure.form != mechanism::RelativeMeasure::Form::distance)
+    return;
+  // A spring or a rope between two places is drawn as a distance joint is.
+  const auto second = measure.measures.begin() + plain->first.n_measures();
+  machine.draw_bar({element.name,
+                    {plain->first, {measure.measures.begin(), second}},
+                    {plain->second, {second, measure.measures.end()}}});
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "coupling/machine/machine.h"
+
+namespace gestell::apps
+{
+
+coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine);
+
+inline mechanism::Vector3d vector(const Vector3 &a)
+{
+  return {a[0], a[1], a[2]};
+}
+Vector3               point_of(const coupling::Machine &machine, const PlaceRequest &place);
+coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place);
+void                  draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to);
+
+/// The measures of a scene, in the machine; bodies must be there.
+void add_measures(coupling::Machine &machine, const Scene &scene);
+
+/// A joint of one equation on a measure of its own.
+void add_measure_joint(coupling::Machine &machine, const JointRequest &joint);
+
+/// Attaches a law of one measure, and virtual coordinates, that acts on a measure of the scene.
+void attach_on_measure(coupling::Machine &machine, const ElementRequest &element);
+
+} // namespace gestell::apps

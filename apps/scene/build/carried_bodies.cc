@@ -1,0 +1,97 @@
+#include "apps/scene/build/carried_bodies.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double on_axis  = 1e-9; ///< [m], or share of a unit vector
+constexpr double far_away = 0.1;  ///< share of the size of the machine
+
+Eigen::Vector3d vector(const Vector3 &a)
+{
+  return {a[0], a[1], a[2]};
+}
+
+/// The carrier if it is a body that turns by any angle about an axis of its own.
+const coupling::Body *turning_carrier(const coupling::Machine &machine, const std::string &name)
+{
+  for (const coupling::Body &body : machine.bodies())
+    if (body.name == name && (body.kind == coupling::BodyKind::rotor || body.kind == coupling::BodyKind::planar))
+      return &body;
+  return nullptr;
+}
+
+/// Largest distance [m] that rotations of the carrier would move the mass by, per radian: what is left out.
+double left_out(const coupling::Marker &carrier, const BodyRequest &body, const Eigen::Vector3d &arm)
+{
+  double most = 0.;
+  for (int d = 0; d < 3; ++d)
+  {
+    Eigen::Vector3d moved = Eigen::Vector3d::Unit(d).cross(arm);
+    if (body.kind == coupling::BodyKind::slider) // along its axis it moves on its own
+      moved -= moved.dot(vector(body.axis)) * vector(body.axis);
+    if (!carrier.rotation[d].empty())
+      most = std::max(most, moved.norm());
+  }
+  return most;
+}
+
+} // namespace
+
+void check_carrier(const coupling::Machine &machine, const BodyRequest &body)
+{
+  const coupling::Body *carrier = turning_carrier(machine, body.carrier);
+  if (!carrier)
+    return;
+  const Eigen::Vector3d n          = vector(carrier->axis).normalized();
+  const Eigen::Vector3d arm        = vector(body.position) - vector(carrier->centre);
+  const bool            off        = body.position != Vector3{} && n.cross(arm).norm() > on_axis;
+  const bool            turns_axis = n.cross(vector(body.axis).normalized()).norm() > on_axis;
+  const bool            slider     = body.kind == coupling::BodyKind::slider;
+  if (!off && !turns_axis)
+    return;
+  throw std::invalid_argument((slider ? "slider \"" : "rotor \"") + body.name + "\": its " +
+                              (slider ? "guide" : "carrier") + " \"" + carrier->name + "\" turns by any angle, which " +
+                              (turns_axis ? "its axis" : "its place beside the axis of \"" + carrier->name + "\"") +
+                              " would not follow; make it a planar body, held by a " +
+                              (slider ? "prismatic joint" : "revolute joint at its position"));
+}
+
+std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Machine &machine)
+{
+  Eigen::AlignedBox3d box;
+  for (const BodyRequest &body : scene.bodies)
+    box.extend(vector(machine.body(body.name).position));
+  for (const BodyRequest &body : scene.bodies)
+    if (!body.carrier.empty() && body.carrier != "ground")
+      box.extend(vector(machine.position(body.carrier)));
+  std::vector<std::string> warnings;
+  for (const BodyRequest &body : scene.bodies)
+  {
+    if (body.carrier.rfind("frame.", 0) != 0 || body.mass == 0. || body.position == Vector3{})
+      continue;
+    const Eigen::Vector3d arm      = vector(body.position) - vector(machine.position(body.carrier));
+    const double          distance = left_out(machine.marker(body.carrier), body, arm);
+    if (distance > far_away * box.diagonal().norm())
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << body.place << ": the mass of \"" << body.name << "\" counts at the reference point of \"" << body.carrier
+           << "\", " << distance << " m beside its own position, so that its inertia about that point is left out; "
+           << (body.kind == coupling::BodyKind::rotor
+                   ? "leave the mass out and add a point mass with an offset instead"
+                   : "give it an interface where it is, or make it a planar body on a prismatic joint");
+      warnings.push_back(text.str());
+    }
+  }
+  return warnings;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,141 @@
+#include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/stand_in_frame.h"
+#include "coupling/frame/reduced_frame_file.h"
+#include "coupling/machine/assembly.h"
+#include "coupling/machine/sticking_conflict.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gestell::apps
+{
+namespace
+{
+
+coupling::Machine machine_to_check(const Scene &scene)
+{
+  const FramePath path = frame_path(scene);
+  if (path == FramePath::none || path == FramePath::dense)
+    return build_machine(scene);
+  if (path == FramePath::from_file)
+    return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
+  return build_machine(scene, stand_in_frame(scene));
+}
+
+} // namespace
+
+bool places_known(const Scene &scene)
+{
+  const auto &interfaces = scene.frame.geometry.interfaces;
+  return scene.frame.source != FrameSource::geometry ||
+         std::all_of(interfaces.begin(), interfaces.end(),
+                     [](const fem::InterfaceSpecification &interface) { return interface.position.has_value(); });
+}
+
+std::vector<std::string> check_scene(const Scene &scene)
+{
+  auto machine = machine_to_check(scene);
+  scene_signals(scene, machine);
+  if (coupling::has_joints(machine) && !places_known(scene))
+    check_start_names(scene, machine);
+  else
+  {
+    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
+      modes_configuration(scene, machine);
+    if (scene.start.rule == StartRule::given)
+      initial_state(scene, machine);
+  }
+  for (const auto &[name, angle] : scene.start.steady.angles)
+    (void)angle, machine.body(name);
+  auto warnings = idle_bodies(scene, machine);
+  if (const auto remote = remote_joints(scene, machine); places_known(scene))
+    warnings.insert(warnings.end(), remote.begin(), remote.end());
+  if (!scene.run.given)
+    return warnings;
+  try
+  {
+    coupling::check_run(machine, scene.run.options, scene.signals.size());
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
+  return warnings;
+}
+
+void require_free_motion(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial)
+{
+  const coupling::StickingConflict conflict = coupling::sticking_conflict(machine, initial);
+  if (!conflict.element.empty())
+    throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
+}
+
+namespace
+{
+void try_start(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &initial)
+{
+  try
+  {
+    coupling::try_start(machine, initial, scene.run.options);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene.run.place + ": " + error.what());
+  }
+}
+} // namespace
+
+void check_start(const Scene &scene)
+{
+  const FramePath path  = frame_path(scene);
+  const bool      known = path == FramePath::none || path == FramePath::dense || path == FramePath::from_file;
+  if (!scene.run.given || (!known && scene.start.rule != StartRule::given))
+    return;
+  auto machine = machine_to_check(scene);
+  if (coupling::has_joints(machine) && !places_known(scene))
+    return;
+  try
+  {
+    const coupling::InitialState initial = initial_state(scene, machine);
+    require_free_motion(scene, machine, initial);
+    if (known)
+      try_start(scene, machine, initial);
+  }
+  catch (const coupling::ConvergenceFailure &failure)
+  {
+    throw against_start(scene, std::string("the machine does not start: ") + failure.what());
+  }
+}
+
+std::string floating_frame(const Scene &scene)
+{
+  const FramePath path   = frame_path(scene);
+  const bool      exists = path == FramePath::dense || path == FramePath::from_file;
+  if (!scene.run.given || path == FramePath::none || !places_known(scene))
+    return "";
+  auto machine = exists ? machine_to_check(scene) : build_machine(scene, rigid_stand_in(scene));
+  if (!may_float(*machine.reduced_frame()))
+    return "";
+  if (coupling::has_joints(machine) && scene.start.rule != StartRule::given) // such a start is found with the frame
+    return "";
+  try
+  {
+    const Eigen::VectorXd q = modes_configuration(scene, machine);
+    return free_frame(scene, machine, coupling::coupled_modes(machine, q, scene.modes.open, machine.size()));
+  }
+  catch (const coupling::ConvergenceFailure &)
+  {
+    return ""; // check_start() tells of machines that do not move on
+  }
+}
+
+void require_run(const Scene &scene)
+{
+  if (!scene.run.given)
+    throw std::invalid_argument(
+        scene.run.place + ": there is no [run]; it needs 'end' and 'step' (or 'tolerance'), such as end = \"0.5 s\", "
+                          "step = \"10 us\"");
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,93 @@
+#include "apps/scene/file/csv_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string trimmed(const std::string &text)
+{
+  const auto from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
+  return from == std::string::npos ? std::string() : text.substr(from, to - from + 1);
+}
+
+std::vector<std::string> split(const std::string &line, char separator)
+{
+  std::vector<std::string> cells(1);
+  bool                     quoted = false;
+  for (const char c : line)
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == separator && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  std::transform(cells.begin(), cells.end(), cells.begin(), trimmed);
+  return cells;
+}
+
+} // namespace
+
+CsvFile read_csv(const std::string &name)
+{
+  CsvFile       table;
+  std::ifstream in(name);
+  if (!in)
+    throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+  table.name     = name;
+  char separator = ',';
+  int  number    = 0;
+  for (std::string line; std::getline(in, line);)
+  {
+    ++number;
+    if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
+      line.erase(0, 3); // the mark of UTF-8 that spreadsheets put first
+    const std::string text = trimmed(line);
+    if (text.empty() || text[0] == '#')
+      continue;
+    if (table.head.empty())
+    {
+      separator  = std::count(text.begin(), text.end(), ';') > std::count(text.begin(), text.end(), ',') ? ';' : ',';
+      table.head = split(text, separator);
+      table.head_number = number;
+      continue;
+    }
+    table.lines.push_back({number, split(text, separator)});
+    if (table.lines.back().cells.size() != table.head.size())
+      throw std::invalid_argument(table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
+                                  " cells, but the head of the table has " + std::to_string(table.head.size()));
+  }
+  if (table.head.empty())
+    throw std::invalid_argument(name + ": is empty; its first line must name the columns");
+  return table;
+}
+
+double CsvFile::number(const Line &line, std::size_t column) const
+{
+  const std::string &cell  = line.cells[column];
+  char              *end   = nullptr;
+  const double       value = std::strtod(cell.c_str(), &end);
+  if (cell.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::invalid_argument(place(line.number) + "column '" + head[column] + "': got '" + cell +
+                                "'; it needs a number with a decimal point, such as 0.25");
+  return value;
+}
+
+int CsvFile::integer(const Line &line, std::size_t column) const
+{
+  const std::string &cell  = line.cells[column];
+  char              *end   = nullptr;
+  const long         value = std::strtol(cell.c_str(), &end, 10);
+  if (*end != '\0' || std::labs(value) > 1000000000)
+    throw std::invalid_argument(place(line.number) + "column '" + head[column] + "': got '" + cell +
+                                "'; it needs a whole number, or nothing");
+  return int(value);
+}
+
+} // namespace gestell::apps

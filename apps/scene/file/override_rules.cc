@@ -1,0 +1,72 @@
+#include "apps/scene/file/override_rules.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+bool from_command_line(const SceneNode &node)
+{
+  return node.place.file.rfind("--set", 0) == 0;
+}
+
+void take_away(SceneNode &table, const std::vector<std::string> &keys)
+{
+  auto      &entries = table.entries;
+  const auto goes    = [&](const SceneNode::Entry &entry)
+  { return std::find(keys.begin(), keys.end(), entry.first) != keys.end() && !from_command_line(entry.second); };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), goes), entries.end());
+}
+
+void take_all_away(SceneNode &table)
+{
+  auto &entries = table.entries;
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [](const SceneNode::Entry &entry) { return !from_command_line(entry.second); }),
+                entries.end());
+}
+
+std::string method_in(const SceneNode &table, const std::string &otherwise)
+{
+  const SceneNode *method = table.find("method");
+  return method ? method->text : otherwise;
+}
+
+} // namespace
+
+void make_way(SceneNode &older, const SceneNode &newer)
+{
+  if (older.type != SceneNode::Type::table || newer.type != SceneNode::Type::table)
+    return;
+  const std::string former = method_in(older, "bdf"), method = method_in(newer, former);
+  if (method != former)
+    take_away(older, {"order", "beta", "gamma", "theta", "alpha", "rho_inf", "force"});
+  if (method != former && method != "bdf" && method != "exact" && older.find("tolerance"))
+    take_away(older, {"tolerance", "step"}); // the largest one
+  if (newer.find("tolerance") && !older.find("tolerance"))
+    take_away(older, {"step", "order"});
+}
+
+void make_way_for_frame(SceneNode &older_scene, const SceneNode &newer_frame)
+{
+  SceneNode *frame = older_scene.find("frame");
+  if (!frame || frame->type != SceneNode::Type::table || newer_frame.type != SceneNode::Type::table)
+    return;
+  if (newer_frame.find("reduced") && !frame->find("reduced"))
+  {
+    take_all_away(*frame);
+    if (SceneNode *reduction = older_scene.find("reduction"))
+      take_all_away(*reduction);
+    auto &entries = older_scene.entries;
+    entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                 [](const SceneNode::Entry &entry)
+                                 { return entry.first == "reduction" && entry.second.entries.empty(); }),
+                  entries.end());
+  }
+  else if (!newer_frame.find("reduced") && (newer_frame.find("cad") || newer_frame.find("stiffness")))
+    take_away(*frame, {"reduced"});
+}
+
+} // namespace gestell::apps

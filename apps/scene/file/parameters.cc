@@ -1,0 +1,128 @@
+#include "apps/scene/file/parameters.h"
+
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+[[noreturn]] void fail(const SceneNode &value, const std::string &name, const std::string &what)
+{
+  throw std::invalid_argument(value.place.text() + ": parameters." + written_key(name) + ": " + what);
+}
+
+std::vector<std::string> table_names(const SceneNode &table)
+{
+  std::vector<std::string> names;
+  for (const auto &entry : table.entries)
+    names.push_back(entry.first);
+  return names;
+}
+
+void check_name(const SceneNode &value, const std::string &name)
+{
+  if (!is_identifier(name))
+    fail(value, name, "a parameter's name consists of letters, digits and underscores and begins with no digit");
+  if (is_reserved_name(name))
+    fail(value, name, "'" + name + "' is a function or constant of expressions; choose another name");
+}
+
+} // namespace
+
+Parameters::Parameters(const SceneNode *table)
+{
+  if (!table)
+    return;
+  table->used = true;
+  if (table->type != SceneNode::Type::table)
+    throw std::invalid_argument(table->place.text() + ": parameters: needs a table, got " + type_name(table->type));
+  for (const auto &[name, value] : table->entries)
+    check_name(value, name);
+  for (const auto &entry : table->entries)
+  {
+    std::vector<std::string> open;
+    evaluate_entry(*table, entry.first, open);
+  }
+}
+
+Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open)
+{
+  if (const auto known = values_.find(name); known != values_.end())
+    return known->second;
+  const SceneNode &value = *table.find(name);
+  value.used             = true;
+  if (const auto first = std::find(open.begin(), open.end(), name); first != open.end())
+  {
+    std::string circle;
+    for (auto i = first; i != open.end(); ++i)
+      circle += *i + " -> ";
+    fail(value, name, "depends on itself: " + circle + name);
+  }
+  open.push_back(name);
+
+  Quantity result;
+  if (value.type == SceneNode::Type::integer || value.type == SceneNode::Type::real)
+    result = Quantity{value.number, {}, false, Counts::nothing};
+  else if (value.type != SceneNode::Type::text)
+    fail(value, name, "needs a number or text such as \"40 mm\", got " + type_name(value.type));
+  else
+    try
+    {
+      result = parse_quantity(
+          value.text,
+          [&](const std::string &other) -> std::optional<Quantity>
+          {
+            if (!table.find(other))
+              return std::nullopt;
+            return evaluate_entry(table, other, open);
+          },
+          table_names(table));
+    }
+    catch (const std::invalid_argument &e)
+    {
+      const std::string message = e.what();
+      if (message.find(": parameters.") != std::string::npos)
+        throw; // said already where it happened
+      fail(value, name, message);
+    }
+  if (!std::isfinite(result.value))
+    fail(value, name, "is not a finite number");
+  open.pop_back();
+  return values_[name] = result;
+}
+
+std::optional<Quantity> Parameters::find(const std::string &name) const
+{
+  const auto found = values_.find(name);
+  return found == values_.end() ? std::nullopt : std::optional<Quantity>(found->second);
+}
+
+std::vector<std::string> Parameters::names() const
+{
+  std::vector<std::string> result;
+  for (const auto &entry : values_)
+    result.push_back(entry.first);
+  return result;
+}
+
+Quantity Parameters::evaluate(const SceneNode &value) const
+{
+  const Expression e = expression(value, {});
+  return {e.formula.constant(), e.dimension, e.checked, e.counts};
+}
+
+Expression Parameters::expression(const SceneNode &value, const std::vector<Variable> &variables,
+                                  const Kind *kind) const
+{
+  if (value.type == SceneNode::Type::text)
+    return parse_expression(
+        value.text, variables, [this](const std::string &name) { return find(name); }, names(), kind);
+  return Quantity{value.number, {}, false, Counts::nothing};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,127 @@
+#include "apps/scene/file/scene_override.h"
+
+#include "apps/scene/file/override_rules.h"
+#include "apps/scene/file/toml_hint.h"
+#include "apps/scene/file/toml_text.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+[[noreturn]] void fail(const Place &place, const std::string &what)
+{
+  throw std::invalid_argument(place.text() + ": " + what);
+}
+
+/// Segments of  frame.surface."crown bearing left".faces .
+std::vector<std::string> segments(const std::string &path, const Place &place)
+{
+  std::vector<std::string> result;
+  std::size_t              i = 0;
+  do
+  {
+    const char  quote = i < path.size() ? path[i] : '\0';
+    std::size_t end;
+    if (quote == '"' || quote == '\'')
+    {
+      end = path.find(quote, i + 1);
+      if (end == std::string::npos)
+        fail(place, "the key lacks a closing quote");
+      result.push_back(path.substr(i + 1, end - i - 1));
+      ++end;
+    }
+    else
+    {
+      end = std::min(path.find('.', i), path.size());
+      result.push_back(path.substr(i, end - i));
+    }
+    if (result.back().empty() || (end < path.size() && path[end] != '.'))
+      fail(place, "is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
+    i = end + 1;
+  } while (i <= path.size());
+  return result;
+}
+
+SceneNode override_value(const std::string &text, const Place &place)
+{
+  const auto folder = std::filesystem::current_path().string();
+  if (auto value = parse_toml_value(text, place, folder))
+    return *value;
+  if (const auto hint = toml_hint("value = " + text); !hint.empty() && (text.front() == '[' || text.front() == '{'))
+    fail(place, hint);
+  SceneNode node; // not TOML, so it is text: --set run.method=bdf, --set run.step=10 us
+  node.type   = SceneNode::Type::text;
+  node.place  = place;
+  node.folder = folder;
+  node.text   = text;
+  return node;
+}
+
+/// First '=' outside quotes.
+std::size_t equals_sign(const std::string &text)
+{
+  char quote = '\0';
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (quote)
+      quote = text[i] == quote ? '\0' : quote;
+    else if (text[i] == '"' || text[i] == '\'')
+      quote = text[i];
+    else if (text[i] == '=')
+      return i;
+  return std::string::npos;
+}
+
+std::string trimmed(const std::string &text)
+{
+  const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+} // namespace
+
+void apply_override(SceneNode &root, const std::string &text)
+{
+  const Place place{"--set " + text, 0};
+  const auto  equals = equals_sign(text);
+  if (equals == std::string::npos)
+    fail(place, "needs the form key.path=value, for example --set run.step=\"5 us\"");
+  const auto path = segments(trimmed(text.substr(0, equals)), place);
+  if (path.front() == "extends")
+    fail(place, "what a scene extends cannot be overridden");
+
+  const SceneNode value = override_value(trimmed(text.substr(equals + 1)), place);
+  if (SceneNode *run = root.find("run"); run && path.size() == 2 && path.front() == "run")
+  {
+    SceneNode newer;
+    newer.entries.emplace_back(path.back(), value);
+    make_way(*run, newer);
+  }
+  if (path.size() == 2 && path.front() == "frame")
+  {
+    SceneNode newer;
+    newer.entries.emplace_back(path.back(), value);
+    make_way_for_frame(root, newer);
+  }
+
+  SceneNode *node = &root;
+  for (std::size_t i = 0; i < path.size(); ++i)
+  {
+    if (node->type != SceneNode::Type::table)
+      fail(place, "'" + path[i - 1] + "' is " + type_name(node->type) + " (" + node->place.text() +
+                      ") and has no entry '" + path[i] + "'");
+    if (!node->find(path[i]))
+    {
+      node->entries.emplace_back(path[i], SceneNode{});
+      node->entries.back().second.place = place;
+    }
+    node = node->find(path[i]);
+  }
+  *node = value;
+}
+
+} // namespace gestell::apps

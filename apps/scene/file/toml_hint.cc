@@ -1,0 +1,95 @@
+#include "apps/scene/file/toml_hint.h"
+
+#include <algorithm>
+#include <regex>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string trimmed(const std::string &text)
+{
+  const auto begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+/// Without its comment, and with nothing inside its quotes.
+std::string bare(const std::string &line)
+{
+  std::string result;
+  char        quote = '\0';
+  for (const char c : line)
+  {
+    if (!quote && c == '#')
+      break;
+    if (!quote || c == quote)
+      result += c;
+    if (quote ? c == quote : c == '"' || c == '\'')
+      quote = quote ? '\0' : c;
+  }
+  return result;
+}
+
+std::string hint_of_header(const std::string &header)
+{
+  static const std::regex with_spaces(R"(^\[+(.*\.)?([^".\]]*[^".\]A-Za-z0-9_-][^".\]]*)\]+$)");
+  std::smatch             parts;
+  if (std::regex_match(header, parts, with_spaces))
+    return "a name with more than letters, digits, _ and - stands in quotes: [" + parts[1].str() + "\"" +
+           trimmed(parts[2]) + "\"]";
+  return header.back() == ']' ? "" : "the head of a table ends with ]";
+}
+
+std::string hint_of_value(const std::string &value)
+{
+  static const std::regex comma(R"(^([-+]?\d+),(\d+)\s*([A-Za-z%\x80-\xff][^,]*)?$)");
+  static const std::regex no_zero(R"((^|[\[{,\s])[-+]?(\.\d+|\d+\.(?=[\s,\]}]|$)))");
+  static const std::regex with_unit(R"((^|[\[{,=]\s*)([-+]?[\d.]+([eE][-+]?\d+)?\s*[A-Za-z%\x80-\xff(*/^+][^,\]}]*))");
+  static const std::regex word(R"(^[A-Za-z_\x80-\xff][^\[\]{},="']*$)");
+  static const std::regex remark(R"(^[^"']*(//|;).*$)");
+  std::smatch             parts;
+  if (value.empty())
+    return "a value is missing behind the =";
+  if (std::regex_match(value, parts, comma))
+    return "decimals have a point: " +
+           (parts[3].length() == 0 ? parts[1].str() + "." + parts[2].str()
+                                   : "\"" + parts[1].str() + "." + parts[2].str() + " " + parts[3].str() + "\"");
+  if (std::regex_match(value, remark))
+    return "a comment begins with #, and nothing ends a line";
+  if (std::regex_search(value, parts, no_zero))
+    return "a number has digits on both sides of its point: 0.5, 5.0";
+  if (std::regex_search(value, parts, with_unit))
+    return "put a value with a unit, and an expression, in quotes: \"" + trimmed(parts[2]) + "\"";
+  if (value == "True" || value == "False" || value == "TRUE" || value == "FALSE" || value == "yes" || value == "no")
+    return "write true or false";
+  if (std::regex_match(value, word))
+    return "text stands in quotes: \"" + value + "\"";
+  return "";
+}
+
+} // namespace
+
+std::string toml_hint(const std::string &line)
+{
+  for (const std::string quote : {"“", "”", "„", "‘", "’", "«", "»"})
+    if (bare(line).find(quote) != std::string::npos)
+      return "quotes are \" or ', not " + quote;
+  const std::string content = trimmed(bare(line));
+  if (content.empty())
+    return "";
+  if (content.front() == '[')
+    return hint_of_header(content);
+  if (std::count(content.begin(), content.end(), '"') % 2 + std::count(content.begin(), content.end(), '\'') % 2 > 0)
+    return "a quote is opened here and not closed";
+  const auto equals = content.find('=');
+  if (equals == std::string::npos)
+    return content.find(':') != std::string::npos ? "a key and its value have = between them" : "";
+  const std::string       key = trimmed(content.substr(0, equals));
+  static const std::regex with_more(R"(^[^"'.]*[^"'.A-Za-z0-9_-][^"'.]*$)");
+  if (std::regex_match(key, with_more))
+    return "a key with more than letters, digits, _ and - stands in quotes: \"" + key + "\"";
+  return hint_of_value(trimmed(content.substr(equals + 1)));
+}
+
+} // namespace gestell::apps

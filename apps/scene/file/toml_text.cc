@@ -1,0 +1,155 @@
+#include "apps/scene/file/toml_text.h"
+
+#include "apps/scene/file/toml_hint.h"
+
+#include <toml.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Type = SceneNode::Type;
+
+/// toml11 draws its message over several lines with a picture of the text; one line is enough with file and line.
+std::string first_line(const std::string &message)
+{
+  std::string line = message.substr(0, message.find('\n'));
+  for (const std::string prefix : {"[error] ", "toml::"})
+    if (line.compare(0, prefix.size(), prefix) == 0)
+      line.erase(0, prefix.size());
+  if (const auto colon = line.find(": "); colon != std::string::npos && line.find(' ') > colon)
+    line.erase(0, colon + 2); // the name of the parser's function
+  const auto note = message.rfind("^--- ");
+  if (note != std::string::npos)
+    line += ": " + message.substr(note + 5, message.find('\n', note) - note - 5);
+  return line;
+}
+
+std::string line_of(const std::string &path, std::size_t number)
+{
+  std::ifstream in(path);
+  std::string   line;
+  for (std::size_t i = 0; i < number && std::getline(in, line); ++i)
+    ;
+  return line;
+}
+
+/// Entries in the order of the file; toml11 keeps none.
+std::vector<const toml::table::value_type *> in_order(const toml::table &table)
+{
+  std::vector<const toml::table::value_type *> entries;
+  for (const auto &entry : table)
+    entries.push_back(&entry);
+  std::sort(entries.begin(), entries.end(),
+            [](const auto *a, const auto *b)
+            {
+              const auto x = a->second.location(), y = b->second.location();
+              return std::make_tuple(x.line(), x.column(), a->first) < std::make_tuple(y.line(), y.column(), b->first);
+            });
+  return entries;
+}
+
+SceneNode converted(const toml::value &value, const Place &place, const std::string &folder)
+{
+  SceneNode node;
+  node.place  = place;
+  node.folder = folder;
+  if (place.line > 0)
+    node.place.line = value.location().line();
+
+  switch (value.type())
+  {
+  case toml::value_t::table:
+    for (const auto *entry : in_order(value.as_table()))
+      node.entries.emplace_back(entry->first, converted(entry->second, place, folder));
+    break;
+  case toml::value_t::array:
+    node.type = Type::array;
+    for (const auto &element : value.as_array())
+      node.elements.push_back(converted(element, place, folder));
+    break;
+  case toml::value_t::string:
+    node.type = Type::text;
+    node.text = value.as_string().str;
+    break;
+  case toml::value_t::integer:
+    node.type   = Type::integer;
+    node.number = static_cast<double>(value.as_integer());
+    node.text   = std::to_string(value.as_integer());
+    break;
+  case toml::value_t::floating:
+  {
+    node.type   = Type::real;
+    node.number = value.as_floating();
+    std::ostringstream out;
+    out << node.number;
+    node.text = out.str();
+    break;
+  }
+  case toml::value_t::boolean:
+    node.type    = Type::boolean;
+    node.boolean = value.as_boolean();
+    node.text    = node.boolean ? "true" : "false";
+    break;
+  default:
+    node.type = Type::date;
+    node.text = "a date";
+  }
+  return node;
+}
+
+} // namespace
+
+SceneNode parse_toml_file(const std::string &path)
+{
+  const auto fail = [&](int line, const std::string &what) {
+    throw std::invalid_argument(Place{path, line}.text() + ": " + what);
+  };
+  if (!std::filesystem::exists(path))
+    fail(0, "there is no such scene file; give the path of a .toml file");
+  if (std::filesystem::is_directory(path))
+    fail(0, "is a folder; give the path of a .toml file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    fail(0, "cannot be read; check its permissions");
+  const auto folder = std::filesystem::absolute(path).parent_path().lexically_normal().string();
+  try
+  {
+    return converted(toml::parse(in, path), Place{path, 1}, folder);
+  }
+  catch (const toml::exception &e)
+  {
+    const auto hint = toml_hint(line_of(path, e.location().line()));
+    fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
+  }
+  catch (const std::exception &e)
+  {
+    fail(0, std::string("is not a TOML file: ") + first_line(e.what()));
+  }
+  return {};
+}
+
+std::optional<SceneNode> parse_toml_value(const std::string &text, const Place &place, const std::string &folder)
+{
+  if (text.find('\n') != std::string::npos)
+    return std::nullopt;
+  try
+  {
+    std::istringstream in("value = " + text + "\n");
+    return converted(toml::parse(in, place.file).as_table().at("value"), place, folder);
+  }
+  catch (const std::exception &)
+  {
+    return std::nullopt;
+  }
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,33 @@
+#include "apps/scene/file/scene_table.h"
+#include "fem/values/nearest_name.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+void refuse_unknown(const SceneNode &table, const std::string &path)
+{
+  for (const auto &[key, value] : table.entries)
+  {
+    if (!value.used)
+      throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
+                                  key + "'" + suggestion(key, {table.asked.begin(), table.asked.end()}));
+    // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
+    const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
+    if (value.type == SceneNode::Type::table && (!value.asked.empty() || value.entries.empty()))
+      refuse_unknown(value, own);
+    for (std::size_t i = 0; i < value.elements.size(); ++i)
+      if (!value.elements[i].asked.empty())
+        refuse_unknown(value.elements[i], own + "[" + std::to_string(i + 1) + "]");
+  }
+}
+
+} // namespace
+
+void SceneTable::finish() const
+{
+  refuse_unknown(*node_, path_);
+}
+
+} // namespace gestell::apps

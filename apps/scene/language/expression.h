@@ -1,0 +1,55 @@
+#pragma once
+
+#include "apps/scene/language/quantity.h"
+#include "mechanism/functions/formula.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// What the parser reads: a value, or a formula of variables, in SI units, with what it measures.
+struct Expression
+{
+  mechanism::Formula formula;
+  Dimension          dimension{};
+  bool               checked = true; ///< as in Quantity
+  Counts             counts  = Counts::nothing;
+
+  Expression() = default;
+  Expression(const Quantity &q) : formula(q.value), dimension(q.dimension), checked(q.checked), counts(q.counts) {}
+  Expression(const mechanism::Formula &f, const Dimension &d, bool is_checked, Counts c)
+      : formula(f), dimension(d), checked(is_checked), counts(c)
+  {
+  }
+
+  bool is_value() const { return formula.is_constant(); }
+  bool is_zero() const { return is_value() && formula.constant() == 0.; }
+};
+
+// Arithmetic with dimensions.  It throws std::invalid_argument with what is wrong, "adds kg to m; ...", and leaves it
+// to the parser to say where.
+
+Expression added(const Expression &a, const Expression &b);
+Expression subtracted(const Expression &a, const Expression &b);
+Expression multiplied(const Expression &a, const Expression &b);
+Expression divided(const Expression &a, const Expression &b);
+Expression negated(const Expression &a);
+/// a per `minutes`, a number of turns of a shaft in a time.
+Expression shaft_turns(const Expression &a, const Expression &minutes);
+Expression raised(const Expression &a, const Expression &exponent);
+
+/// a - b, for a comparison of the two.
+Expression compared(const Expression &a, const Expression &b);
+Expression chosen(const Expression &argument, mechanism::Relation relation, const Expression &then,
+                  const Expression &otherwise);
+
+/// Value of the function; `name` is one of function_names() other than "if".
+Expression called(const std::string &name, const std::vector<Expression> &arguments);
+
+/// sin cos tan sqrt abs exp log min max tanh atan atan2 sign step if.
+const std::vector<std::string> &function_names();
+bool                            is_function(const std::string &name);
+
+} // namespace gestell::apps

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "apps/scene/language/expression.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A name that varies in a formula; the i-th of a list is variable(i).
+struct Variable
+{
+  std::string name, meaning; ///< "u", "displacement"
+  Dimension   dimension{};
+  Counts      counts = Counts::nothing;
+};
+
+/**
+ * Reads an expression by the grammar of parse_quantity(), which is this one without variables.
+ *
+ * @param variables   at most mechanism::Formula::max_variables.  Where an operand is expected a variable comes before a
+ *                    unit of the same name; a parameter of the same name makes its use an error.
+ * @param parameters  value of a name, `names` all of them.
+ * @param kind        what the expression must be of, for proposals in the place of an unknown unit; it is not checked.
+ * @throws std::invalid_argument with the text, what is wrong, and at which character.
+ */
+Expression parse_expression(const std::string &text, const std::vector<Variable> &variables,
+                            const NameLookup &parameters, const std::vector<std::string> &names,
+                            const Kind *kind = nullptr);
+
+/// The formula of an expression that must be of `kind`, as value_as() for values.
+mechanism::Formula formula_as(const Expression &expression, const Kind &kind, const std::string &text);
+
+} // namespace gestell::apps

@@ -1,0 +1,158 @@
+#include "apps/scene/read/names.h"
+
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+
+Names::Names(const std::vector<std::string> &interfaces, bool any_interface)
+    : interfaces_(interfaces), any_interface_(any_interface)
+{
+}
+
+const BodyRequest *Names::find_body(const std::string &name) const
+{
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto &body) { return body.name == name; });
+  return found == bodies_.end() ? nullptr : &*found;
+}
+
+void Names::set_carrier(const std::string &body, const std::string &carrier)
+{
+  for (BodyRequest &known : bodies_)
+    if (known.name == body)
+      known.carrier = carrier;
+}
+
+std::vector<std::string> Names::body_names() const
+{
+  std::vector<std::string> names;
+  for (const auto &body : bodies_)
+    names.push_back(body.name);
+  return names;
+}
+
+std::string Names::marker(const SceneTable &table, const std::string &key) const
+{
+  const std::string name = table.text(key);
+  if (name == "ground" || find_body(name))
+    return name;
+  auto valid = body_names();
+  valid.push_back("ground");
+  for (const auto &interface : interfaces_)
+    valid.push_back("frame." + interface);
+  if (std::find(valid.begin(), valid.end(), name) != valid.end() || (any_interface_ && name.rfind("frame.", 0) == 0))
+    return name;
+  if (const auto point = places_.find(name); point != places_.end())
+    throw table.error(key, "'" + name + "' is a place, but this acts on a whole body; name '" + point->second.marker +
+                               "', on which it lies");
+  const bool of_frame = name.rfind("frame.", 0) == 0;
+  throw table.error(key, of_frame ? "the frame has no interface '" + name.substr(6) + "'" +
+                                        (interfaces_.empty()
+                                             ? "; declare [frame.interface." + written_key(name.substr(6)) + "]"
+                                             : suggestion(name.substr(6), interfaces_))
+                                  : "there is no body '" + name + "'" + suggestion(name, valid));
+}
+
+std::string Names::marker(const SceneTable &table, const std::string &key, const std::string &fallback) const
+{
+  return table.has(key) ? marker(table, key) : fallback;
+}
+
+PlaceRequest Names::place(const SceneTable &table, const std::string &key, const std::string &at) const
+{
+  PlaceRequest      place;
+  const std::string name = table.text(key);
+  if (const auto named = places_.find(name); named != places_.end())
+    place = named->second;
+  else
+    place.marker = marker(table, key);
+  if (table.has(at))
+    place.at = table.vector(at, kind::length);
+  return place;
+}
+
+PlaceRequest Names::place(const SceneTable &table, const std::string &key, const std::string &at,
+                          const std::string &fallback) const
+{
+  if (table.has(key))
+    return place(table, key, at);
+  PlaceRequest place{fallback, {}};
+  if (table.has(at))
+    place.at = table.vector(at, kind::length);
+  return place;
+}
+
+const MeasureRequest *Names::find_measure(const std::string &name) const
+{
+  for (const MeasureRequest &measure : measures_)
+    if (measure.name == name)
+      return &measure;
+  return nullptr;
+}
+
+const MeasureRequest &Names::measure(const SceneTable &table, const std::string &key) const
+{
+  const std::string name = table.text(key);
+  if (const MeasureRequest *found = find_measure(name))
+    return *found;
+  std::vector<std::string> valid;
+  for (const MeasureRequest &measure : measures_)
+    valid.push_back(measure.name);
+  throw table.error(key,
+                    "there is no measure '" + name + "'" +
+                        (valid.empty() ? "; declare [measure." + written_key(name) + "]" : suggestion(name, valid)));
+}
+
+std::vector<Names::Coordinate> Names::coordinates(bool rates) const
+{
+  using coupling::BodyKind;
+  std::vector<Coordinate> coordinates;
+  for (const BodyRequest &body : bodies_)
+  {
+    if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
+      coordinates.push_back({body.name, body.kind == BodyKind::rotor});
+    else if (body.kind == BodyKind::point || body.kind == BodyKind::rigid)
+    {
+      for (const char axis : {'x', 'y', 'z'})
+        coordinates.push_back({body.name + ".u" + axis, false});
+      for (const char axis : {'x', 'y', 'z'})
+        if (body.kind == BodyKind::rigid) // a rotation as axis times angle, or the angular velocity
+          coordinates.push_back({body.name + (rates ? ".w" : ".r") + axis, true});
+    }
+    else
+    {
+      const auto names = coupling::planar_coordinates(body.name, body.axis);
+      for (int i = 0; i < 3; ++i)
+        coordinates.push_back({names[i], i == 2});
+    }
+  }
+  return coordinates;
+}
+
+const BodyRequest &Names::body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const
+{
+  const std::string  name  = table.text(key);
+  const std::string  words = kind == coupling::BodyKind::rotor ? "rotor" : "slider";
+  const BodyRequest *found = find_body(name);
+  if (found && found->kind == kind)
+    return *found;
+  std::vector<std::string> valid;
+  for (const auto &body : bodies_)
+    if (body.kind == kind)
+      valid.push_back(body.name);
+  throw table.error(key, found ? "'" + name + "' is no " + words + ", but one is needed here" + suggestion(name, valid)
+                               : "there is no " + words + " '" + name + "'" + suggestion(name, valid));
+}
+
+void check_thing_name(const SceneTable &table)
+{
+  const std::string name = table.name();
+  if (name.empty() || name.find('.') != std::string::npos || name[0] == '-')
+    throw table.error("a name must not be empty, contain dots or begin with '-': signals refer to it as NAME.quantity");
+  if (name == "frame" || name == "ground")
+    throw table.error("'" + name + "' has a meaning of its own; choose another name");
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/scene.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// The things of a scene that elements refer to by name, known before any frame is made.
+class Names
+{
+public:
+  /// @param interfaces  of the frame; any_interface: they are only known once a file is read.
+  Names(const std::vector<std::string> &interfaces, bool any_interface);
+
+  void add_body(const BodyRequest &body) { bodies_.push_back(body); }
+  void set_carrier(const std::string &body, const std::string &carrier);
+  void add_place(const std::string &name, const PlaceRequest &place) { places_[name] = place; }
+  void add_measure(const MeasureRequest &measure) { measures_.push_back(measure); }
+
+  /// Marker named by a key of `table`: "ground", a body, or "frame.crown".
+  std::string marker(const SceneTable &table, const std::string &key) const;
+  std::string marker(const SceneTable &table, const std::string &key, const std::string &fallback) const;
+  /// Point named by a key of `table`: a [place], or what marker() knows; `at` in the table tells the point.
+  PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at = "at") const;
+  PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at,
+                     const std::string &fallback) const;
+  /// Measure named by a key of `table`.
+  const MeasureRequest &measure(const SceneTable &table, const std::string &key) const;
+  const MeasureRequest *find_measure(const std::string &name) const; ///< null if there is none
+
+  /// A coordinate of a body that a start may give, or its rate: its name, and whether it is an angle.
+  struct Coordinate
+  {
+    std::string name;
+    bool        angle;
+  };
+  std::vector<Coordinate> coordinates(bool rates) const;
+
+  /// Body of that kind named by a key of `table`.
+  const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;
+
+  const BodyRequest              *find_body(const std::string &name) const; ///< null if there is none
+  std::vector<std::string>        body_names() const;
+  const std::vector<std::string> &interfaces() const { return interfaces_; }
+
+private:
+  std::vector<std::string>            interfaces_;
+  bool                                any_interface_;
+  std::vector<BodyRequest>            bodies_;
+  std::map<std::string, PlaceRequest> places_;
+  std::vector<MeasureRequest>         measures_;
+};
+
+/// Refuses names that cannot be referred to: empty, with dots, "frame", "ground".
+void check_thing_name(const SceneTable &table);
+
+} // namespace gestell::apps

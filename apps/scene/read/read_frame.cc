@@ -1,0 +1,60 @@
+#include "apps/scene/read/read_frame.h"
+
+#include <string>
+#include <utility>
+
+namespace gestell::apps
+{
+
+FrameRequest read_frame(const SceneTable &scene)
+{
+  FrameRequest request;
+  const auto   frame = scene.optional_table("frame");
+  if (!frame)
+    return request;
+  request.place = frame->place();
+
+  const bool cad      = frame->has("cad"),
+             matrices = (frame->has("mass") && !frame->is_table("mass")) || frame->has("stiffness"),
+             reduced  = frame->has("reduced");
+  if (cad + matrices + reduced != 1)
+  {
+    std::string given;
+    for (const auto &[is_given, key] :
+         {std::pair(cad, "'cad'"), std::pair(matrices, "'mass' or 'stiffness'"), std::pair(reduced, "'reduced'")})
+      if (is_given)
+        given += (given.empty() ? " and has " : " and ") + std::string(key);
+    throw frame->error(
+        "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices) and 'reduced' "
+        "(a reduced frame)" +
+        (given.empty() ? "; leave [frame] out for a machine without one" : given + "; keep one of them"));
+  }
+  if (cad)
+  {
+    request.source   = FrameSource::geometry;
+    request.geometry = read_frame_geometry(*frame, scene);
+  }
+  else if (matrices)
+  {
+    request.source   = FrameSource::matrices;
+    request.matrices = read_frame_matrices(*frame, request.has_translations);
+  }
+  else
+  {
+    request.source       = FrameSource::reduced_file;
+    request.reduced_file = frame->file("reduced");
+  }
+  return request;
+}
+
+std::vector<std::string> interface_names(const FrameRequest &frame)
+{
+  std::vector<std::string> names;
+  for (const auto &interface : frame.geometry.interfaces)
+    names.push_back(interface.name);
+  for (const auto &interface : frame.matrices.interfaces)
+    names.push_back(interface.name);
+  return names;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Reads [frame], and [material.NAME] for it.
+FrameRequest read_frame(const SceneTable &scene);
+
+/// [frame] of a frame made from CAD or a mesh.
+fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene);
+
+/// [frame] of a frame given by matrices; has_translations says whether `translations` were given or could be derived.
+fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations);
+
+std::vector<std::string> interface_names(const FrameRequest &frame);
+
+} // namespace gestell::apps

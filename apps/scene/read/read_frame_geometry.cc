@@ -1,0 +1,312 @@
+#include "apps/scene/read/names.h"
+#include "apps/scene/read/read_damping.h"
+#include "apps/scene/read/read_frame.h"
+#include "apps/scene/read/read_material.h"
+#include "apps/scene/read/read_tensor.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace gestell::apps
+{
+namespace
+{
+
+fem::SurfaceSelector read_surface(const SceneTable &table)
+{
+  fem::SurfaceSelector surface;
+  surface.place = table.place();
+  if (const auto cylinder = table.optional_table("cylinder"))
+    surface.cylinder =
+        fem::SurfaceSelector::Cylinder{cylinder->direction("axis"), cylinder->vector("through", kind::length),
+                                       cylinder->positive("radius", kind::length)};
+  if (const auto plane = table.optional_table("plane"))
+    surface.plane = fem::SurfaceSelector::Plane{plane->direction("normal"), plane->vector("through", kind::length)};
+  if (const auto box = table.optional_table("box"))
+  {
+    surface.box = fem::SurfaceSelector::Box{box->vector("min", kind::length), box->vector("max", kind::length)};
+    for (int i = 0; i < 3; ++i)
+      if (surface.box->min[i] > surface.box->max[i])
+        throw box->error("'min' lies above 'max' in direction " + std::string(1, "xyz"[i]));
+  }
+  if (table.has("group"))
+    surface.group = table.text("group");
+  if (!surface.cylinder && !surface.plane && !surface.box && !surface.group)
+    throw table.error("needs at least one of 'cylinder', 'plane', 'box', 'group' to select faces by");
+  if (table.has("tolerance"))
+    surface.tolerance = table.positive("tolerance", kind::length);
+  surface.faces = table.is_text("faces") ? (table.choice("faces", {"any"}, "any"), 0) : table.integer("faces", 1);
+  if (surface.faces < 1 && !table.is_text("faces"))
+    throw table.error("faces", "needs the number of faces expected, 1 or more, or \"any\"");
+  return surface;
+}
+
+/// Surfaces named by a support or an interface, under either key.
+std::vector<std::string> read_surface_names(const SceneTable &table, const fem::FrameSpecification &frame)
+{
+  if (table.has("surface") && table.has("surfaces"))
+    throw table.error("has both 'surface' and 'surfaces'; give one of them");
+  const std::string        key   = table.has("surface") ? "surface" : "surfaces";
+  const auto               names = table.texts(key);
+  std::vector<std::string> declared;
+  for (const auto &entry : frame.surfaces)
+    declared.push_back(entry.first);
+  std::set<std::string> seen;
+  for (const auto &name : names)
+  {
+    if (!frame.surfaces.count(name))
+      throw table.error(key, "there is no [frame.surface." + written_key(name) + "]" + suggestion(name, declared));
+    if (!seen.insert(name).second)
+      throw table.error(key, "names '" + name + "' twice");
+  }
+  return names;
+}
+
+/// A scalar for all directions, or [x, y, z]; zero if missing.
+fem::Vector3 per_direction(const SceneTable &table, const std::string &key, const Kind &kind)
+{
+  fem::Vector3 value{};
+  if (table.is_array(key))
+    value = table.vector(key, kind);
+  else if (table.has(key))
+    value.fill(table.number(key, kind));
+  for (const double x : value)
+    if (x < 0.)
+      throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
+  return value;
+}
+
+/// `key`, a total over the surface, or `key`_per_area.
+fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, const Kind &total, const Kind &per_area,
+                               bool &is_per_area)
+{
+  const std::string longer = key + "_per_area";
+  is_per_area              = table.has(longer);
+  if (is_per_area && table.has(key))
+    throw table.error(longer, "stands beside '" + key + "', the total over the surface; give one of them");
+  return is_per_area ? per_direction(table, longer, per_area) : per_direction(table, key, total);
+}
+
+fem::Support read_support(const SceneTable &table, const fem::FrameSpecification &frame)
+{
+  check_thing_name(table);
+  fem::Support support;
+  support.name          = table.name();
+  support.place         = table.place();
+  support.surfaces      = read_surface_names(table, frame);
+  const bool clamped    = table.boolean("clamped", false);
+  const auto foundation = table.optional_table("foundation");
+  const bool directions = table.has("directions");
+  if (clamped == foundation.has_value())
+    throw table.error("needs either 'clamped = true' or 'foundation = { stiffness = ..., damping = ... }'");
+  if (directions && !clamped)
+    throw table.error("directions", "belongs to a clamped support; a foundation takes stiffness = [x, y, z]");
+
+  support.kind = clamped ? fem::SupportKind::clamped : fem::SupportKind::foundation;
+  if (directions)
+  {
+    support.held = {false, false, false};
+    for (const auto &name : table.texts("directions"))
+      if (name == "x" || name == "y" || name == "z")
+        support.held[name[0] - 'x'] = true;
+      else
+        throw table.error("directions", "there is no direction '" + name + "'; valid: 'x', 'y', 'z'");
+  }
+  if (foundation)
+  {
+    support.stiffness =
+        total_or_per_area(*foundation, "stiffness", kind::stiffness, kind::bedding, support.per_area[0]);
+    support.damping =
+        total_or_per_area(*foundation, "damping", kind::damping, kind::damping_per_area, support.per_area[1]);
+    if (support.stiffness == fem::Vector3{} && support.damping == fem::Vector3{})
+      throw foundation->error("needs a stiffness such as \"420 kN/mm\", a damping, or both");
+    if (foundation->has("axes"))
+    {
+      const Eigen::Matrix3d axes = read_axes(*foundation, "axes");
+      for (int d = 0; d < 3; ++d)
+        support.axes[d] = {axes(0, d), axes(1, d), axes(2, d)};
+    }
+  }
+  return support;
+}
+
+fem::InterfaceSpecification read_interface(const SceneTable &table, const fem::FrameSpecification &frame)
+{
+  check_thing_name(table);
+  fem::InterfaceSpecification interface;
+  interface.name             = table.name();
+  interface.place            = table.place();
+  const std::string coupling = table.choice("coupling", {"rigid", "average", "point", "node"}, "rigid");
+  interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
+                               : coupling == "average" ? fem::InterfaceCoupling::average
+                               : coupling == "point"   ? fem::InterfaceCoupling::point
+                                                       : fem::InterfaceCoupling::node;
+  const bool point           = interface.coupling == fem::InterfaceCoupling::point;
+  const bool node            = interface.coupling == fem::InterfaceCoupling::node;
+  if (!node || table.has("surface") || table.has("surfaces"))
+    interface.surfaces = read_surface_names(table, frame);
+  if (point || node || table.has("position"))
+    interface.position = table.vector("position", kind::length);
+  if (table.has("radius") && !point)
+    throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
+  if (point)
+    interface.radius = table.not_negative("radius", kind::length, 0.);
+  return interface;
+}
+
+fem::CutSpecification read_cut(const SceneTable &table)
+{
+  check_thing_name(table);
+  const auto plane = table.table("plane");
+  return {table.name(), plane.vector("through", kind::length), plane.direction("normal"), table.place()};
+}
+
+/// '*' stands for any letters, '?' for one.
+bool matches(const std::string &pattern, const std::string &name, std::size_t p = 0, std::size_t n = 0)
+{
+  if (p == pattern.size())
+    return n == name.size();
+  if (pattern[p] == '*')
+    return matches(pattern, name, p + 1, n) || (n < name.size() && matches(pattern, name, p, n + 1));
+  return n < name.size() && (pattern[p] == '?' || pattern[p] == name[n]) && matches(pattern, name, p + 1, n + 1);
+}
+
+/// mesh = { size = "60 mm", "crown bearing *" = "30 mm" }: every other key is a pattern of surface names.
+fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecification &frame, bool is_mesh_file)
+{
+  fem::MeshOptions mesh;
+  mesh.place     = table.place();
+  mesh.size      = is_mesh_file ? table.positive("size", kind::length, 0.) : table.positive("size", kind::length);
+  mesh.max_cells = table.positive("max_cells", kind::number, mesh.max_cells);
+  mesh.gap       = table.not_negative("gap", kind::length, 0.);
+  mesh.bodies    = table.integer("bodies", 1);
+  mesh.defeature = table.not_negative("defeature", kind::length, 0.);
+  mesh.curved    = table.boolean("curved", false);
+  mesh.overlaps =
+      table.choice("overlaps", {"refused", "once"}, "refused") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  if (mesh.bodies < 1)
+    throw table.error("bodies", "needs the number of bodies expected, 1 or more");
+  const std::vector<std::string> own{"size", "max_cells", "gap", "bodies", "defeature", "overlaps", "curved"};
+  std::vector<std::string>       known = own;
+  for (const auto &entry : frame.surfaces)
+    known.push_back(entry.first);
+  for (const auto &key : table.keys())
+  {
+    if (std::find(own.begin(), own.end(), key) != own.end())
+      continue;
+    bool any = false;
+    for (const auto &entry : frame.surfaces)
+      if (matches(key, entry.first))
+        mesh.surface_size[entry.first] = table.positive(key, kind::length), any = true;
+    if (!any)
+      throw table.error(key, "is neither " + listed(own) + " nor the name of a surface" + suggestion(key, known));
+  }
+  return mesh;
+}
+
+/// A surface moves with one interface only, and an interface cannot move where the frame is clamped.
+void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &specification)
+{
+  std::map<std::string, std::string> owner;
+  for (const auto &interface : specification.interfaces)
+    for (const auto &surface : interface.surfaces)
+      if (interface.coupling == fem::InterfaceCoupling::point || interface.coupling == fem::InterfaceCoupling::node)
+        continue; // takes but a few nodes; that these are its own is checked on the mesh
+      else if (const auto [first, is_new] = owner.emplace(surface, "interface '" + interface.name + "'"); !is_new)
+        throw std::invalid_argument(interface.place + ": surface '" + surface + "' belongs to " + first->second +
+                                    " already; give each interface surfaces of its own");
+  for (const auto &mass : specification.masses)
+    for (const auto &surface : mass.surfaces)
+      if (const auto [first, is_new] = owner.emplace(surface, "mass '" + mass.name + "'"); !is_new)
+        throw std::invalid_argument(mass.place + ": surface '" + surface + "' belongs to " + first->second +
+                                    " already; put the mass on that interface, or give it surfaces of its own");
+  for (const auto &support : specification.supports)
+    if (support.kind == fem::SupportKind::clamped)
+      for (const auto &surface : support.surfaces)
+        if (owner.count(surface))
+          throw std::invalid_argument(support.place + ": surface '" + surface + "' is clamped, but belongs to " +
+                                      owner.at(surface) + ", which must be free to move");
+  if (specification.interfaces.empty())
+    throw frame.error("has no interface; declare at least one [frame.interface.NAME] for the mechanism to act on");
+}
+
+/// A motor or a counterweight, on an interface or on surfaces of its own.
+fem::AttachedMass read_mass(const SceneTable &table, const fem::FrameSpecification &frame)
+{
+  check_thing_name(table);
+  fem::AttachedMass mass;
+  mass.name  = table.name();
+  mass.place = table.place();
+  mass.mass  = table.positive("mass", kind::mass);
+  if (table.has("inertia"))
+    mass.inertia = read_tensor(table);
+  if (table.has("position"))
+    mass.centre = table.vector("position", kind::length);
+  const bool surfaces = table.has("surface") || table.has("surfaces");
+  if (surfaces == table.has("on"))
+    throw table.error("needs either 'on', the interface that carries it, or 'surfaces' it is fastened to");
+  if (surfaces)
+  {
+    mass.surfaces = read_surface_names(table, frame);
+    mass.coupling = table.choice("coupling", {"rigid", "average"}, "rigid") == "rigid"
+                        ? fem::InterfaceCoupling::rigid
+                        : fem::InterfaceCoupling::average;
+    return mass;
+  }
+  std::vector<std::string> known;
+  for (const auto &interface : frame.interfaces)
+    known.push_back(interface.name);
+  const std::string on = table.text("on");
+  mass.interface       = on.rfind("frame.", 0) == 0 ? on.substr(6) : on;
+  if (std::find(known.begin(), known.end(), mass.interface) == known.end())
+    throw table.error("on", "there is no [frame.interface." + written_key(mass.interface) + "]" +
+                                suggestion(mass.interface, known));
+  return mass;
+}
+
+} // namespace
+
+fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene)
+{
+  fem::FrameSpecification specification;
+  specification.place = frame.place();
+  specification.cad   = frame.file("cad");
+
+  auto ending = std::filesystem::path(specification.cad).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh", ".inp"};
+  if (std::find(endings.begin(), endings.end(), ending) == endings.end())
+    throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
+  specification.unit      = frame.positive("unit", kind::length, 0.);
+  specification.material  = read_material(frame, scene);
+  specification.materials = read_solid_materials(frame, scene);
+  if (const auto table = frame.optional_table("damping"))
+  {
+    const FrameDamping damping        = read_damping(*table);
+    specification.modal_damping_ratio = damping.ratios;
+    specification.rayleigh_mass       = damping.alpha;
+    specification.rayleigh_stiffness  = damping.beta;
+  }
+
+  for (const auto &table : frame.tables("surface"))
+    specification.surfaces[table.name()] = read_surface(table);
+  for (const auto &table : frame.tables("support"))
+    specification.supports.push_back(read_support(table, specification));
+  for (const auto &table : frame.tables("interface"))
+    specification.interfaces.push_back(read_interface(table, specification));
+  for (const auto &table : frame.tables("mass"))
+    specification.masses.push_back(read_mass(table, specification));
+  for (const auto &table : frame.tables("cut"))
+    specification.cuts.push_back(read_cut(table));
+  check_overlaps(frame, specification);
+  const bool is_mesh = ending == ".msh" || ending == ".inp";
+  specification.mesh =
+      is_mesh && !frame.has("mesh") ? fem::MeshOptions{} : read_mesh(frame.table("mesh"), specification, is_mesh);
+  return specification;
+}
+
+} // namespace gestell::apps

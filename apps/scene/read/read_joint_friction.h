@@ -1,0 +1,14 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/scene.h"
+
+#include <memory>
+
+namespace gestell::apps
+{
+
+/// `friction` of the joints that slide along a surface; null without it.
+std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable &table, JointType type);
+
+} // namespace gestell::apps

@@ -1,0 +1,169 @@
+#include "apps/scene/read/read_material.h"
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// What solids have, and the units a number outside is usually meant in.
+struct Plausible
+{
+  const char *unit;
+  double      least, most; ///< beyond these no solid is
+  double      low, high;   ///< beyond these hardly any structure is
+  const char *below, *above;
+  struct OtherUnit
+  {
+    const char *name;
+    double      factor;
+  };
+  std::vector<OtherUnit> others;
+};
+
+const Plausible &plausible_density()
+{
+  static const Plausible density{"kg/m^3",
+                                 1.,
+                                 30000.,
+                                 50.,
+                                 23000.,
+                                 "lighter than any solid",
+                                 "heavier than any solid",
+                                 {{"t/mm^3", 1e12}, {"kg/mm^3", 1e9}, {"g/cm^3", 1e3}}};
+  return density;
+}
+
+const Plausible &plausible_modulus()
+{
+  static const Plausible modulus{
+      "Pa", 1e6, 2e12, 1e8, 1.2e12, "softer than rubber", "stiffer than diamond", {{"GPa", 1e9}, {"MPa", 1e6}}};
+  return modulus;
+}
+
+/// The unit in which the number is that of a common structural material.
+std::string likely_unit(const Plausible &range, double value, double common_low, double common_high)
+{
+  for (const auto &[name, factor] : range.others)
+    if (factor * value >= common_low && factor * value <= common_high)
+    {
+      std::ostringstream text;
+      text << "; if " << value << " " << name << " was meant, write it with its unit or as " << factor * value << " "
+           << range.unit;
+      return text.str();
+    }
+  return {};
+}
+
+/// What speaks against a value; empty if nothing does.
+std::string suspicion(const Plausible &range, double value, double common_low, double common_high)
+{
+  if (value >= range.low && value <= range.high)
+    return {};
+  std::ostringstream text;
+  text << "is " << value << " " << range.unit << ", " << (value < range.low ? range.below : range.above)
+       << likely_unit(range, value, common_low, common_high);
+  return text.str();
+}
+
+/// Plain numbers no solid has, or hardly any and a common one in another unit, are refused as a mistaken unit; with a
+/// unit beside them they are meant, and only warned of.
+void check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
+                     double common_low, double common_high)
+{
+  const std::string text = suspicion(range, value, common_low, common_high);
+  if (text.empty())
+    return;
+  const bool mistaken =
+      value < range.least || value > range.most || !likely_unit(range, value, common_low, common_high).empty();
+  if (mistaken && !table.is_text(key))
+    throw table.error(key, text + "; numbers without unit are SI");
+  table.warn(key, text);
+}
+
+constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
+
+fem::Material material_from(const SceneTable &table)
+{
+  fem::Material material;
+  material.E     = table.positive("E", kind::pressure);
+  material.nu    = table.number("nu", kind::number);
+  material.rho   = table.positive("rho", kind::density);
+  material.place = table.place();
+  if (material.nu <= -1. || material.nu >= 0.5)
+    throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
+  check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
+  check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common);
+  return material;
+}
+
+std::map<std::string, fem::Material> known_materials(const SceneTable &scene)
+{
+  // Handbook values at room temperature; own materials may redefine them.
+  std::map<std::string, fem::Material> known = {{"steel", {210e9, 0.3, 7850., ""}},
+                                                {"cast iron", {110e9, 0.26, 7200., ""}},
+                                                {"aluminium", {70e9, 0.33, 2700., ""}}};
+  for (const auto &own : scene.tables("material"))
+    known[own.name()] = material_from(own);
+  for (auto &[name, material] : known)
+    material.name = name;
+  return known;
+}
+
+} // namespace
+
+fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key,
+                            const std::string &fallback)
+{
+  const auto known = known_materials(scene);
+  if (table.is_table(key))
+  {
+    fem::Material material = material_from(table.table(key));
+    material.name          = "own";
+    return material;
+  }
+  std::vector<std::string> names;
+  for (const auto &entry : known)
+    names.push_back(entry.first);
+  fem::Material material = known.at(table.choice(key, names, fallback));
+  material.place         = table.place(key);
+  return material;
+}
+
+double read_plausible_density(const SceneTable &table)
+{
+  const double density = table.positive("density", kind::density);
+  check_plausible(table, "density", plausible_density(), density, lightest_common, heaviest_common);
+  return density;
+}
+
+std::string suspect_density(double density)
+{
+  return suspicion(plausible_density(), density, lightest_common, heaviest_common);
+}
+
+void warn_of_density(const SceneTable &table, double mass, double volume)
+{
+  const std::string text = suspicion(plausible_density(), mass / volume, 0., 0.);
+  if (text.empty())
+    return;
+  std::ostringstream whole;
+  whole << "spread evenly over the " << volume << " m^3 of its shape, its density " << text
+        << ": is the mass in kg, and the unit of its `cad` right?";
+  table.warn("mass", whole.str());
+}
+
+std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,
+                                                                        const SceneTable &scene)
+{
+  std::vector<std::pair<std::string, fem::Material>> materials;
+  if (const auto table = frame.optional_table("materials"))
+    for (const std::string &solid : table->keys())
+      materials.emplace_back(solid, read_material(*table, scene, solid, ""));
+  return materials;
+}
+
+} // namespace gestell::apps

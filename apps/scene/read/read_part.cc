@@ -1,0 +1,184 @@
+#include "apps/scene/read/read_part.h"
+
+#include "apps/scene/read/read_material.h"
+#include "coupling/plugin/frame_service_loader.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double seen_eccentricity = 1e-3; // of a rotor, by its radius of gyration
+
+Vector3d vector(const Vector3 &x)
+{
+  return Vector3d(x.data());
+}
+
+/// Where the file's coordinates lie in the scene: x = origin + R x_file.
+struct Placement
+{
+  Vector3d origin = Vector3d::Zero();
+  Matrix3d R      = Matrix3d::Identity();
+};
+
+Placement read_placement(const SceneTable &table)
+{
+  Placement  placement;
+  const auto inner = table.optional_table("placement");
+  if (!inner)
+    return placement;
+  placement.origin = vector(inner->vector("origin", kind::length, {}));
+  if (inner->has("axis") != inner->has("angle"))
+    throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
+                       "the part is turned by `angle` about `axis` through the file's origin; give both");
+  if (inner->has("axis"))
+    placement.R = Eigen::AngleAxisd(inner->number("angle", kind::angle), vector(inner->direction("axis"))).matrix();
+  return placement;
+}
+
+void place(fem::Part &part, const Placement &placement)
+{
+  const auto moved = [&](const Vector3d &x) -> Vector3d { return placement.origin + placement.R * x; };
+  part.centre      = moved(part.centre);
+  part.inertia     = placement.R * part.inertia * placement.R.transpose();
+  for (auto &x : part.points)
+  {
+    const Vector3d there = moved(vector(x));
+    x                    = {there[0], there[1], there[2]};
+  }
+}
+
+/// Refuses what the file tells already; what it does not tell, the density, must be given once.
+void check_keys(const SceneTable &table, coupling::BodyKind kind)
+{
+  const auto refuse = [&](const std::string &key, const std::string &why)
+  {
+    if (table.has(key))
+      throw table.error(key, why);
+  };
+  refuse("inertia", "follows from the shape in `cad`; leave out one of them");
+  refuse("principal_axes", "follow from the shape in `cad`; leave them out");
+  for (const std::string key : {"radius", "size"})
+    refuse(key, "is not needed: the body is drawn as its `cad` shows it; leave it out");
+  const int densities = table.has("material") + table.has("density") + table.has("mass");
+  if (densities != 1)
+    throw table.error(
+        densities == 0 ? "has a shape in `cad` and no density; give one of 'material' (such as \"steel\"), 'density' "
+                         "and 'mass', which is spread evenly"
+                       : "has more than one of 'material', 'density' and 'mass', each of which tells the density of "
+                         "the shape in `cad`; leave one of them");
+  if (kind != coupling::BodyKind::rotor)
+    refuse("position", "is the centre of mass of the shape in `cad`; move the part by "
+                       "placement = { origin = [x, y, z] }, or leave it out");
+}
+
+double read_density(const SceneTable &table, const SceneTable &scene, double volume)
+{
+  if (!table.has("mass"))
+    return table.has("density") ? read_plausible_density(table) : read_material(table, scene).rho;
+  const double mass = table.positive("mass", kind::mass);
+  warn_of_density(table, mass, volume);
+  return mass / volume;
+}
+
+std::string triple(const Vector3d &x)
+{
+  std::ostringstream text;
+  text.precision(6);
+  text << '[' << x[0] << ", " << x[1] << ", " << x[2] << ']';
+  return text.str();
+}
+
+/// Zeros that are only rounding are said to be zero.
+Vector3d clean(const Vector3d &x, double scale)
+{
+  return x.unaryExpr([&](double value) { return std::abs(value) > 1e-9 * scale ? value : 0.; });
+}
+
+std::string found(const BodyRequest &body, const PartRequest &part, const std::string &file)
+{
+  const fem::Part   &shape = part.shape;
+  const std::size_t  n     = shape.solids.size();
+  std::ostringstream text;
+  text.precision(6);
+  text << body.name << " from " << file << (n > 1 ? ", the sum of " + std::to_string(n) + " solids" : "") << ": "
+       << body.mass << " kg (" << part.density << " kg/m^3), centre of mass "
+       << triple(clean(shape.centre, std::cbrt(shape.volume))) << " m";
+  if (body.kind == coupling::BodyKind::rotor)
+    text << ", " << body.inertia << " kg m^2 about its axis";
+  if (body.kind == coupling::BodyKind::planar)
+    text << ", " << body.inertia << " kg m^2 about its normal";
+  if (body.kind == coupling::BodyKind::rigid)
+  {
+    const Matrix3d &J = body.tensor;
+    text << ", moments of inertia " << triple(J.diagonal()) << " kg m^2, products Jxy, Jxz, Jyz "
+         << triple(clean({J(0, 1), J(0, 2), J(1, 2)}, J.trace())) << " kg m^2";
+  }
+  return text.str();
+}
+
+/// What reads CAD; a build without finite elements has none.
+coupling::FrameService &service(const SceneTable &table)
+{
+  try
+  {
+    return coupling::frame_service();
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw table.error("cad", e.what());
+  }
+}
+
+/// J about the axis through x: that about the centre of mass and m e^2.
+void read_rotor(const SceneTable &table, BodyRequest &body)
+{
+  const Vector3d centre = vector(body.position), axis = vector(body.axis);
+  body.position             = table.vector("position", kind::length, body.position);
+  const double eccentricity = axis.cross(centre - vector(body.position)).norm();
+  body.inertia += body.mass * eccentricity * eccentricity;
+  if (eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))
+    return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the centre of mass lies " << 1e3 * eccentricity
+       << " mm beside the axis; a rotor is balanced all the same. Make it a planar or rigid body if its unbalance "
+          "matters";
+  table.warn("cad", text.str());
+}
+
+} // namespace
+
+void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts)
+{
+  const std::string file = table.file("cad");
+  check_keys(table, body.kind);
+  const Placement placement = read_placement(table);
+  auto            part      = std::make_shared<PartRequest>();
+  part->shape = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place(), scripts});
+  place(part->shape, placement);
+  part->density = read_density(table, scene, part->shape.volume);
+
+  const Vector3d axis = vector(body.axis);
+  body.mass           = part->density * part->shape.volume;
+  body.tensor         = part->density * part->shape.inertia;
+  body.inertia        = axis.dot(body.tensor * axis);
+  std::copy_n(part->shape.centre.data(), 3, body.position.begin());
+  if (body.kind == coupling::BodyKind::rotor)
+    read_rotor(table, body);
+  part->found = found(body, *part, std::filesystem::path(file).filename().string());
+  body.part   = part;
+}
+
+} // namespace gestell::apps

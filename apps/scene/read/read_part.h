@@ -1,0 +1,19 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/scene.h"
+
+namespace gestell::apps
+{
+
+/**
+ * Mass, inertia and position of a body from the CAD file or mesh that its table names: `cad`, `unit`, `placement`, and
+ * one of `material`, `density` and `mass`.  Of a rotor the inertia is about its axis through `position`, by default
+ * through the centre of mass.
+ *
+ * @param scene  with the [material.NAME]
+ * @param body   with its kind and axis
+ */
+void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts);
+
+} // namespace gestell::apps

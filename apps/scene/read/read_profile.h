@@ -1,0 +1,36 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+#include "mechanism/functions/commanded_profile.h"
+
+namespace gestell::apps
+{
+
+/// How a profile is written: the kinds of its level and of its limits, and what these are called.
+struct ProfileKeys
+{
+  Kind        level;
+  Kind        rate, rate_of_rate;
+  std::string rate_key = "rate", rate_of_rate_key = "rate_of_rate"; ///< of a speed "acceleration" and "jerk"
+};
+
+ProfileKeys speed_profile();                                       ///< of a rotor: rad/s
+ProfileKeys path_profile();                                        ///< of a motion along a path: m/s
+ProfileKeys level_profile(const Kind &level, const std::string &); ///< `rate` and `rate_of_rate` of anything else
+
+/**
+ * Reads the ramps [{ at = "1 s", to = "1500 1/min", acceleration = "200 rad/s^2", jerk = "1000 rad/s^3" }] of `key`; a
+ * level alone, speed = "1500 1/min", is constant.
+ *
+ * @param from  level before the first ramp
+ */
+mechanism::Profile read_profile(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
+
+/// As read_profile(); with `waits` the course stays at the level `from` until the order "start".
+mechanism::Course read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
+
+/// As read_course(); besides a formula of the time t, or a table { function = ... } or { table = ... } of it.
+mechanism::Course read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                   double from);
+
+} // namespace gestell::apps

@@ -1,0 +1,217 @@
+#include "apps/scene/read/node_interfaces.h"
+#include "apps/scene/read/read_bodies.h"
+#include "apps/scene/read/read_frame.h"
+#include "apps/scene/read/read_joints.h"
+#include "apps/scene/read/read_run.h"
+#include "apps/scene/read/read_share.h"
+#include "apps/scene/read/read_switches.h"
+#include "apps/scene/scene.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
+{
+  const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
+  ReductionRequest request;
+  request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
+  request.options.place = scene.place();
+  const auto table      = scene.optional_table("reduction");
+  if (!table)
+    return request;
+  if (!reducible)
+    throw table->error("there is no frame to reduce; [frame] must give 'cad' or matrices");
+
+  request.options.place     = table->place();
+  request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
+                                  ? ReductionMethod::none
+                                  : ReductionMethod::craig_bampton;
+  request.options.tolerance = read_share(*table, "tolerance", request.options.tolerance);
+  if (table->has("modes"))
+  {
+    request.options.n_modes = table->integer("modes", 0);
+    if (request.options.n_modes < 0)
+      throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
+  }
+  request.options.frequency = table->positive("frequency", kind::frequency, 0.);
+  request.options.inner =
+      table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "fixed-interface"
+          ? coupling::InnerModes::interface_held
+          : coupling::InnerModes::interface_free;
+  request.options.inertia_relief = table->boolean("inertia_relief", false);
+  return request;
+}
+
+/// Value of a table { crank = "160 deg", "frame.crown.uz" = "-0.6 mm" } whose keys are coordinates.
+std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, bool rates, bool rotors_only,
+                                         bool measures)
+{
+  std::vector<NamedValue> values;
+  for (const auto &name : table.keys())
+  {
+    const bool               frame = !rotors_only && name.rfind("frame.", 0) == 0;
+    std::vector<std::string> valid;
+    bool                     angle = name.size() > 2 && name[name.size() - 2] == 'r'; // frame.crown.rx
+    for (const auto &coordinate : names.coordinates(rates))
+    {
+      const auto *body = names.find_body(coordinate.name);
+      if (rotors_only && !(body && body->kind == coupling::BodyKind::rotor))
+        continue;
+      valid.push_back(coordinate.name);
+      if (coordinate.name == name)
+        angle = coordinate.angle;
+    }
+    const MeasureRequest *measure = rotors_only || !measures ? nullptr : names.find_measure(name);
+    if (measure)
+    {
+      valid.push_back(name);
+      angle = measure->unit == "rad";
+    }
+    if (!rotors_only)
+      for (const auto &interface : names.interfaces())
+        for (const std::string motion : {"ux", "uy", "uz", "rx", "ry", "rz"})
+          valid.push_back("frame." + interface + "." + motion);
+    if (!frame && std::find(valid.begin(), valid.end(), name) == valid.end())
+      throw table.error(name, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
+                                  suggestion(name, valid));
+    if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
+      throw table.error(name, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+    const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
+    values.push_back({name, table.number(name, kind), table.place(name), measure != nullptr});
+  }
+  return values;
+}
+
+std::vector<NamedValue> read_optional_coordinates(const SceneTable &table, const std::string &key, const Names &names,
+                                                  bool rates, bool rotors_only, bool measures = false)
+{
+  const auto inner = table.optional_table(key);
+  return inner ? read_coordinates(*inner, names, rates, rotors_only, measures) : std::vector<NamedValue>{};
+}
+
+StartRequest read_start(const SceneTable &scene, const Names &names)
+{
+  StartRequest start;
+  start.place      = scene.place();
+  const auto table = scene.optional_table("start");
+  if (!table)
+    return start;
+  start.place            = table->place();
+  const std::string rule = table->choice("rule", {"given", "static", "steady"}, "given");
+  start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
+  const bool rotors      = table->has("angles") || table->has("speeds") || table->has("driver");
+  if (start.rule != StartRule::steady || !rotors)
+  {
+    if (start.rule == StartRule::rest)
+    {
+      start.drift          = table->boolean("drift", false);
+      start.inertia_relief = table->boolean("inertia_relief", false);
+    }
+    start.q = read_optional_coordinates(*table, "q", names, false, false, true);
+    start.v = read_optional_coordinates(*table, "v", names, true, false, true);
+    return start;
+  }
+  for (const auto &angle : read_optional_coordinates(*table, "angles", names, false, true))
+    start.steady.angles.emplace_back(angle.name, angle.value);
+  for (const auto &speed : read_optional_coordinates(*table, "speeds", names, true, true))
+    start.steady.speeds.emplace_back(speed.name, speed.value);
+  if (table->has("driver"))
+    start.steady.driver = names.body(*table, "driver", coupling::BodyKind::rotor).name;
+  if (start.steady.angles.size() != (start.steady.driver.empty() ? 0u : 1u))
+    throw table->error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
+                       (start.steady.driver.empty() ? "no driver" : "a driver") +
+                       "; a given angle replaces the balance of the driver, so give one of both, or none");
+  return start;
+}
+
+ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene &result)
+{
+  ModesRequest modes;
+  const auto   table = scene.optional_table("modes");
+  if (!table)
+    return modes;
+  modes.at     = read_optional_coordinates(*table, "at", names, false, false, true);
+  modes.number = table->integer("number", modes.number);
+  if (modes.number < 1)
+    throw table->error("number", "needs a number of modes of 1 or more");
+  if (table->has("open"))
+    modes.open = table->texts("open");
+  std::vector<std::string> elements;
+  for (const auto &element : result.elements)
+    elements.push_back(element.name);
+  for (const auto &name : modes.open)
+    if (std::find(elements.begin(), elements.end(), name) == elements.end())
+      throw table->error("open", "there is no nonlinear element '" + name + "' that could be open" +
+                                     suggestion(name, elements));
+  return modes;
+}
+
+constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
+
+void check_gravity(const SceneTable &table, const Scene &scene)
+{
+  const auto  &g      = scene.gravity;
+  const double amount = std::hypot(g[0], g[1], g[2]);
+  if (amount > strong_gravity)
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << "is " << amount << " m/s^2, " << amount / 9.81
+         << " times that of the earth; numbers without a unit are in m/s^2, others are written as \"-9810 mm/s^2\"";
+    table.warn("gravity", text.str());
+  }
+  if (scene.frame.source == FrameSource::matrices && !scene.frame.has_translations &&
+      (g[0] != 0. || g[1] != 0. || g[2] != 0.))
+    throw std::invalid_argument(
+        scene.frame.place +
+        ": gravity acts on every row of the frame, but not every row belongs to an "
+        "interface; give 'translations', the n x 3 matrix of q under a unit translation in x, y, z");
+}
+
+} // namespace
+
+Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts)
+{
+  const SceneNode  root = read_scene_file(path, overrides);
+  const Parameters parameters(root.find("parameters"));
+  const SceneTable table(root, parameters, "");
+  table.has("parameters");
+  table.has("extends"); // of the file itself, followed while reading it
+
+  Scene scene;
+  scene.file        = path;
+  scene.name        = table.text("name", std::filesystem::path(path).stem().string());
+  scene.description = table.text("description", "");
+  if (scene.name.find('/') != std::string::npos || scene.name == "." || scene.name == "..")
+    throw table.error("name", "must not contain '/': it names the folder of the results");
+  scene.gravity                = table.vector("gravity", kind::acceleration, {});
+  scene.frame                  = read_frame(table);
+  scene.frame.geometry.scripts = scripts;
+  scene.reduction              = read_reduction(table, scene.frame);
+  check_gravity(table, scene);
+
+  Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);
+  scene.bodies = read_bodies(table, names, scripts);
+  read_places(table, names, scene);
+  read_elements(table, names, scene);
+  read_joints(table, names, scene);
+  read_switches(table, scene);
+  scene.run   = read_run(table);
+  scene.start = read_start(table, names);
+  scene.modes = read_modes(table, names, scene);
+  read_output(table, scene);
+  table.finish();
+  refuse_rotations_of_nodes(scene);
+  scene.warnings = table.warnings();
+  return scene;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,290 @@
+#include "apps/scene/read/read_switches.h"
+
+#include "apps/scene/read/names.h"
+#include "apps/scene/read/read_profile.h"
+#include "fem/values/nearest_name.h"
+#include "mechanism/elements/profile_force.h"
+#include "mechanism/elements/spring_damper.h"
+#include "mechanism/switched_element.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using mechanism::Formula;
+using mechanism::SwitchedElement;
+
+coupling::MeasureKind kind_of(const std::string &force_unit)
+{
+  return force_unit == "N m" ? coupling::MeasureKind::angle : coupling::MeasureKind::displacement;
+}
+
+ElementRequest element_of(const LinearRequest &spring)
+{
+  const mechanism::SpringDamper::Parameters parameters{spring.stiffness, spring.damping, spring.preload, spring.rest};
+  ElementRequest element{spring.name, std::make_shared<mechanism::SpringDamper>(parameters), {spring.u}, "", {}};
+  element.kind = kind_of(spring.force_unit);
+  return element;
+}
+
+/// Takes what has this name out of the linear base system, where nothing can be switched, and makes it an element.
+template <typename Requests>
+void take_out(const std::string &name, Requests &requests, Scene &scene)
+{
+  const auto found =
+      std::find_if(requests.begin(), requests.end(), [&](const auto &request) { return request.name == name; });
+  if (found == requests.end())
+    return;
+  scene.elements.push_back(element_of(*found));
+  requests.erase(found);
+}
+
+/// An element of the scene may be made of several, which are called NAME.front, NAME.rear.
+std::vector<ElementRequest *> elements_called(const std::string &name, Scene &scene)
+{
+  take_out(name, scene.linear, scene);
+  take_out(name, scene.loads, scene);
+  std::vector<ElementRequest *> found;
+  for (ElementRequest &element : scene.elements)
+    if (element.name == name || element.name.rfind(name + ".", 0) == 0)
+      found.push_back(&element);
+  return found;
+}
+
+bool can_be_switched(const ElementRequest &element)
+{
+  return dynamic_cast<const SwitchedElement *>(element.element.get()) != nullptr;
+}
+
+void make_switched(const SceneTable &table, const std::string &key, ElementRequest &element,
+                   SwitchedElement::Begin begin)
+{
+  if (can_be_switched(element))
+    return;
+  if (element.fixed)
+    throw table.error(key, "'" + element.name +
+                               "' cannot be switched off: what it is filled with would stay in it; tell it \"set\" or "
+                               "\"hold\"");
+  element.element = std::make_shared<SwitchedElement>(element.element, begin);
+}
+
+/// How the levels of a joint's motion are written; null if it has none.
+std::shared_ptr<const ProfileKeys> levels_of(const JointRequest &joint)
+{
+  if (!joint.law)
+    return nullptr;
+  return std::make_shared<ProfileKeys>(joint.measure.unit == "rad" ? speed_profile() : path_profile());
+}
+
+/// Only what the element knows, so that the keys of other orders are not asked for.
+void check_known(const SceneTable &table, const ElementRequest &element, const std::string &order)
+{
+  const auto known = element.element->commands();
+  if (std::find(known.begin(), known.end(), order) == known.end())
+    throw table.error("order", "'" + element.name + "' knows no order '" + order + "'; it obeys " + listed(known));
+}
+
+/// What cannot obey, and why.
+void refuse_unmoved(const SceneTable &table, const std::string &name, const std::string &order, const Scene &scene)
+{
+  for (const PointMassRequest &mass : scene.point_masses)
+    if (mass.name == name)
+      throw table.error("tell", "'" + name + "' is a mass, which cannot be switched");
+  for (const JointRequest &joint : scene.joints)
+    if (joint.name == name && (order == "on" || order == "off"))
+      throw table.error("order", "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
+                                     " joint, which always holds; where it shall let go, use a \"clutch\" or a "
+                                     "\"spring-damper\" instead");
+}
+
+/// What has no element of its name is a joint whose motion obeys orders.
+void check_joint(const SceneTable &table, const std::string &name, const std::string &order, const Scene &scene)
+{
+  std::vector<std::string> obeying;
+  const auto knows = [&](const auto &known) { return std::find(known.begin(), known.end(), order) != known.end(); };
+  for (const JointRequest &joint : scene.joints)
+  {
+    if (joint.name == name && !joint.law)
+      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which obeys no orders");
+    if (joint.name == name && !knows(joint.law->commands()))
+      throw table.error("order", "the motion of '" + name + "' knows no order '" + order +
+                                     (joint.law->commands().empty() ? "'; it obeys none, only motions at a 'speed' do"
+                                                                    : "'; it obeys " + listed(joint.law->commands())));
+    if (joint.name == name)
+      return;
+    if (joint.law && knows(joint.law->commands()))
+      obeying.push_back(joint.name);
+  }
+  const bool switching = order == "on" || order == "off";
+  for (const ElementRequest &element : scene.elements)
+    if (switching ? !element.fixed : knows(element.element->commands()))
+      obeying.push_back(element.name);
+  for (const LoadRequest &load : scene.loads)
+    if (switching || knows(mechanism::Course::commands()))
+      obeying.push_back(load.name);
+  for (const LinearRequest &spring : scene.linear)
+    if (switching)
+      obeying.push_back(spring.name);
+  throw table.error("tell",
+                    "there is no element or joint '" + name + "'" +
+                        (obeying.empty() ? ", and nothing that obeys '" + order + "'" : suggestion(name, obeying)));
+}
+
+std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)
+{
+  std::vector<coupling::SwitchOrder> orders;
+  mechanism::Order                   order;
+  order.name = table.text("order");
+  for (const std::string &name : table.texts("tell"))
+  {
+    refuse_unmoved(table, name, order.name, scene);
+    const auto elements = elements_called(name, scene);
+    for (ElementRequest *element : elements)
+    {
+      if (order.name == "on" || order.name == "off" || !element->fixed)
+        make_switched(table, "order", *element, SwitchedElement::Begin::on);
+      check_known(table, *element, order.name);
+    }
+    std::shared_ptr<const ProfileKeys> levels = elements.empty() ? nullptr : elements.front()->levels;
+    for (const JointRequest &joint : scene.joints)
+      if (joint.name == name)
+        levels = levels_of(joint);
+    if (levels && (order.name == "set" || order.name == "brake"))
+    {
+      if (order.name == "set")
+        order.level = table.number("to", levels->level);
+      order.rate         = table.positive(levels->rate_key, levels->rate, order.rate);
+      order.rate_of_rate = table.positive(levels->rate_of_rate_key, levels->rate_of_rate, order.rate_of_rate);
+    }
+    for (const ElementRequest *element : elements)
+      orders.push_back({element->name, order});
+    if (elements.empty())
+    {
+      check_joint(table, name, order.name, scene);
+      orders.push_back({name, order});
+    }
+  }
+  return orders;
+}
+
+/// The value, and the way on which the signal comes to it.
+void read_crossing(const SceneTable &table, SwitchRequest &own)
+{
+  using coupling::SwitchCrossing;
+  const std::pair<std::string, SwitchCrossing> ways[] = {
+      {"above", SwitchCrossing::rising}, {"below", SwitchCrossing::falling}, {"crosses", SwitchCrossing::either}};
+  std::string given;
+  for (const auto &[key, crossing] : ways)
+    if (table.has(key))
+    {
+      if (!given.empty())
+        throw table.error(key, "stands beside '" + given +
+                                   "', but a switch has one value: give 'above' where the signal shall rise over it, "
+                                   "'below' where it shall fall under it, or 'crosses' for both ways; two values need "
+                                   "two switches");
+      given                = key;
+      own.request.crossing = crossing;
+    }
+  if (given.empty())
+    throw table.error("needs 'above', 'below' or 'crosses', the value at which it is thrown");
+  own.level         = table.quantity(given);
+  own.request.level = own.level.value;
+}
+
+SwitchRequest read_switch(const SceneTable &table, Scene &scene)
+{
+  SwitchRequest own;
+  own.place          = table.place();
+  own.request.name   = table.name();
+  own.request.signal = table.text("when");
+  read_crossing(table, own);
+  own.request.delay  = table.not_negative("delay", kind::time, 0.);
+  own.request.after  = table.text("after", "");
+  own.request.repeat = table.boolean("repeat", false);
+  if (own.request.repeat && own.request.signal == "t")
+    throw table.error("repeat", "the time passes its value only once; leave it out");
+  if (table.has("hysteresis"))
+  {
+    own.hysteresis         = table.quantity("hysteresis");
+    own.request.hysteresis = own.hysteresis->value;
+    if (!own.request.repeat)
+      throw table.error("hysteresis",
+                        "is how far the signal comes back before the switch is thrown again; it goes with "
+                        "repeat = true");
+    if (own.request.hysteresis < 0.)
+      throw table.error("hysteresis", "needs a value of zero or more");
+  }
+  if (table.has("orders") && (table.has("tell") || table.has("order")))
+    throw table.error("orders", "says the same as 'tell' and 'order'; give one of them");
+  if (!table.has("orders"))
+    own.request.orders = read_order(table, scene);
+  for (const auto &part : table.table_array("orders"))
+    for (const auto &order : read_order(part, scene))
+      own.request.orders.push_back(order);
+  if (own.request.orders.empty())
+    throw table.error("orders", "is empty; give orders such as [{ tell = \"motor\", order = \"off\" }]");
+  return own;
+}
+
+/// Each switch waits for one that there is, and not, by way of others, for itself.
+void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &switches)
+{
+  std::vector<std::string> names;
+  for (const SwitchRequest &own : switches)
+    names.push_back(own.request.name);
+  std::string name = table.name();
+  for (std::size_t passed = 0; passed <= switches.size(); ++passed)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw table.error("after", "there is no switch '" + name + "'" + suggestion(name, names));
+    name = switches[found - names.begin()].request.after;
+    if (name.empty())
+      return;
+  }
+  throw table.error("after", "the switches wait for each other in a circle, so that none would ever watch");
+}
+
+} // namespace
+
+ElementRequest element_of(const LoadRequest &load)
+{
+  Formula       f = load.constant;
+  const Formula t = Formula::variable(0);
+  for (const coupling::Oscillation &part : load.oscillations)
+    f = f + part.amplitude * applied(mechanism::Function::sin, part.omega * t + part.phase);
+  const auto course =
+      f.is_constant() ? mechanism::Course(f.constant()) : mechanism::Course(mechanism::PositionFunction(f));
+  ElementRequest element{load.name, std::make_shared<mechanism::ProfileForce>(course), {load.u}, "", {}};
+  element.kind     = kind_of(load.force_unit);
+  const Kind &kind = element.kind == coupling::MeasureKind::angle ? kind::torque : kind::force;
+  element.levels   = std::make_shared<ProfileKeys>(level_profile(kind, kind.example));
+  return element;
+}
+
+void begin_off(const SceneTable &table, Scene &scene)
+{
+  const auto elements = elements_called(table.name(), scene);
+  if (elements.empty())
+    throw table.error("initially", "it cannot be switched; leave it out");
+  for (ElementRequest *element : elements)
+    make_switched(table, "initially", *element, SwitchedElement::Begin::off);
+}
+
+void read_switches(const SceneTable &scene, Scene &result)
+{
+  const auto tables = scene.tables("switch");
+  for (const auto &table : tables)
+  {
+    check_thing_name(table);
+    result.switches.push_back(read_switch(table, result));
+  }
+  for (const auto &table : tables)
+    check_chain(table, result.switches);
+}
+
+} // namespace gestell::apps

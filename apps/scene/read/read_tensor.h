@@ -1,0 +1,16 @@
+#pragma once
+
+#include "apps/scene/file/scene_table.h"
+
+#include <Eigen/Core>
+
+namespace gestell::apps
+{
+
+/// Two directions at right angles under `key`, and the third one that goes with them, as columns.
+Eigen::Matrix3d read_axes(const SceneTable &table, const std::string &key);
+
+/// `inertia` [kg m^2] in global axes: three moments about these or about `principal_axes`, or the tensor itself.
+Eigen::Matrix3d read_tensor(const SceneTable &table);
+
+} // namespace gestell::apps

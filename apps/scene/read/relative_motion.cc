@@ -1,0 +1,180 @@
+#include "apps/scene/read/relative_motion.h"
+
+#include "apps/scene/read/read_scalars.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+bool parallel(const Vector3 &a, const Vector3 &b)
+{
+  return std::abs(std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) - 1.) < 1e-9;
+}
+
+/// Axis of the first slider, or of the first rotor, among the two; null if there is none.
+const BodyRequest *leading_body(const BodyRequest *from, const BodyRequest *to, coupling::BodyKind kind)
+{
+  if (from && from->kind == kind)
+    return from;
+  return to && to->kind == kind ? to : nullptr;
+}
+
+/// Along a constant direction: of bodies as such, or of points on them, which move by their rotation too.
+RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, const Vector3 &direction)
+{
+  if (!from.at && !to.at)
+    return {difference(from.marker, to.marker, direction, false), false, ""};
+  MeasureRequest along;
+  along.first  = to;
+  along.second = from;
+  along.a      = direction;
+  along.unit   = "m";
+  return {{}, false, "", std::make_shared<MeasureRequest>(along)};
+}
+
+/// What `to` names, or else what carries the shaft: there the motor pushes itself off.
+std::string stator_of(const SceneTable &table, const Names &names, const BodyRequest &shaft)
+{
+  const std::string stator = names.marker(table, "to", shaft.carrier.empty() ? "ground" : shaft.carrier);
+  if (stator == shaft.name)
+    throw table.error("to", "is '" + stator + "' like `on`; a motor turns its shaft against what carries it");
+  const BodyRequest *body = names.find_body(stator);
+  if (body && body->kind == coupling::BodyKind::point)
+    throw table.error("to", "'" + stator + "' is a point, which has no rotation; name what else holds the motor");
+  if (body && body->kind == coupling::BodyKind::rigid)
+    throw table.error("to", "'" + stator +
+                                "' is a rigid body, whose angle is no coordinate; put a rotor between, which a joint "
+                                "of type \"rigid\" holds to it");
+  return stator;
+}
+
+} // namespace
+
+MotionMeasure difference(const std::string &from, const std::string &to, const Vector3 &axis, bool rotation)
+{
+  MotionMeasure u;
+  if (from != "ground")
+    u.push_back({from, rotation, axis, 1.});
+  if (to != "ground")
+    u.push_back({to, rotation, axis, -1.});
+  return u;
+}
+
+RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
+{
+  if (table.has("on") && !table.has("from"))
+  {
+    const MeasureRequest &measure = names.measure(table, "on");
+    return {{}, measure.unit == "rad", measure.name};
+  }
+  const PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
+  if (from.marker == to.marker)
+    throw table.error("to", "is '" + to.marker + "' like `from`; an element acts between two places");
+
+  const bool along = table.has("direction"), about = table.has("about");
+  if (along && about)
+    throw table.error("has both 'direction' and 'about'; give 'direction' for a displacement or 'about' for an angle");
+  if (along)
+    return displacement(from, to, table.direction("direction"));
+  if (about)
+  {
+    refuse_turning_point(table, names, from, to);
+    return {difference(from.marker, to.marker, table.direction("about"), true), true, ""};
+  }
+  const BodyRequest *a = names.find_body(from.marker), *b = names.find_body(to.marker);
+  if (const auto *slider = leading_body(a, b, coupling::BodyKind::slider))
+    return displacement(from, to, slider->axis);
+  const auto *rotor = leading_body(a, b, coupling::BodyKind::rotor);
+  if (!rotor || from.at || to.at || (a && b && !parallel(a->axis, b->axis)))
+    throw table.error("give 'direction' (a displacement) or 'about' (an angle) between '" + from.marker + "' and '" +
+                      to.marker + "': their axes do not tell");
+  return {difference(from.marker, to.marker, rotor->axis, true), true, ""};
+}
+
+RelativeMotion read_load_motion(const SceneTable &table, const Names &names)
+{
+  if (!table.has("carried_by"))
+    return read_relative_motion(table, names);
+  if (table.has("to") || !table.has("direction"))
+    throw table.error("carried_by", "needs a direction, and no 'to': it is for a load on `from` that turns with it");
+  MeasureRequest along;
+  along.first  = {"ground", {}};
+  along.second = names.place(table, "from", "at_from");
+  along.a      = table.direction("direction");
+  along.unit   = "m";
+  if (const std::string carrier = names.marker(table, "carried_by"); carrier != along.second.marker)
+    throw table.error("carried_by",
+                      "is '" + carrier + "', but the load acts on '" + along.second.marker + "', with which it turns");
+  return {{}, false, "", std::make_shared<MeasureRequest>(along), true};
+}
+
+RelativeMotion read_shaft(const SceneTable &table, const Names &names)
+{
+  const std::string name = table.text("on");
+  if (const MeasureRequest *measure = names.find_measure(name))
+  {
+    if (measure->unit != "rad")
+      throw table.error("on", "the measure '" + name +
+                                  "' is a length; a drive turns a rotor, a planar body or a "
+                                  "measure that is an angle");
+    if (table.has("to"))
+      throw table.error("to", "is of no meaning: the measure '" + name +
+                                  "' tells already against what the motor turns; leave it out");
+    return {{}, true, name};
+  }
+  const BodyRequest *body = names.find_body(name);
+  if (!body || body->kind != coupling::BodyKind::planar)
+    body = &names.body(table, "on", coupling::BodyKind::rotor);
+  return {difference(name, stator_of(table, names, *body), body->axis, true), true, ""};
+}
+
+void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                 const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags)
+{
+  scene.elements.push_back({table.name(), std::move(element), measures, "", lags});
+}
+
+void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                    const RelativeMotion &motion, const std::vector<LagRequest> &lags)
+{
+  ElementRequest request{table.name(), std::move(element), {}, motion.on, lags};
+  request.kind    = motion.kind();
+  request.own     = motion.own;
+  request.follows = motion.follows;
+  if (!motion.is_measure())
+    request.measures = {motion.u};
+  scene.elements.push_back(std::move(request));
+}
+
+RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names)
+{
+  const MeasureRequest *measure = motion.on.empty() ? nullptr : names.find_measure(motion.on);
+  if (!measure || measure->terms.empty() || measure->function)
+    return motion;
+  RelativeMotion constant{{}, motion.rotation, ""};
+  for (const TermRequest &term : measure->terms)
+  {
+    if (term.placed)
+      return motion;
+    for (MotionTerm part : term.motion)
+    {
+      part.weight *= term.weight;
+      constant.u.push_back(part);
+    }
+  }
+  return constant;
+}
+
+void refuse_measure(const SceneTable &table, const RelativeMotion &motion)
+{
+  if (motion.is_measure())
+    throw table.error(motion.own ? "from" : "on",
+                      "this element holds what sticks, along or about a constant direction: it cannot follow places "
+                      "on bodies that turn; name bodies with 'direction' or 'about', or a measure that is an angle of "
+                      "rotors and planar bodies, or take \"friction\" or \"lugre friction\", which creep");
+}
+
+} // namespace gestell::apps

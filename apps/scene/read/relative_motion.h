@@ -1,0 +1,73 @@
+#pragma once
+
+#include "apps/scene/read/names.h"
+#include "apps/scene/scene.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// a . (motion of `from` - motion of `to`); a motion of the ground is no term.
+MotionMeasure difference(const std::string &from, const std::string &to, const Vector3 &axis, bool rotation);
+
+/// Scalar motion between two places, u = motion(from) - motion(to).
+struct RelativeMotion
+{
+  MotionMeasure u;
+  bool          rotation = false; ///< u is an angle
+  std::string   on;               ///< u is this measure of the scene instead
+  /// or this one without a name, of two places, counted from the position described
+  std::shared_ptr<const MeasureRequest> own{};
+  bool                                  follows = false; ///< the direction of `own` turns with its second place
+
+  bool                  is_measure() const { return !on.empty() || own; }
+  std::string           force_unit() const { return rotation ? "N m" : "N"; }
+  coupling::MeasureKind kind() const
+  {
+    return rotation ? coupling::MeasureKind::angle : coupling::MeasureKind::displacement;
+  }
+};
+
+/**
+ * Reads `on`, a measure, or `from`, `to` and `direction` or `about`.  Without either the bodies tell: the axis of the
+ * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.  `from` and `to` may be
+ * places, or points `at_from`, `at_to` of bodies: then u is the displacement of these points, however bodies turn.
+ */
+RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
+
+/// Runs `make`, and heads what the element says against its parameters with the place of the table.
+template <typename Make>
+auto checked(const SceneTable &table, Make make)
+{
+  try
+  {
+    return make();
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw table.error(e.what());
+  }
+}
+
+/// As above; of a load, whose direction may turn with `from`: `carried_by`.
+RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
+
+/**
+ * The angle by which a motor turns its shaft.  `on` is a rotor or a planar body; it turns against `to`, where the
+ * stator sits: by default what carries the rotor, or the ground.  Or `on` is a measure that is an angle.
+ */
+RelativeMotion read_shaft(const SceneTable &table, const Names &names);
+
+/// Adds an element of one measure to the scene, with the virtual coordinates that follow it.
+void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                    const RelativeMotion &motion, const std::vector<LagRequest> &lags = {});
+/// The same motion without a measure, where that is one along or about constant directions; else as it is.
+RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names);
+/// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
+void refuse_measure(const SceneTable &table, const RelativeMotion &motion);
+/// Adds an element to the scene.
+void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+                 const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags = {});
+
+} // namespace gestell::apps

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "coupling/algebra/multifrontal.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Some of the fronts of an elimination, with rows of their own numbering.
+struct FrontSelection
+{
+  std::vector<int> first{0}, begin{0}, rows; // as Fronts
+  std::vector<int> order, places;            // coordinate of every row, and its place in the whole elimination
+
+  int    columns() const { return first.back(); }
+  Fronts fronts() const
+  {
+    return {int(order.size()), int(begin.size()) - 1, first.data(), begin.data(), rows.data(), order.data()};
+  }
+};
+
+/**
+ * An elimination divided among ranks.  Each has whole subtrees of the fronts, in which it needs nothing of others; what
+ * they pass on goes to the fronts above, the top, which rank 0 eliminates when all have done their part.
+ */
+class FrontDivision
+{
+public:
+  /// So that the slowest rank and the top together take the least time, as far as halving the largest subtrees goes.
+  FrontDivision(const Fronts &fronts, int n_ranks);
+
+  /// Of every front; -1: the top.
+  const std::vector<int> &rank_of_front() const { return rank_of_front_; }
+
+  /// The fronts of a rank: their columns, then all of the top.
+  FrontSelection share(int rank) const;
+  /// The fronts above, and one without columns for each front that passes on to them.
+  FrontSelection top() const;
+  /// Of those without columns, in turn: which rank has what they pass on.
+  std::vector<int> givers() const;
+
+private:
+  bool           is_root(int front) const;
+  FrontSelection selection(const std::vector<int> &columns_of_rank, const std::vector<char> &taken) const;
+
+  Fronts           fronts_;
+  std::vector<int> parent_, rank_of_front_;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,170 @@
+#include "coupling/algebra/node_ordering.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Rows of a column that are not held, and its diagonal.
+class Partners
+{
+public:
+  Partners(const SparseMatrix &A, const std::vector<char> &held) : A_(A), held_(held) {}
+
+  template <typename Visit>
+  void for_each(int column, const Visit &visit) const
+  {
+    if (is_held(column))
+      return visit(column);
+    const int *row = A_.innerIndexPtr() + A_.outerIndexPtr()[column];
+    const int *end = A_.innerIndexPtr() + A_.outerIndexPtr()[column + 1];
+    for (; row != end; ++row)
+      if (!is_held(*row))
+        visit(*row);
+  }
+
+  std::uint64_t hash(int column) const
+  {
+    std::uint64_t sum = 0;
+    for_each(column, [&](int row) { sum += (std::uint64_t(row) + 1) * 0x9E3779B97F4A7C15u ^ std::uint64_t(row) << 7; });
+    return sum;
+  }
+
+  bool same(int column, int other) const
+  {
+    if (is_held(column) || is_held(other))
+      return false;
+    const int *begin = A_.outerIndexPtr(), *rows = A_.innerIndexPtr();
+    return begin[column + 1] - begin[column] == begin[other + 1] - begin[other] &&
+           std::equal(rows + begin[column], rows + begin[column + 1], rows + begin[other]);
+  }
+
+private:
+  bool is_held(int i) const { return !held_.empty() && held_[i]; }
+
+  const SparseMatrix      &A_;
+  const std::vector<char> &held_;
+};
+
+/// Group of every coordinate; groups are counted by their first one.
+struct Groups
+{
+  std::vector<int> of, first;
+  int              count() const { return int(first.size()); }
+};
+
+Groups groups_of(const Partners &partners, int n)
+{
+  std::vector<std::uint64_t> hash(n);
+  for (int j = 0; j < n; ++j)
+    hash[j] = partners.hash(j);
+  Groups groups{std::vector<int>(n, -1), {}};
+  for (int j = 0; j < n; ++j)
+  {
+    if (groups.of[j] >= 0)
+      continue;
+    groups.of[j] = groups.count();
+    partners.for_each(j,
+                      [&](int i)
+                      {
+                        if (i > j && groups.of[i] < 0 && hash[i] == hash[j] && partners.same(i, j))
+                          groups.of[i] = groups.count();
+                      });
+    groups.first.push_back(j);
+  }
+  return groups;
+}
+
+SparsePattern graph_of(const Groups &groups, const Partners &partners)
+{
+  SparsePattern    graph{groups.count(), {0}, {}};
+  std::vector<int> seen(groups.count(), -1);
+  for (int a = 0; a < groups.count(); ++a)
+  {
+    partners.for_each(groups.first[a],
+                      [&](int i)
+                      {
+                        const int b = groups.of[i];
+                        if (b >= a && seen[b] != a)
+                          graph.rows.push_back(b);
+                        seen[b] = a;
+                      });
+    std::sort(graph.rows.begin() + graph.begin.back(), graph.rows.end());
+    graph.begin.push_back(int(graph.rows.size()));
+  }
+  return graph;
+}
+
+} // namespace
+
+cholmod_sparse view_of(SparsePattern &lower)
+{
+  cholmod_sparse view{};
+  view.nrow   = lower.n;
+  view.ncol   = lower.n;
+  view.nzmax  = lower.rows.size();
+  view.p      = lower.begin.data();
+  view.i      = lower.rows.data();
+  view.stype  = -1;
+  view.itype  = CHOLMOD_INT;
+  view.xtype  = CHOLMOD_PATTERN;
+  view.dtype  = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+SparsePattern lower_triangle(const SparseMatrix &A, const std::vector<char> &held)
+{
+  const int      n = int(A.cols());
+  const Partners partners(A, held);
+  SparsePattern  lower{n, {0}, {}};
+  lower.rows.reserve((A.nonZeros() + n) / 2);
+  for (int j = 0; j < n; ++j)
+  {
+    lower.rows.push_back(j);
+    partners.for_each(j,
+                      [&](int i)
+                      {
+                        if (i > j)
+                          lower.rows.push_back(i);
+                      });
+    lower.begin.push_back(int(lower.rows.size()));
+  }
+  return lower;
+}
+
+std::vector<int> node_ordering(const SparseMatrix &A, const std::vector<char> &held, cholmod_common &common)
+{
+  const int        n = int(A.cols());
+  const Partners   partners(A, held);
+  const Groups     groups = groups_of(partners, n);
+  SparsePattern    graph  = graph_of(groups, partners);
+  std::vector<int> order_of_groups(groups.count());
+  cholmod_sparse   view = view_of(graph);
+  if (groups.count() > 0 && !cholmod_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common))
+    throw std::bad_alloc();
+
+  std::vector<int> place(groups.count() + 1, 0), order(n); // members of the groups, in the order of these
+  for (int j = 0; j < n; ++j)
+    ++place[groups.of[j]];
+  int next = 0;
+  for (const int a : order_of_groups)
+  {
+    const int size = place[a];
+    place[a]       = next;
+    next += size;
+  }
+  for (int j = 0; j < n; ++j)
+    order[place[groups.of[j]]++] = j;
+  return order;
+}
+
+} // namespace gestell::coupling

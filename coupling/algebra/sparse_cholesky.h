@@ -1,0 +1,102 @@
+#pragma once
+
+#include "coupling/algebra/multifrontal.h"
+#include "coupling/algebra/multivector.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// The matrix is not positive definite: the pivot of coordinate `row` is not positive (or is no number).
+class NotPositiveDefinite : public std::runtime_error
+{
+public:
+  explicit NotPositiveDefinite(int row)
+      : std::runtime_error("matrix not positive definite at row " + std::to_string(row)), row(row)
+  {
+  }
+  int row;
+};
+
+/// The factor would not fit into the memory there is.
+class NotEnoughMemory : public std::runtime_error
+{
+public:
+  NotEnoughMemory(double needed, double available);
+};
+
+/**
+ * Factor L of a sparse symmetric positive definite matrix, A = P^T L L^T P: ordered by METIS on the graph of the nodes
+ * (coordinates with the same partners), analysed by CHOLMOD, factored by multifrontal_cholesky(), solved in the tiles
+ * of TiledFactor.
+ *
+ * Right-hand sides solved together share the way through L, which is what a solution costs: 16 at once take about a
+ * tenth per vector of one alone.  OpenBLAS, which does the arithmetic, is set to one thread: its waiting threads spin.
+ *
+ * Not for use by several threads at a time.
+ */
+class SparseCholesky
+{
+public:
+  /// @param A [n x n]; only its lower triangle is read.
+  /// @throws NotPositiveDefinite; std::invalid_argument if A is not square; std::bad_alloc.
+  explicit SparseCholesky(const Eigen::SparseMatrix<double> &A);
+  /// The same of a compressed matrix with both triangles, coordinates held: their rows and columns count as zero but
+  /// for a positive number on the diagonal.
+  /// @param held       ascending.
+  /// @param available  bytes that L and the work on it may take.
+  /// @throws NotEnoughMemory before the work begins.
+  SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available = INFINITY);
+  /// Analysed only, as if released at once: A may be singular.
+  static SparseCholesky without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky &&) noexcept;
+  SparseCholesky &operator=(SparseCholesky &&) noexcept;
+
+  int size() const;
+
+  /// X <- A^-1 X for all columns.
+  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
+  /// x <- A^-1 f for n numbers at f and x, which may be the same.
+  void solve(const double *f, double *x) const;
+
+  /// (smallest / largest diagonal entry of L)^2: a rough lower bound of how far A is from singular.
+  double pivot_ratio() const;
+  /// Row of A whose pivot is the smallest.
+  int weakest_row() const;
+  /// As long as this lives.
+  Fronts fronts() const;
+  /// Coordinate of A at every place in the order of elimination.
+  std::vector<int> order() const;
+  /// The same for right-hand sides in that order: X(k, :) belongs to coordinate order()[k].
+  void solve_in_place(TallMatrix &X) const;
+
+  /// Numbers stored in L.
+  double entries() const;
+
+  /// Gives the memory of L back; what is left serves inertia() alone.
+  void release();
+  bool released() const;
+
+  /// Eigenvalues of (C - lambda M) x = 0 below sigma, the coordinates held cut off; see multifrontal_inertia().
+  /// @param C  the matrix this factor was made of, or one with its pattern, both triangles; M likewise.
+  Inertia inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M, double sigma) const;
+
+private:
+  struct Factor;
+  SparseCholesky();
+  std::unique_ptr<Factor> factor_;
+};
+
+/// Whether C has an entry wherever M has one.
+bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M);
+
+} // namespace gestell::coupling

@@ -1,0 +1,75 @@
+#include "coupling/algebra/triangular_solve_kernels.h"
+
+#include "coupling/algebra/tile_kernels.h"
+#include "coupling/algebra/triangular_solve_avx512.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Narrow = Block<Four, 1, 8>;
+using Wide   = Block<Four, 2, 4>;
+
+constexpr SweepKernels   any_processor = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>,
+                                          sweeps_of<Block<Four, 3, 4>>};
+constexpr AlgebraKernels any_algebra   = {algebra_of<Narrow>, algebra_of<Wide>};
+
+/// Whether the kernels for AVX-512 are there, wanted, and within what the processor can do.
+bool has_avx512()
+{
+#if defined(GESTELL_AVX512_KERNELS)
+  static const char *const wish = std::getenv("GESTELL_KERNELS");
+  static const bool        has  = !(wish && wish == std::string("portable")) && __builtin_cpu_supports("avx512f") &&
+                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+                          __builtin_cpu_supports("avx512bw");
+  return has;
+#else
+  return false;
+#endif
+}
+
+} // namespace
+
+const SweepKernels &tile_sweeps()
+{
+  return has_avx512() ? avx512_tile_sweeps() : any_processor;
+}
+
+namespace
+{
+
+/// Of kernels for few and for many columns.
+bool wants_many(int columns)
+{
+  return columns > tile_sweeps()[1].columns;
+}
+
+} // namespace
+
+const BlockAlgebra &block_algebra(int columns)
+{
+  return (has_avx512() ? avx512_block_algebra() : any_algebra)[wants_many(columns) ? 1 : 0];
+}
+
+const TileSweeps &block_sweeps(int columns)
+{
+  return tile_sweeps()[wants_many(columns) ? 2 : 1];
+}
+
+#if !defined(GESTELL_AVX512_KERNELS)
+const SweepKernels &avx512_tile_sweeps()
+{
+  return any_processor;
+}
+const AlgebraKernels &avx512_block_algebra()
+{
+  return any_algebra;
+}
+#endif
+
+} // namespace gestell::coupling

@@ -1,0 +1,172 @@
+#pragma once
+
+#include "coupling/algebra/multivector.h"
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/algebra/triangular_solve_kernels.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// C^-1, applied to many columns at once with their rows in an order that suits it.
+class InverseStiffness
+{
+public:
+  virtual ~InverseStiffness() = default;
+  /// X <- C^-1 X, of which row k is that of coordinate order()[k].
+  virtual void                    solve_in_place(TallMatrix &X) const = 0;
+  virtual const std::vector<int> &order() const                       = 0;
+  /// Coordinates (ascending) without motion.
+  virtual const std::vector<int> &held() const = 0;
+
+  // Where several processes have rows of X each, all of them do the same at the same time:
+
+  /// Coordinates, those of other processes included.
+  virtual int size() const { return int(order().size()); }
+  /// Adds up what each found by its own rows; the same on all.
+  virtual void sum(Eigen::MatrixXd &) const {}
+  /// Takes the first one's numbers on all, that rounding leads none astray.
+  virtual void share(Eigen::MatrixXd &) const {}
+  /// Place of a row among those of all.
+  virtual int place(int row) const { return row; }
+};
+
+/// By the factor, which must outlive it, as the factor eliminates.
+class InverseByFactor final : public InverseStiffness
+{
+public:
+  /// @param held  those of the factor.
+  explicit InverseByFactor(const SparseCholesky &factor, std::vector<int> held = {})
+      : factor_(factor), order_(factor.order()), held_(std::move(held))
+  {
+  }
+  void                    solve_in_place(TallMatrix &X) const override { factor_.solve_in_place(X); }
+  const std::vector<int> &order() const override { return order_; }
+  const std::vector<int> &held() const override { return held_; }
+
+private:
+  const SparseCholesky &factor_;
+  std::vector<int>      order_, held_;
+};
+
+/// By any function that solves for the columns of a matrix; slower, for the columns are copied.
+class InverseByColumns final : public InverseStiffness
+{
+public:
+  using Solve = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
+  InverseByColumns(int n, Solve solve);
+  void                    solve_in_place(TallMatrix &X) const override;
+  const std::vector<int> &order() const override { return order_; }
+  const std::vector<int> &held() const override { return none_; }
+
+private:
+  Solve            solve_;
+  std::vector<int> order_, none_;
+};
+
+struct LowestModes
+{
+  Eigen::VectorXd omega; // [m] ascending, rad/s
+  Eigen::MatrixXd V;     // [n x m], V^T M V = E
+  Eigen::VectorXd bound; // [m] an exact frequency lies within omega (1 +- bound)
+};
+
+/// Looks for the lowest modes of (C - omega^2 M) v = 0.
+class ModeSearch
+{
+public:
+  virtual ~ModeSearch() = default;
+
+  /// Goes on until the lowest `count` modes are found and a gap above them, or all modes there are.
+  /// @throws ConvergenceFailure with the number found: M has a lower rank, or too many steps.
+  virtual void find(int count) = 0;
+
+  /// The lowest of those found, in an unbroken sequence.
+  virtual LowestModes modes(int count) const = 0;
+
+  /// Frequencies [rad/s] without a mode, as far as is known, and how many found lie below: for a count by other means.
+  struct Gap
+  {
+    double low, high; // high is infinite where no further mode exists
+    int    below;
+  };
+  /// The first gap above `count` modes.
+  /// @throws std::logic_error before find().
+  virtual Gap gap_above(int count) const = 0;
+};
+
+/**
+ * The lowest modes of (C - omega^2 M) v = 0 by block Lanczos for A = C^-1 M in the inner product of M.
+ *
+ * One solution with a block of right-hand sides costs little more than one with a single vector, and a block finds
+ * frequencies that are repeated as often as it has columns.  Every step appends A times the last block, made orthogonal
+ * to all before (M-orthonormal Q, fully reorthogonalised); the projected T = Q^T M A Q gives
+ *
+ *     T s = theta s,   omega = theta^(-1/2),   v = Q s,   |A v - theta v|_M = |E s| = r
+ *
+ * with E the coupling of T to the next block.  Since A is self-adjoint in the inner product of M, an exact theta lies
+ * within r of the computed one: |delta omega| / omega <= r / (2 theta - 2 r), and about the square of that where the
+ * frequency stands alone.
+ *
+ * Where the inverse holds coordinates the modes are those of the held structure.  A block that
+ * breaks down is continued with vectors of any direction, until the whole range of M is used up.  The space starts anew
+ * from its best vectors where it would outgrow `room` (thick restart).
+ *
+ * Source: Grimes, Lewis & Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228-272; Wu & Simon, ibid. 22 (2000) 602-616.
+ */
+class BlockLanczos final : public ModeSearch
+{
+public:
+  struct Options
+  {
+    /// Right-hand sides at once, >= 1.  Eight take as long as twelve or sixteen in all, with fewer vectors to keep.
+    int    block     = 8;
+    double tolerance = 1e-8; ///< r / theta from which a mode counts as found
+    int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
+  };
+
+  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; of several processes each has a
+  ///               part, whose sum is the whole.
+  /// @param known  modes found elsewhere: part of the space from the start.
+  BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
+               const Options &options, const LowestModes &known = {});
+
+  void        find(int count) override;
+  LowestModes modes(int count) const override;
+  Gap         gap_above(int count) const override;
+
+  int n_found() const;                           ///< in an unbroken sequence from the lowest
+  int n_vectors() const { return Q_.columns(); } ///< of the space
+
+private:
+  Eigen::MatrixXd product(const TallMatrix &X, const TallMatrix &MX) const;
+  Eigen::MatrixXd projection(const TallMatrix &MX, int from = 0) const;
+  void            start_block();
+  void            step();
+  void            restart(int keep);
+  void            set_next(const Eigen::VectorXd &scale);
+  void            solve_projected();
+  int             gap_index(int count) const;
+
+  std::unique_ptr<const InverseStiffness> inverse_;
+  ReorderedMatrix                         M_;
+  Options                                 options_;
+  int                                     n_, room_;      // rows here, and vectors of the space at most
+  int                                     coupled_   = 0; // first column of Q that the last block couples to
+  bool                                    exhausted_ = false;
+  unsigned long                           seed_      = 1;
+  TallSpace                               Q_;
+  Eigen::MatrixXd                         T_, E_;            // E: T's rows of the next block [block x size]
+  TallMatrix                              next_, M_next_;    // the next block, and M times it
+  Eigen::VectorXd                         theta_, residual_; // of T, descending
+  Eigen::MatrixXd                         S_;
+};
+
+} // namespace gestell::coupling

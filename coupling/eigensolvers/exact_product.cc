@@ -1,0 +1,88 @@
+// Compiled without fused products: each of the sums below is meant to be rounded where it stands.
+
+#include "coupling/eigensolvers/exact_product.h"
+
+#include <algorithm>
+#include <cassert>
+
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int lanes = 8; // columns that travel together
+using Lanes         = Eigen::Array<double, lanes, 1>;
+using Rows          = Eigen::Array<double, lanes, Eigen::Dynamic>;
+
+#if defined(__FMA__)
+
+/// What the product a b loses.
+inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
+{
+  Lanes lost;
+  for (int i = 0; i < lanes; i += 4)
+    _mm256_storeu_pd(lost.data() + i, _mm256_fmsub_pd(_mm256_set1_pd(a), _mm256_loadu_pd(b.data() + i),
+                                                      _mm256_loadu_pd(product.data() + i)));
+  return lost;
+}
+
+#else
+
+/// The upper half of the digits of x (Veltkamp).
+template <typename T>
+T upper_half(const T &x)
+{
+  const T scaled = 134217729. * x; // 2^27 + 1
+  return scaled - (scaled - x);
+}
+
+/// What the product a b loses (Dekker).
+inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
+{
+  const double a_upper = upper_half(a), a_lower = a - a_upper;
+  const Lanes  b_upper = upper_half(b), b_lower = b - b_upper;
+  return a_lower * b_lower - (((product - a_upper * b_upper) - a_lower * b_upper) - a_upper * b_lower);
+}
+
+#endif
+
+} // namespace
+
+Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X)
+{
+  assert(A.isCompressed() && A.cols() == X.rows());
+  const auto      n     = A.cols();
+  const int      *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
+  const double   *a = A.valuePtr();
+  Eigen::MatrixXd Y(n, X.cols());
+  Rows            x(lanes, n); // row i of X, eight columns of it, lies together
+  for (Eigen::Index first = 0; first < X.cols(); first += lanes)
+  {
+    const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
+    x.setZero();
+    x.topRows(width) = X.middleCols(first, width).transpose();
+    for (Eigen::Index j = 0; j < n; ++j)
+    {
+      Lanes sum = Lanes::Zero(), lost = Lanes::Zero();
+      for (int k = start[j]; k < start[j + 1]; ++k)
+      {
+        const Lanes b       = x.col(row[k]);
+        const Lanes product = a[k] * b;
+        const Lanes next    = sum + product; // and what it loses, after Knuth
+        const Lanes part    = next - sum;
+        lost += ((sum - (next - part)) + (product - part)) + lost_by_product(a[k], b, product);
+        sum = next;
+      }
+      const Lanes whole              = sum + lost;
+      Y.row(j).segment(first, width) = whole.head(width).transpose();
+    }
+  }
+  return Y;
+}
+
+} // namespace gestell::coupling

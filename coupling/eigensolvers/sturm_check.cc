@@ -1,0 +1,167 @@
+#include "coupling/eigensolvers/sturm_check.h"
+
+#include "coupling/algebra/rounded.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+
+constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
+constexpr int    largest_block = 200;                       // with which missing modes are looked for
+constexpr int    most_rounds   = 4;                         // of finding modes that were missing
+} // namespace
+
+CountedModes::CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+                           const Eigen::SparseMatrix<double> &C)
+    : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(C.diagonal())
+{
+}
+
+void CountedModes::find(int count)
+{
+  wanted_ = count;
+  if (dense_)
+  {
+    if (found_.omega.size() == 0)
+      found_ = all();
+    if (found_.omega.size() < count)
+      throw ConvergenceFailure(kind_ + ": there are " + std::to_string(found_.omega.size()) +
+                               ", for the mass matrix has no higher rank, but " + std::to_string(count) +
+                               " are looked for; set their number (reduction.modes) to that or less");
+  }
+  else if (search_)
+    search_->find(count);
+  else if (count > 0)
+  {
+    restore();
+    look_for({}, count, options_.block);
+  }
+}
+
+LowestModes CountedModes::lowest(int count)
+{
+  if (count == 0)
+    return {Eigen::VectorXd(0), MatrixXd(n(), 0), Eigen::VectorXd(0)};
+  if (search_)
+    return search_->modes(count);
+  return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+}
+
+LowestModes CountedModes::find_all(int count)
+{
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    find(count);
+    finish();
+    if (confirm())
+      return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
+  }
+  throw ConvergenceFailure(kind_ + ": in " + std::to_string(most_rounds) +
+                           " rounds some were missing each time; ask for another number of modes");
+}
+
+void CountedModes::finish()
+{
+  release(); // before the modes are made of the space
+  if (wanted_ == 0)
+  {
+    search_.reset();
+    found_ = lowest(0);
+  }
+  else if (search_)
+  {
+    gap_   = search_->gap_above(wanted_);
+    found_ = search_->modes(gap_.below);
+    search_.reset();
+  }
+}
+
+void CountedModes::look_for(const LowestModes &known, int count, int block)
+{
+  BlockLanczos::Options options = options_;
+  options.block                 = block;
+  search_                       = search(options, known);
+  search_->find(count);
+}
+
+/// Each search is by larger blocks, which find frequencies that are repeated more often.
+void CountedModes::look_for_missing(LowestModes known, int count, double omega)
+{
+  restore();
+  const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
+  for (int block = std::max(options_.block, missing()); missing() > 0; block *= 2)
+  {
+    if (block > largest_block)
+      throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
+                               rounded(omega / two_pi) + " Hz are not found; ask for another number of modes");
+    look_for(known, count, block);
+    known = search_->modes(count);
+  }
+}
+
+/// E, of the size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j: past the shift it must not.  The mode above
+/// the gap, which is not known, is taken for like those below it.
+double CountedModes::largest_growth(double shift) const
+{
+  constexpr double      eps      = std::numeric_limits<double>::epsilon();
+  const Eigen::VectorXd moved    = eps * (found_.V.cwiseAbs2().transpose() * stiffness_);
+  const Eigen::VectorXd distance = shift * shift - found_.omega.array().square();
+  const double          above    = gap_.high * gap_.high - shift * shift;
+  return std::min(distance.cwiseQuotient(moved).minCoeff(), above / moved.maxCoeff());
+}
+
+Inertia CountedModes::count_in_gap(double &omega)
+{
+  Inertia best{0, INFINITY};
+  double  least = INFINITY; // growth over what is allowed
+  for (const double place : places)
+  {
+    const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);
+    const auto   inertia = below(shift);
+    const double share   = inertia.growth / largest_growth(shift);
+    if (share < least)
+      best = inertia, omega = shift, least = share;
+    if (least < 1.)
+      return best;
+  }
+  throw ConvergenceFailure(kind_ + ": the number below " + rounded(omega / two_pi) +
+                           " Hz cannot be told, for rounding in the factor grows " + rounded(best.growth) + "-fold, " +
+                           rounded(least) + " times as much as the gap there is wide; ask for another number of modes");
+}
+
+bool CountedModes::confirm()
+{
+  if (dense_ || wanted_ == 0)
+    return true;
+  double     omega   = 0.;
+  const auto inertia = count_in_gap(omega);
+  if (inertia.negative < gap_.below)
+    throw ConvergenceFailure(kind_ + ": " + std::to_string(gap_.below) + " are found below " + rounded(omega / two_pi) +
+                             " Hz, but the inertia of the stiffness tells of " + std::to_string(inertia.negative) +
+                             " only; M and C must be symmetric");
+  if (inertia.negative == gap_.below)
+  {
+    if (statement_.empty())
+      statement_ = "modes: the inertia of C - omega^2 M at " + rounded(omega / two_pi) + " Hz tells of " +
+                   std::to_string(gap_.below) + " " + kind_ + " below it, and as many are found";
+    return true;
+  }
+  look_for_missing(std::move(found_), inertia.negative, omega);
+  statement_ = "modes: " + std::to_string(inertia.negative - gap_.below) + " of " + std::to_string(inertia.negative) +
+               " " + kind_ + " below " + rounded(omega / two_pi) +
+               " Hz were passed over at first, found missing by the inertia of C - omega^2 M, and searched for";
+  return false;
+}
+
+} // namespace gestell::coupling

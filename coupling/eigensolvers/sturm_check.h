@@ -1,0 +1,90 @@
+#pragma once
+
+#include "coupling/algebra/multifrontal.h"
+#include "coupling/eigensolvers/block_lanczos.h"
+
+#include <memory>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * The lowest modes of a frame, as many as are asked for, and the proof that none of them is missing.
+ *
+ * A search by Krylov spaces may pass over a mode, above all one of several with the same frequency, and cannot know it.
+ * The number of negative eigenvalues of C - omega^2 M can: it is the number of modes below omega (Sylvester's law of
+ * inertia).  confirm() takes it in a gap above the modes asked for; where the search has found fewer, it goes on,
+ * orthogonal to the modes known, until it has them all.
+ *
+ * Frames of few coordinates are solved densely, which yields all modes there are.
+ */
+class CountedModes
+{
+public:
+  virtual ~CountedModes() = default;
+
+  /// Looks for the lowest `count`, 0 <= count <= coordinates.
+  /// @throws ConvergenceFailure with the number found.
+  void find(int count);
+
+  /// The lowest `count` of those found.
+  LowestModes lowest(int count);
+
+  /// The lowest `count`, all there are below a gap: find(), finish() and confirm() until none is missing.
+  /// @throws ConvergenceFailure as these do, and if some are missing in every round.
+  LowestModes find_all(int count);
+
+  /// No more will be asked for than the modes looked for last: gives back the memory of the search and of the factor.
+  void finish();
+
+  /// After finish(): the modes looked for last, and some more, up to a gap.  If dense, all there are.
+  const LowestModes &found() const { return found_; }
+
+  /**
+   * After finish(): whether the modes found are all there are below the gap.
+   *
+   * If not, those that are missing have been found, and the frame's factor is there again; what was made of the modes
+   * must be made anew, from find() on.
+   *
+   * @throws ConvergenceFailure if the inertia cannot be told, or what is missing not found.
+   */
+  bool confirm();
+
+  /// What was proved, as a sentence; empty before confirm(), and where nothing had to be.
+  const std::string &statement() const { return statement_; }
+
+  bool dense() const { return dense_; }
+
+protected:
+  /// @param kind   of modes, in messages
+  /// @param dense  whether few coordinates are solved at once, by all()
+  /// @param C      [n x n]
+  CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+               const Eigen::SparseMatrix<double> &C);
+
+private:
+  virtual int                         n() const           = 0; ///< rows of the modes
+  virtual LowestModes                 all() const         = 0; ///< modes, densely
+  virtual void                        restore()           = 0; ///< what search() needs
+  virtual void                        release()           = 0; ///< its memory
+  virtual Inertia                     below(double omega) = 0;
+  virtual std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const = 0;
+
+  Inertia count_in_gap(double &omega);
+  double  largest_growth(double shift) const;
+  void    look_for(const LowestModes &known, int count, int block);
+  void    look_for_missing(LowestModes known, int count, double omega);
+
+  std::string                 kind_;
+  BlockLanczos::Options       options_;
+  int                         wanted_ = 0;
+  bool                        dense_;
+  Eigen::VectorXd             stiffness_; // diagonal of C
+  LowestModes                 found_;
+  ModeSearch::Gap             gap_{0., 0., 0};
+  std::unique_ptr<ModeSearch> search_;
+  std::string                 statement_;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "coupling/equilibrium/steady_motion.h"
+#include "coupling/machine/assembly.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * The equations of statics of a machine and what is held of it,
+ *
+ *     r = [ C q - s f_t - W p(q, 0) - A^T lambda ],     A = [ G W^T ],     saddle = [ K  -A^T ] = dr/d(q, lambda),
+ *         [              open                    ]          [ held  ]               [ A    0  ]
+ *
+ * with the share s of the loads; p holds the joints' forces, K the geometric stiffness.  Rows of virtual coordinates
+ * keep them as they are.  Laws that depend on u' act as at rest; what sticks carries no force.
+ *
+ * In motion r has M (a + S alpha) + B v besides, alpha in place of the multipliers of what is held; laws act as at v
+ * and a + S alpha, and virtual coordinates take their stationary values.
+ */
+class StaticBalance
+{
+public:
+  /// @param held    what is kept where it is, or null; see held_equilibrium()
+  /// @param motion  of a machine that moves, or null
+  StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held,
+                const SteadyMotion *motion = nullptr);
+
+  int             n() const { return n_; }               ///< coordinates
+  int             n_joints() const { return n_c_; }      ///< equations of joints
+  int             n_rows() const { return n_c_ + n_g_; } ///< and of what is held
+  const Machine  &machine() const { return machine_; }
+  bool            holds() const { return held_ != nullptr; }
+  double          forces() const { return forces_; } ///< sum of magnitudes whose rest the last residual is
+  LocalState     &local() { return local_; }         ///< of the last evaluation
+  Eigen::VectorXd multipliers(const Eigen::VectorXd &q, double share); ///< that come nearest to equilibrium
+
+  void evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &lambda, double share, Eigen::MatrixXd &saddle,
+                Eigen::VectorXd &residual);
+  /// The saddle matrix with the stiffness of engaged elements: open play gives none, closed elements show the way.
+  Eigen::MatrixXd with_closed_chains(const Eigen::VectorXd &q, Eigen::MatrixXd saddle) const;
+
+private:
+  void hold(const Eigen::VectorXd &q, Eigen::MatrixXd &A, Eigen::VectorXd &open);
+
+  Machine           &machine_;
+  const KnownStart  *held_;
+  bool               moves_;
+  int                n_, n_c_, n_g_ = 0;
+  std::vector<int>   given_; ///< held coordinates
+  double             t_, forces_ = 0.;
+  Eigen::VectorXd    zero_, v_, a_; ///< [n]
+  Eigen::MatrixXd    S_, MS_;       ///< [n x n_g] of a machine that moves
+  ConstraintJacobian G_;
+  Eigen::MatrixXd    C_;
+  Eigen::VectorXd    load_, acts_;
+  LocalState         local_;
+};
+
+/**
+ * Says of a motion [n] that runs away under the loads which part of the machine does: "the motion of slide has neither
+ * stiffness nor weight that holds it here; hold it", or of a frame that moves as a whole how it is free and what would
+ * hold it.
+ */
+std::string told_loose(const Machine &machine, const Eigen::VectorXd &motion);
+
+} // namespace gestell::coupling

@@ -1,0 +1,449 @@
+#include "coupling/equilibrium/static_equilibrium.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/equilibrium/static_balance.h"
+#include "coupling/machine/dense_matrices.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    most_iterations = 50, most_parts = 64;
+constexpr double converged = 1e-13; ///< correction, against the size of q
+constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
+constexpr double balanced  = 1e-9;  ///< residual beside its forces that counts as none along a free motion
+constexpr double stays     = 1e-6;  ///< [m, rad] a start this near an equilibrium is meant to be it
+
+// Relaxation.
+constexpr int    most_steps = 1000, most_of_step = 15, most_pushes = 5;
+constexpr double first_step = 0.01, shortest_step = 1e-9, longest_step = 1e3; ///< [s]
+constexpr double way_of_step = 0.3, growing_way = 0.1; ///< [m, rad] in a step; share of the way so far, for lengths
+constexpr double settled_at = 10.;                     ///< [s] a step so long is ruled by stiffness, not by inertia
+constexpr double settled    = 1e-7;                    ///< its motion, against the size of q
+constexpr double push       = 0.01;                    ///< [m, rad] off an unstable equilibrium
+
+constexpr double cancelled = 1e-10; ///< share of an energy that is rounding: motions of a reduced frame that cost none
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double largest(const VectorXd &x)
+{
+  return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.;
+}
+
+/// A motion that leaves an equilibrium.
+struct Growth
+{
+  double   rate = 0.; ///< [1/s] of exp(rate t), without damping
+  VectorXd motion;    ///< [n]
+};
+
+class Equilibrium
+{
+public:
+  Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr,
+              const SteadyMotion *motion = nullptr)
+      : machine_(machine), balance_(machine, from, held, motion), n_(machine.size()), q_(from.q),
+        lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine)), floating_(n_, 0), inertia_(n_, 0)
+  {
+  }
+
+  /// From now on the inertia takes the loads along motions that nothing holds.
+  void relieve()
+  {
+    const auto [Z, K] = admissible();
+    if (Z.cols() == 0)
+      return;
+    const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z, cancelled);
+    const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
+    floating_              = Z * modes.V.leftCols(n); // first, for omega ascends; what grows is no free motion
+    if (modes.growth.head(n).any())
+      floating_.resize(n_, 0);
+    inertia_ = M_ * floating_;
+  }
+
+  /// Tells the acceleration of a machine that floats.
+  void tell_relief()
+  {
+    if (floating_.cols() == 0)
+      return;
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd loads        = machine_.translation_loads();
+    const MatrixXd translations = floating_.transpose() * loads; // R^T M of unit translations: their squares are masses
+    const VectorXd acceleration = -floating_.transpose() * residual.head(n_);
+    std::ostringstream text;
+    text << "nothing holds the machine in " << floating_.cols() << (floating_.cols() == 1 ? " motion" : " motions")
+         << "; its inertia takes the loads along them, with a mean acceleration of [" << std::setprecision(4);
+    for (int d = 0; d < 3; ++d)
+    {
+      const double mass = translations.col(d).squaredNorm();
+      text << (d > 0 ? ", " : "") << (mass > 0. ? translations.col(d).dot(acceleration) / mass : 0.);
+    }
+    notes_.push_back(text.str() + "] m/s^2");
+  }
+
+  const VectorXd           &q() const { return q_; }
+  std::vector<std::string> &notes() { return notes_; }
+
+  HeldEquilibrium held()
+  {
+    solve();
+    return {q_, lambda_.head(balance_.n_joints())};
+  }
+
+  void solve()
+  {
+    const VectorXd begin = q_;
+    const bool     found = newton_in_parts(begin);
+    if (balance_.holds() && found)
+      return;
+    const Growth growth = found ? growing() : Growth();
+    if (found && growth.rate == 0.)
+      return;
+    if (found && largest(q_ - begin) <= stays)
+    {
+      notes_.push_back("the machine starts in an unstable equilibrium: the motion of " + leader(growth.motion) +
+                       " grows by " + rate_text(growth.rate) + "; disturb it if it is to fall, or hold it");
+      return;
+    }
+    const VectorXd unstable = q_;
+    if (balance_.holds() || floating_.cols() > 0 || !relax(begin))
+      no_equilibrium(found);
+    else if (found && largest(q_ - unstable) > stays)
+      notes_.push_back("the equilibrium next to the position of the start is unstable, the motion of " +
+                       leader(growth.motion) + " grows there by " + rate_text(growth.rate) +
+                       ": the machine starts from the stable one that it falls to");
+  }
+
+  /// K v - A^T lambda' = 0,  A v = -dg/dt  with A = G W^T.
+  VectorXd drift()
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const int n_c = balance_.n_joints();
+    VectorXd  rate(n_c), bias(n_c), right = VectorXd::Zero(n_ + n_c);
+    machine_.constraint_rates(balance_.local(), rate, bias);
+    right.tail(n_c)  = -rate;
+    const VectorXd x = solution(saddle, right);
+    if (!x.allFinite())
+      no_equilibrium(true);
+    return x.head(n_);
+  }
+
+private:
+  struct Admissible
+  {
+    MatrixXd Z; ///< motions that joints allow
+    MatrixXd K; ///< Z^T C Z, symmetric part
+  };
+  Admissible admissible()
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const MatrixXd C = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
+    MatrixXd       Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    MatrixXd       K = Z.transpose() * C * Z;
+    return {std::move(Z), std::move(K)};
+  }
+
+  static std::string rate_text(double rate)
+  {
+    std::ostringstream text;
+    text << std::setprecision(3) << "exp(" << rate << " t/s)";
+    return text.str();
+  }
+
+  /// Name of the coordinate with most of the motion.
+  std::string leader(const VectorXd &motion) const
+  {
+    Eigen::Index most = 0;
+    motion.head(n_).cwiseAbs().maxCoeff(&most);
+    return machine_.coordinate_name(int(most));
+  }
+
+  [[noreturn]] void no_equilibrium(bool unstable) const
+  {
+    std::ostringstream message;
+    if (!loose_.empty())
+      message << "there is no static equilibrium: " << loose_
+              << ", start from another position, with inertia_relief = true if it is to accelerate as a whole, or with "
+                 "rule = \"given\"";
+    else
+      message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the position of the start, "
+              << (balance_.holds() ? "even with the loads put on in " + std::to_string(most_parts) + " parts"
+                                   : std::string("nor does the machine settle in one when it is let go from there"))
+              << "; give a better position, or start with rule = \"given\"";
+    throw std::invalid_argument(message.str());
+  }
+
+  /// The equations of statics, of a machine that floats with its inertia.
+  void evaluate(double share, MatrixXd &saddle, VectorXd &residual)
+  {
+    balance_.evaluate(q_, lambda_, share, saddle, residual);
+    if (floating_.cols() == 0)
+      return;
+    residual.head(n_) -= inertia_ * (floating_.transpose() * residual.head(n_));
+    // Springs against motions along which nothing acts any more: they carry no force, but make the matrix regular.
+    const double spring = saddle.topLeftCorner(n_, n_).trace() / M_.trace();
+    saddle.topLeftCorner(n_, n_) += spring * inertia_ * inertia_.transpose();
+  }
+
+  bool newton_in_parts(const VectorXd &begin)
+  {
+    lambda_ = balance_.multipliers(q_, 1.);
+    if (newton(1.))
+      return true;
+    for (int parts = 4; parts <= most_parts; parts *= 4)
+    {
+      q_         = begin;
+      lambda_    = balance_.multipliers(q_, 1. / parts);
+      bool found = true;
+      for (int k = 1; found && k <= parts; ++k)
+        found = newton(double(k) / parts);
+      if (found)
+        return true;
+    }
+    return false;
+  }
+
+  /// Scaled to rows and columns of equal size: stiffnesses beside cosines.
+  VectorXd scale_of(const MatrixXd &saddle) const
+  {
+    const int size = int(saddle.rows());
+    VectorXd  scale(size);
+    for (int i = 0; i < n_; ++i)
+      scale[i] = 1. / std::sqrt(std::max(saddle.col(i).head(n_).cwiseAbs().maxCoeff(), 1.));
+    for (int i = n_; i < size; ++i)
+    {
+      const double row = saddle.row(i).head(n_).cwiseProduct(scale.head(n_).transpose()).cwiseAbs().maxCoeff();
+      scale[i]         = row > 0. ? 1. / row : 1.;
+    }
+    return scale;
+  }
+
+  /// A motion without stiffness along which no force acts stays where it is; with one the solution is nan, and named.
+  VectorXd solution(const MatrixXd &saddle, const VectorXd &right)
+  {
+    const VectorXd             scale  = scale_of(saddle);
+    const MatrixXd             scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
+    const VectorXd             forces = scale.asDiagonal() * right;
+    Eigen::FullPivLU<MatrixXd> lu;
+    lu.setThreshold(singular);
+    lu.compute(scaled);
+    if (lu.isInvertible())
+      return scale.asDiagonal() * lu.solve(forces);
+    const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
+    if ((scaled * x - forces).norm() <= balanced * forces.norm())
+      return scale.asDiagonal() * x;
+    if (balance_.holds())
+    {
+      const MatrixXd way = scale.asDiagonal() * balance_.with_closed_chains(q_, saddle) * scale.asDiagonal();
+      lu.compute(way);
+      if (lu.isInvertible())
+        return scale.asDiagonal() * lu.solve(forces);
+    }
+    loose_ = told_loose(machine_, (scale.asDiagonal() * (scaled * x - forces)).head(n_)); // along which a force acts
+    return VectorXd::Constant(saddle.rows(), std::numeric_limits<double>::quiet_NaN());
+  }
+
+  bool newton(double share)
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    double   before = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < most_iterations; ++k)
+    {
+      evaluate(share, saddle, residual);
+      const VectorXd delta = solution(saddle, -residual);
+      if (!delta.allFinite())
+        return false;
+      const double size = largest(delta.head(n_)), scale = std::max(largest(q_), 1e-6);
+      // A long way is gone in parts: another equilibrium lies behind the next turn.
+      const double part = size > 0.5 ? 0.5 / size : 1.;
+      q_ += part * delta.head(n_);
+      lambda_ += part * delta.tail(lambda_.size());
+      if (part == 1. && (size <= converged * scale || (size < 1e-9 * scale && size > 0.3 * before)))
+        return true;
+      before = size;
+    }
+    return false;
+  }
+
+  /// The fastest motion that leaves where the machine stands.
+  Growth growing()
+  {
+    const auto [Z, K] = admissible();
+    Growth growth;
+    if (Z.cols() == 0)
+      return growth;
+    try
+    {
+      const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z);
+      Eigen::Index     fastest;
+      if (modes.growth.size() == 0)
+        return growth;
+      growth.rate   = modes.growth.maxCoeff(&fastest);
+      growth.motion = Z * modes.V.col(fastest);
+    }
+    catch (const std::invalid_argument &)
+    {
+      // neither mass nor stiffness: such a motion has no growth
+    }
+    return growth;
+  }
+
+  /**
+   * Lets the machine go from a position and takes its velocity away after every step: implicit Euler with steps that
+   * grow,  M (q_k+1 - q_k)/h^2 + r(q_k+1, lambda) = 0,  each of which lowers the energy, docs/theory/start.md (12).
+   */
+  bool relax(const VectorXd &begin)
+  {
+    q_            = begin;
+    lambda_       = balance_.multipliers(q_, 1.);
+    double h      = first_step;
+    int    pushes = 0;
+    loose_.clear();
+    VectorXd moves;
+    MatrixXd saddle;
+    VectorXd residual;
+    for (int k = 0; k < most_steps && h > shortest_step; ++k)
+    {
+      const VectorXd before = q_, forces = lambda_;
+      balance_.evaluate(q_, lambda_, 1., saddle, residual);
+      const VectorXd unbalanced = -residual.head(n_);
+      const int      iterations = implicit_step(before, h);
+      const VectorXd way        = q_ - before;
+      const double   part       = way_share(way, before - begin);
+      const bool     rests      = largest(way) <= settled * std::max(largest(q_), 1e-3);
+      if (iterations > most_of_step || part > 1. || (!rests && way.dot(unbalanced) < 0.))
+      {
+        q_      = before;
+        lambda_ = forces;
+        h *= iterations <= most_of_step && part > 1. ? std::max(0.25, 0.8 / std::sqrt(part)) : 0.25;
+        continue;
+      }
+      moves = way;
+      if (h >= settled_at && rests)
+      {
+        if (!finish())
+          return false;
+        const Growth growth = growing();
+        if (growth.rate == 0. || ++pushes > most_pushes)
+          return growth.rate == 0.;
+        q_ += push / largest(growth.motion) * growth.motion;
+        h = first_step;
+      }
+      h = std::min(longest_step, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
+    }
+    if (h > shortest_step)
+      loose_ = told_loose(machine_, moves); // still on its way
+    return false;
+  }
+
+  /// Largest share of what each coordinate may move in a step.
+  double way_share(const VectorXd &way, const VectorXd &so_far) const
+  {
+    if (!way.allFinite())
+      return std::numeric_limits<double>::infinity();
+    VectorXd most = VectorXd::Constant(n_, way_of_step);
+    for (const Body &body : machine_.bodies())
+    {
+      const int lengths = body.kind == BodyKind::rotor    ? 0
+                          : body.kind == BodyKind::slider ? 1
+                          : body.kind == BodyKind::planar ? 2
+                                                          : 3;
+      for (int i = body.coordinate; i < body.coordinate + lengths; ++i)
+        most[i] = std::max(most[i], growing_way * std::abs(so_far[i]));
+    }
+    return way.cwiseAbs().cwiseQuotient(most).maxCoeff();
+  }
+
+  /// @return iterations, most_of_step + 1 if there were not enough
+  int implicit_step(const VectorXd &before, double h)
+  {
+    MatrixXd saddle;
+    VectorXd residual;
+    for (int k = 1; k <= most_of_step; ++k)
+    {
+      balance_.evaluate(q_, lambda_, 1., saddle, residual);
+      saddle.topLeftCorner(n_, n_) += M_ / (h * h);
+      residual.head(n_) += M_ * (q_ - before) / (h * h);
+      const VectorXd scale  = scale_of(saddle);
+      const MatrixXd scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
+      const VectorXd delta = scale.asDiagonal() * scaled.partialPivLu().solve(VectorXd(scale.asDiagonal() * -residual));
+      if (!delta.allFinite())
+        break;
+      q_ += delta.head(n_);
+      lambda_ += delta.tail(lambda_.size());
+      if (largest(delta.head(n_)) <= 1e-10 * std::max(largest(q_), 1e-3))
+        return k;
+    }
+    return most_of_step + 1;
+  }
+
+  /// Newton's method where the relaxation has come to rest.
+  bool finish()
+  {
+    const VectorXd q = q_, lambda = lambda_;
+    if (newton(1.) && largest(q_ - q) <= 1e-3 * std::max(largest(q), 1e-3))
+      return true;
+    q_      = q;
+    lambda_ = lambda;
+    MatrixXd saddle;
+    VectorXd residual;
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    return residual.head(n_).lpNorm<1>() <= balanced * balance_.forces();
+  }
+
+  Machine                 &machine_;
+  StaticBalance            balance_;
+  int                      n_;
+  VectorXd                 q_, lambda_;
+  MatrixXd                 M_;
+  MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R
+  std::string              loose_; ///< what is said of the motion along which an unbalanced force finds no stiffness
+  std::vector<std::string> notes_;
+};
+
+} // namespace
+
+InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift, Floating floating)
+{
+  if (machine.full_frame())
+    throw std::invalid_argument(
+        "a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
+  Equilibrium equilibrium(machine, assembled);
+  if (floating == Floating::relieved)
+    equilibrium.relieve();
+  equilibrium.solve();
+  equilibrium.tell_relief();
+  InitialState state = assembled;
+  state.q            = equilibrium.q();
+  state.v            = drift == Drift::quasistatic ? equilibrium.drift() : Eigen::VectorXd::Zero(machine.size()).eval();
+  state.notes        = equilibrium.notes();
+  return state;
+}
+
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const SteadyMotion *motion,
+                                 const InitialState *from)
+{
+  return Equilibrium(machine, from ? *from : position.state, &position, motion).held();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "coupling/equilibrium/steady_motion.h"
+#include "coupling/machine/assembly.h"
+
+namespace gestell::coupling
+{
+
+enum class Drift
+{
+  none,       ///< at rest
+  quasistatic ///< with the velocity at which the equilibrium moves along with prescribed motions
+};
+
+/// What becomes of loads along motions that nothing holds: those of a vehicle without its wheels, of a satellite.
+enum class Floating
+{
+  refused, ///< there is no equilibrium, unless no force acts along them
+  relieved ///< the inertia of the machine takes them
+};
+
+/**
+ * Static equilibrium near an assembled position:
+ *
+ *     C q = f_t + W p(q, 0),     p = G^T lambda of joints,     g(t, q) = 0,
+ *
+ * by Newton's method with the whole tangent (geometric stiffness included); where it fails, constant loads are put on
+ * in parts.  Laws that depend on u' act as at rest; what sticks carries no force.  The velocity of the drift follows
+ * from the equilibrium's derivative, K q' = W G^T lambda',  G W^T q' = -dg/dt.
+ *
+ * Relieved, a machine that floats has the deflection in which it accelerates as a whole, with the motions R that cost
+ * no energy and break no joint, R^T M R = E:
+ *
+ *     C q = (1 - M R R^T)(f_t + W p),     R^T M (q - q_assembled) = 0,     acceleration R R^T (f_t + W p),
+ *
+ * so that a run starts without vibration; a note tells the acceleration.
+ *
+ * @throws std::invalid_argument if a motion has neither stiffness nor weight to hold it, or no equilibrium is found
+ */
+InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift,
+                                Floating floating = Floating::refused);
+
+struct HeldEquilibrium
+{
+  Eigen::VectorXd q;      ///< [n]
+  Eigen::VectorXd lambda; ///< [n_c] multipliers of the joints
+};
+
+/**
+ * The same with the machine held where it is asked for: given coordinates of bodies and measures keep their values,
+ * driven joints stand where `position.shifts` has them; what holds them takes up any force.  Of loads that vary with
+ * time the constant part acts; technological forces and drives rest (Acting::structure), for the machine stands still.
+ * A motion without stiffness along which no force acts stays where it is.
+ *
+ * Of a machine in motion everything acts, what is held goes on with an acceleration that no force holds it to, and
+ * loads have the inertia and the damping of the motion beside them, docs/theory/start.md (15).
+ *
+ * @param position  assembled, chains that play opens just touching
+ * @param motion    of a machine that moves, or null
+ * @param from      where the search begins; null: at the position
+ * @throws std::invalid_argument as static_equilibrium()
+ */
+HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const SteadyMotion *motion = nullptr,
+                                 const InitialState *from = nullptr);
+
+} // namespace gestell::coupling

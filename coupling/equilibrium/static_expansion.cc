@@ -1,0 +1,77 @@
+#include "coupling/equilibrium/static_expansion.h"
+
+#include "coupling/algebra/sparse_cholesky.h"
+
+namespace gestell::coupling
+{
+
+namespace
+{
+/// Pairs (coordinate of the full frame, coordinate of the reduced one) of all interfaces.
+std::vector<std::pair<int, int>> matching_interfaces(const Machine &full, const Machine &reduced)
+{
+  std::vector<std::pair<int, int>> pairs;
+  const auto                      &theirs = reduced.reduced_frame()->interfaces;
+  for (const fem::Interface &mine : full.full_frame()->interfaces)
+    for (const fem::Interface &other : theirs)
+      if (other.name == mine.name)
+        for (int i = 0; i < 6; ++i)
+          if (mine.coordinate[i] >= 0)
+            pairs.emplace_back(mine.coordinate[i], other.coordinate[i]);
+  if (static_cast<int>(pairs.size()) != full.n_interface() || full.n_interface() != reduced.n_interface())
+    throw std::invalid_argument("expand_statically: the two frames do not have the same interfaces");
+  return pairs;
+}
+} // namespace
+
+InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state)
+{
+  InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size()), state.settled,
+                        state.notes};
+  const int    n_frame      = full.n_frame();
+  const auto  &C            = full.full_frame()->C;
+  const int    n_bodies     = full.n_mechanism();
+  expanded.q.tail(n_bodies) = state.q.tail(n_bodies);
+  expanded.v.tail(n_bodies) = state.v.tail(n_bodies);
+
+  std::vector<int> place(n_frame, 0); // of an inner coordinate in q2, -1 for q1
+  for (const auto &[mine, other] : matching_interfaces(full, reduced))
+  {
+    expanded.q[mine] = state.q[other];
+    expanded.v[mine] = state.v[other];
+    place[mine]      = -1;
+  }
+  int n2 = 0;
+  for (int &i : place)
+    if (i == 0)
+      i = n2++;
+
+  Eigen::VectorXd load(full.size());
+  full.excitation().at(state.t, load);
+  const Eigen::VectorXd               force = load.head(n_frame) - C * expanded.q.head(n_frame);
+  const Eigen::VectorXd               rate  = -(C * expanded.v.head(n_frame));
+  Eigen::MatrixXd                     inner(n2, 2);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(C.nonZeros());
+  for (int j = 0; j < n_frame; ++j)
+  {
+    if (place[j] < 0)
+      continue;
+    inner.row(place[j]) << force[j], rate[j];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(C, j); it; ++it)
+      if (place[it.row()] >= 0)
+        entries.emplace_back(place[it.row()], place[j], it.value());
+  }
+  Eigen::SparseMatrix<double> C22(n2, n2);
+  C22.setFromTriplets(entries.begin(), entries.end());
+  SparseCholesky(C22).solve_in_place(inner);
+  for (int i = 0; i < n_frame; ++i)
+    if (place[i] >= 0)
+    {
+      expanded.q[i] = inner(place[i], 0);
+      expanded.v[i] = inner(place[i], 1);
+    }
+  return expanded;
+}
+
+} // namespace gestell::coupling

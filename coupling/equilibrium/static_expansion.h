@@ -1,0 +1,20 @@
+#pragma once
+
+#include "coupling/simulation/simulation.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * State of a machine on the unreduced frame from that of the same machine on the reduced one: interface and bodies take
+ * their values over, the inside of the frame follows statically,
+ *
+ *     q2 = C22^-1 (f_s2 - C21 q1),     q2' = -C22^-1 C21 q1',
+ *
+ * which is exact for a start in equilibrium (5.5.3/15; f_s2: weight of the frame).
+ *
+ * @throws std::invalid_argument if the interfaces of both frames differ.
+ */
+InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state);
+
+} // namespace gestell::coupling

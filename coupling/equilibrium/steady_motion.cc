@@ -1,0 +1,250 @@
+#include "coupling/equilibrium/steady_motion.h"
+
+#include "coupling/equilibrium/static_equilibrium.h"
+#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/loop_closure.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double dependent = 1e-10; ///< pivot of rows scaled to unit masses that counts as zero
+constexpr double torn      = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
+constexpr int    most_rounds = 50;
+constexpr double settled     = 1e-12; ///< change of q in a round, against its size
+
+/// Linear demands A x = b on a motion, for several right-hand sides at once.
+struct Demands
+{
+  MatrixXd A; ///< [k x n]
+  MatrixXd b; ///< [k x number of motions]
+};
+
+/// Satisfies demands one after the other: what comes later has only the freedom that is left.
+class Freedom
+{
+public:
+  /// @param scale  [n] of the coordinates: motions of equal size have equal kinetic energy; 0: at rest
+  Freedom(const VectorXd &scale, Eigen::Index n_motions)
+      : Z_(scale.asDiagonal()), X_(MatrixXd::Zero(scale.size(), n_motions))
+  {
+  }
+
+  /// By least squares, with the smallest motion.  @return the rank of the demands in what was free
+  Eigen::Index satisfy(const Demands &demands)
+  {
+    if (demands.A.rows() == 0 || Z_.cols() == 0)
+      return 0;
+    const MatrixXd                                   A = demands.A * Z_;
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr;
+    qr.setThreshold(dependent);
+    qr.compute(A);
+    X_ += Z_ * qr.solve(demands.b - demands.A * X_);
+    const Eigen::Index n = Z_.cols(), r = qr.rank();
+    Z_ = Z_ * (qr.colsPermutation() * MatrixXd(qr.matrixZ().transpose()).rightCols(n - r));
+    return r;
+  }
+
+  const MatrixXd &motions() const { return X_; }
+  const MatrixXd &free() const { return Z_; }
+
+private:
+  MatrixXd Z_, X_;
+};
+
+/// 1/sqrt(m) of bodies; what rests or is no motion has none.
+VectorXd motion_scale(const Machine &machine)
+{
+  const MatrixXd M     = dense_mass(machine);
+  VectorXd       scale = VectorXd::Zero(machine.size());
+  for (int i = machine.n_frame(); i < machine.size(); ++i)
+    scale[i] = M(i, i) > 0. ? 1. / std::sqrt(M(i, i)) : 1.;
+  for (const int i : machine.virtual_coordinates())
+    scale[i] = 0.;
+  return scale;
+}
+
+/// Columns of right-hand sides: v, a, then S.
+MatrixXd sides(const VectorXd &rate, const VectorXd &acceleration, Eigen::Index n_held)
+{
+  MatrixXd b = MatrixXd::Zero(rate.size(), 2 + n_held);
+  b.col(0)   = rate;
+  b.col(1)   = acceleration;
+  return b;
+}
+
+Demands joint_demands(const Machine &machine, const LocalState &local, Eigen::Index n_held)
+{
+  const int          n_c = machine.n_constraints();
+  VectorXd           g(n_c), rate(n_c), bias(n_c);
+  ConstraintJacobian G(machine.constraint_blocks());
+  machine.constraints(local, g, G);
+  machine.constraint_rates(local, rate, bias);
+  return {joint_jacobian(machine, G), sides(-rate, -bias, n_held)};
+}
+
+/// Rows of what has a given speed; its acceleration is zero, and a unit one in S.
+Demands given_demands(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v)
+{
+  const int             n = machine.size();
+  std::vector<VectorXd> rows;
+  std::vector<double>   speeds, accelerations;
+  const auto            add = [&](const VectorXd &row, double speed, double acceleration)
+  {
+    rows.push_back(row);
+    speeds.push_back(speed);
+    accelerations.push_back(acceleration);
+  };
+  for (int i = machine.n_frame(); i < n; ++i)
+    if (known.v_given[i])
+      add(VectorXd::Unit(n, i), known.state.v[i], 0.);
+  VectorXd gradient;
+  for (const auto &[name, rate] : known.rates)
+  {
+    machine.measure(name).evaluate(q, v, &gradient);
+    add(gradient, rate, -machine.measure(name).acceleration(q, v, VectorXd::Zero(n)));
+  }
+  for (const KnownSpin &spin : known.spins)
+    add(spin_gradient(machine, spin, q), spin.value, 0.);
+
+  const auto n_held = Eigen::Index(rows.size());
+  Demands    result{MatrixXd(n_held, n),
+                 sides(VectorXd::Map(speeds.data(), n_held), VectorXd::Map(accelerations.data(), n_held), n_held)};
+  for (Eigen::Index i = 0; i < n_held; ++i)
+    result.A.row(i) = rows[std::size_t(i)];
+  result.b.rightCols(n_held).setIdentity();
+  return result;
+}
+
+/// Compliant joints as if they were ideal.
+Demands compliant_demands(const Machine &machine, const LocalState &local, Eigen::Index n_held)
+{
+  std::vector<VectorXd> rows;
+  std::vector<double>   biases;
+  for (const CompliantPlace &place : compliant_joints(machine))
+    for (int i = 0; i < place.joint->n_equations(); ++i)
+    {
+      const int  k = place.joint->n_measures();
+      VectorXd   gradient(k);
+      const auto opening = place.joint->opening(i, local.u.data() + place.first_measure,
+                                                local.v.data() + place.first_measure, gradient.data());
+      biases.push_back(-opening.bias);
+      rows.push_back(machine.directions().middleCols(place.first_measure, k) * gradient);
+    }
+  const auto n = Eigen::Index(rows.size());
+  Demands    result{MatrixXd(n, machine.size()), sides(VectorXd::Zero(n), VectorXd::Map(biases.data(), n), n_held)};
+  for (Eigen::Index i = 0; i < n; ++i)
+    result.A.row(i) = rows[std::size_t(i)];
+  return result;
+}
+
+Demands chain_demands(const Machine &machine, const VectorXd &q, const VectorXd &v, Eigen::Index n_held)
+{
+  const Closures chain = closures(machine, q, v);
+  return {chain.J, sides(VectorXd::Zero(chain.g.size()), -chain.curvature, n_held)};
+}
+
+/// Stationary elastic energy 1/2 x^T K x in what is free, Z^T K x = 0.
+Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixXd &Z, Eigen::Index n_motions)
+{
+  MatrixXd engaged, damping;
+  engaged_matrices(machine, q, {}, engaged, damping);
+  return {Z.transpose() * (dense_stiffness(machine) + engaged), MatrixXd::Zero(Z.cols(), n_motions)};
+}
+
+[[noreturn]] void refuse_speeds()
+{
+  throw std::invalid_argument(
+      "the joints make the speeds given in start.v depend on each other, or leave one of them no "
+      "motion; a steady start takes those of the drives alone, and the joints give the others");
+}
+
+/// Least squares may leave elastic closures open: not by more than their deflections explain, beside what a motion x of
+/// the same kinetic energy can open at all, |A_i x| <= |A_i scale| |x / scale|.
+void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &scale)
+{
+  const MatrixXd open  = (demands.A * X - demands.b).cwiseAbs();
+  const VectorXd rows  = (demands.A * scale.asDiagonal()).rowwise().norm();
+  const MatrixXd sizes = X.array().colwise() * scale.unaryExpr([](double s) { return s > 0. ? 1. / s : 0.; }).array();
+  if ((open.array() > torn * (rows * sizes.colwise().norm()).array()).any())
+    refuse_speeds();
+}
+
+/// One pass: v is right whatever `v_before`, a and its curvatures if that was v.
+SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v_before)
+{
+  LocalState local;
+  local.resize(machine);
+  machine.gather(known.state.t, q, v_before, VectorXd::Zero(machine.size()), local);
+  const Demands      given  = given_demands(machine, known, q, v_before);
+  const Eigen::Index n_held = given.A.rows();
+  const VectorXd     scale  = motion_scale(machine);
+  Freedom            freedom(scale, 2 + n_held);
+  freedom.satisfy(joint_demands(machine, local, n_held));
+  if (freedom.satisfy(given) < n_held)
+    refuse_speeds();
+  const Demands compliant = compliant_demands(machine, local, n_held),
+                chain     = chain_demands(machine, q, v_before, n_held);
+  freedom.satisfy(compliant);
+  freedom.satisfy(chain);
+  freedom.satisfy(elastic_demands(machine, q, freedom.free(), 2 + n_held));
+  const MatrixXd &X = freedom.motions();
+  require_closed(compliant, X, scale);
+  require_closed(chain, X, scale);
+  return {X.col(0), X.col(1), X.rightCols(n_held)};
+}
+
+/// The same known start with what has a given speed held in position `at`, and nothing else.
+KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
+{
+  KnownStart held = known;
+  held.state      = at;
+  held.state.v    = known.state.v;
+  held.q_given    = known.v_given;
+  held.measures.clear();
+  for (const auto &rate : known.rates)
+    held.measures.emplace_back(rate.first, machine.measure(rate.first).evaluate(at.q, at.v).s);
+  return held;
+}
+
+} // namespace
+
+SteadyMotion steady_motion(const Machine &machine, const KnownStart &known, const VectorXd &q)
+{
+  return motion_with(machine, known, q, motion_with(machine, known, q, VectorXd::Zero(machine.size())).v);
+}
+
+InitialState steady_start(Machine &machine, const KnownStart &known)
+{
+  const bool given =
+      std::any_of(known.v_given.begin() + machine.n_frame(), known.v_given.end(), [](char g) { return g; });
+  if (!given && known.rates.empty() && known.spins.empty())
+    throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
+  InitialState     state = assemble(machine, known);
+  const KnownStart held  = held_at(machine, known, state);
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    const SteadyMotion motion = steady_motion(machine, held, state.q);
+    HeldEquilibrium    next   = held_equilibrium(machine, held, &motion, &state);
+    const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
+    state.q                   = next.q;
+    state.v                   = motion.v;
+    if (change <= settled * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
+      return state;
+  }
+  throw std::invalid_argument(
+      "no steady motion was found from the position of the start: the deflections by inertia do "
+      "not settle; give a lower speed, a better position, or start with rule = \"given\"");
+}
+
+} // namespace gestell::coupling

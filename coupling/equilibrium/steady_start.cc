@@ -1,0 +1,232 @@
+#include "coupling/equilibrium/steady_start.h"
+
+#include "coupling/machine/assembly.h"
+#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/loop_closure.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Positions given by angles, and the state kinematics makes of them.
+struct Kinematics
+{
+  std::vector<bool> given; ///< coordinates whose value is not unknown
+  int               driver = -1;
+  InitialState      state;
+  Eigen::VectorXd   acceleration;
+};
+
+void check_driver(const SteadyStart &start, const Kinematics &kinematics)
+{
+  const long n_given = std::count(kinematics.given.begin(), kinematics.given.end(), true);
+  if (n_given != (kinematics.driver >= 0 ? 1 : 0))
+    throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
+                                (start.driver.empty() ? "no driver" : "one driver") +
+                                "; each given angle replaces the balance of one driver, so give one of both, or none");
+}
+
+Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
+{
+  const int  n = machine.size();
+  Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
+  auto      &q = result.state.q, &v = result.state.v;
+  for (const Body &body : machine.bodies()) // other rotors stand in line with the first one given
+    if (body.kind == BodyKind::rotor && !start.angles.empty())
+      q[body.coordinate] = start.angles.front().second;
+  for (const auto &[name, angle] : start.angles)
+  {
+    result.given[machine.body(name).coordinate] = true;
+    q[machine.body(name).coordinate]            = angle;
+  }
+  for (const auto &[name, speed] : start.speeds)
+    v[machine.body(name).coordinate] = speed;
+  if (!start.driver.empty())
+    result.driver = machine.body(start.driver).coordinate;
+  check_driver(start, result);
+
+  close_chains(machine, q);
+  const Closures chain = closures(machine, q, v);
+  v += slider_solution(machine, chain.J, -chain.J * v);
+  result.acceleration = slider_solution(machine, chain.J, -closures(machine, q, v).curvature);
+  return result;
+}
+
+/// Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
+constexpr double singular = 1e-9;
+
+/// Equilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
+class Equilibrium
+{
+public:
+  Equilibrium(Machine &machine, const Kinematics &kinematics)
+      : machine_(machine), t_(kinematics.state.t), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
+        stiffness_(dense_stiffness(machine)), p_(Eigen::VectorXd::Zero(machine.directions().cols()))
+  {
+    const int n = machine.size();
+    for (int i = 0; i < n; ++i)
+    {
+      if (!kinematics.given[i])
+        unknown_.push_back(i);
+      if (i != kinematics.driver)
+        equations_.push_back(i);
+    }
+    Eigen::VectorXd product(n);
+    constant_ = machine.excitation().constant();
+    machine.mass_times(acceleration_, product);
+    constant_ -= product;
+    machine.damping_times(v_, product);
+    constant_ -= product;
+  }
+
+  /// Unbalanced forces [equations] at q.
+  Eigen::VectorXd residual(const Eigen::VectorXd &q)
+  {
+    machine_.gather(t_, q, v_, acceleration_, local_);
+    machine_.start(local_);
+    machine_.local_force(local_, p_);
+    const Eigen::VectorXd local = machine_.directions() * p_, elastic = stiffness_ * q;
+    size_of_forces_ = constant_.cwiseAbs().maxCoeff() + local.cwiseAbs().maxCoeff() + elastic.cwiseAbs().maxCoeff();
+    return (constant_ + local - elastic)(equations_);
+  }
+
+  /// Largest force in the balance residual() was last asked for.
+  double size_of_forces() const { return size_of_forces_; }
+
+  /// One Newton step for the residual at q; the step of a singular matrix is the shortest that helps most.
+  Eigen::VectorXd step(const Eigen::VectorXd &q, const Eigen::VectorXd &balance)
+  {
+    Eigen::MatrixXd dp(p_.size(), p_.size());
+    machine_.local_tangent(local_, 1., 0., 0., p_, dp);
+    const auto &W = machine_.directions();
+    decompose(stiffness_ - Eigen::MatrixXd(W * dp * W.transpose()));
+    if (solver_.rank() < static_cast<Eigen::Index>(unknown_.size()))
+    {
+      // Open play gives no stiffness: closed elements show the way through it.
+      Eigen::MatrixXd closed, damping;
+      engaged_matrices(machine_, q, {}, closed, damping);
+      decompose(stiffness_ + closed);
+    }
+    const Eigen::VectorXd scaled   = row_scale_.asDiagonal() * balance;
+    const Eigen::VectorXd solution = solver_.solve(scaled);
+    held_                          = (matrix_ * solution - scaled).norm() <= 1e-6 * scaled.norm();
+    Eigen::VectorXd change         = Eigen::VectorXd::Zero(q.size());
+    change(unknown_)               = scale_.asDiagonal() * solution;
+    return change;
+  }
+
+  /// Whether the last step balances its forces to first order: not if one acts along a free motion.
+  bool held() const { return held_; }
+
+  /// The first coordinate, those of the frame before the bodies it carries, that moves at least half as much as the one
+  /// that moves most in the motion the last matrix leaves free; -1 if there is none.
+  int free_coordinate() const
+  {
+    const Eigen::Index rank = solver_.rank(), n = static_cast<Eigen::Index>(unknown_.size());
+    if (rank == n)
+      return -1;
+    // A x = 0 for x = P Z^T e_n: the last column of the orthogonal factor.
+    Eigen::VectorXd motion = solver_.matrixZ().transpose() * Eigen::VectorXd::Unit(n, n - 1);
+    motion                 = scale_.asDiagonal() * Eigen::VectorXd(solver_.colsPermutation() * motion);
+    const double half      = 0.5 * motion.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < unknown_.size(); ++i)
+      if (std::abs(motion[static_cast<Eigen::Index>(i)]) >= half)
+        return unknown_[i];
+    return unknown_.front();
+  }
+
+private:
+  /// Scaled to unit diagonal, so that metres and radians compare.
+  void decompose(const Eigen::MatrixXd &tangent)
+  {
+    const auto inverse_root = [&](int i) { return 1. / std::sqrt(std::max(std::abs(tangent(i, i)), 1e-300)); };
+    scale_.resize(static_cast<Eigen::Index>(unknown_.size()));
+    row_scale_.resize(static_cast<Eigen::Index>(equations_.size()));
+    for (std::size_t j = 0; j < unknown_.size(); ++j)
+      scale_[static_cast<Eigen::Index>(j)] = tangent(unknown_[j], unknown_[j]) == 0. ? 1. : inverse_root(unknown_[j]);
+    for (std::size_t i = 0; i < equations_.size(); ++i)
+      row_scale_[static_cast<Eigen::Index>(i)] =
+          tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
+    const Eigen::MatrixXd part = tangent(equations_, unknown_);
+    solver_.setThreshold(singular);
+    matrix_ = row_scale_.asDiagonal() * part * scale_.asDiagonal();
+    solver_.compute(matrix_);
+  }
+
+  Machine         &machine_;
+  double           t_;
+  Eigen::VectorXd  v_, acceleration_, constant_;
+  Eigen::MatrixXd  stiffness_, matrix_;
+  std::vector<int> unknown_, equations_;
+  LocalState       local_;
+  Eigen::VectorXd  p_, scale_, row_scale_;
+  double           size_of_forces_ = 0.;
+  bool             held_           = true;
+
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
+};
+
+[[noreturn]] void refuse(const Machine &machine, const Equilibrium &equilibrium, double unbalanced)
+{
+  std::ostringstream message;
+  message << "start: no equilibrium; " << unbalanced << " N (or N m) stay unbalanced";
+  const int free = equilibrium.free_coordinate();
+  if (free < 0)
+    throw ConvergenceFailure(message.str() + " after Newton's iterations; start from another angle or give the state");
+  throw std::invalid_argument(
+      message.str() + ", for nothing holds the motion of " + machine.coordinate_name(free) +
+      ": hold the frame by a support or the body by an element, or give an angle and its driver");
+}
+
+} // namespace
+
+InitialState steady_start(Machine &machine, const SteadyStart &start)
+{
+  if (has_joints(machine))
+    throw std::invalid_argument(
+        "angles, speeds and driver do not close joints; give a steady start the position and the "
+        "speed of what drives as q and v instead, and the joints make the rest");
+  const Kinematics kinematics = kinematics_of(machine, start);
+  InitialState     state      = kinematics.state;
+  Equilibrium      equilibrium(machine, kinematics);
+
+  Eigen::VectorXd balance = equilibrium.residual(state.q);
+  for (int iteration = 0; iteration < 200; ++iteration)
+  {
+    const Eigen::VectorXd change = equilibrium.step(state.q, balance);
+    if (!equilibrium.held())
+      break;
+    // Through open play the residual stays what it is until contact: go on in doubled steps as long as it does not
+    // grow.
+    double          stretch = 1.;
+    Eigen::VectorXd next    = equilibrium.residual(state.q + change);
+    while (stretch < 1e12 && next.norm() > 0.5 * balance.norm() && change.norm() > 0.)
+    {
+      const Eigen::VectorXd further = equilibrium.residual(state.q + 2. * stretch * change);
+      if (!(further.norm() <= next.norm()))
+        break;
+      stretch *= 2.;
+      next = further;
+    }
+    const double before = balance.norm();
+    state.q += stretch * change;
+    balance = equilibrium.residual(state.q);
+    if (!balance.allFinite())
+      break;
+    const double unbalanced = balance.cwiseAbs().maxCoeff();
+    // Rounding ends the decrease.
+    if (unbalanced <= 1e-10 * equilibrium.size_of_forces() && (balance.norm() >= 0.3 * before || unbalanced == 0.))
+      return state;
+  }
+  refuse(machine, equilibrium, balance.cwiseAbs().maxCoeff());
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,179 @@
+#include "coupling/frame/frame_cache.h"
+
+#include "coupling/frame/whole_file.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t key_length = 64; // digits of SHA-256
+
+bool is_key(const std::string &text)
+{
+  return text.size() == key_length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+void require_named_after(const FrameOrigin &origin, const std::string &key)
+{
+  if (content_key(origin.recipe) != key)
+    throw std::runtime_error("was made from something else than its name says");
+}
+
+/// Reads the frame of a file that is named after its key.
+StoredFrame read_entry(const std::string &file, const std::string &key)
+{
+  StoredFrame stored = read_stored_frame(file);
+  require_named_after(stored.origin, key);
+  return stored;
+}
+
+void describe(CacheEntry &entry)
+{
+  try
+  {
+    FrameSummary summary = read_frame_summary(entry.file);
+    require_named_after(summary.origin, entry.key);
+    entry.origin      = std::move(summary.origin);
+    entry.n_full      = summary.n_full;
+    entry.n_interface = summary.n_interface;
+    entry.n_modes     = summary.n_modes;
+  }
+  catch (const std::runtime_error &failure)
+  {
+    entry.defect = failure.what();
+  }
+}
+
+} // namespace
+
+std::string cache_folder()
+{
+  const auto variable = [](const char *name)
+  {
+    const char *value = std::getenv(name);
+    return std::string(value ? value : "");
+  };
+  if (const auto own = variable("GESTELL_CACHE"); !own.empty())
+    return own;
+  if (const auto xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
+    return (fs::path(xdg) / "gestell").string();
+  const auto home = variable("HOME");
+  return (home.empty() ? fs::temp_directory_path() / "gestell" : fs::path(home) / ".cache" / "gestell").string();
+}
+
+std::string cache_file(const std::string &key)
+{
+  return (fs::path(cache_folder()) / (key + ".h5")).string();
+}
+
+std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note)
+{
+  const std::string file = cache_file(key);
+  std::error_code   error;
+  if (!fs::exists(file, error))
+    return {};
+  try
+  {
+    ReducedFrame frame = read_entry(file, key).frame;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // a cache for reading only is one, too
+    return frame;
+  }
+  catch (const std::runtime_error &failure)
+  {
+    note += "cache: " + file + " " + failure.what() + "; the frame is reduced anew";
+    return {};
+  }
+}
+
+std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
+{
+  try
+  {
+    write_reduced_frame(cache_file(content_key(origin.recipe)), frame, origin);
+    return {};
+  }
+  catch (const std::exception &failure)
+  {
+    return "cache: the reduced frame is not kept for the next run: " + std::string(failure.what());
+  }
+}
+
+std::string content_defect(const CacheEntry &entry)
+{
+  if (!entry.defect.empty())
+    return entry.defect;
+  try
+  {
+    read_entry(entry.file, entry.key);
+    return {};
+  }
+  catch (const std::runtime_error &failure)
+  {
+    return failure.what();
+  }
+}
+
+std::vector<CacheEntry> cache_entries(CacheCheck check)
+{
+  std::vector<CacheEntry> entries;
+  std::error_code         error;
+  for (fs::directory_iterator at(cache_folder(), error), end; !error && at != end; at.increment(error))
+  {
+    CacheEntry  entry;
+    struct stat status;
+    entry.file = at->path().string();
+    if (stat(entry.file.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
+      continue;
+    entry.bytes     = std::uintmax_t(status.st_size);
+    entry.last_used = status.st_mtime;
+    entry.key       = at->path().stem().string();
+    if (is_key(entry.key) && at->path().extension() == ".h5")
+      describe(entry);
+    else if (abandoned(entry.file))
+      entry.defect = "was never finished";
+    else
+      continue;
+    if (check == CacheCheck::contents)
+      entry.defect = content_defect(entry);
+    entries.push_back(std::move(entry));
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const CacheEntry &a, const CacheEntry &b)
+            { return a.last_used != b.last_used ? a.last_used > b.last_used : a.file < b.file; });
+  return entries;
+}
+
+std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, const Recipe &recipe)
+{
+  const CacheEntry *nearest = nullptr;
+  std::size_t       fewest  = 0;
+  for (const CacheEntry &entry : entries)
+    if (entry.defect.empty())
+      if (const auto count = differences(entry.origin.recipe, recipe).size(); !nearest || count < fewest)
+      {
+        nearest = &entry;
+        fewest  = count;
+      }
+  return nearest ? std::optional<CacheEntry>(*nearest) : std::nullopt;
+}
+
+std::string remove_entry(const CacheEntry &entry)
+{
+  std::error_code error;
+  fs::remove(entry.file, error);
+  return error ? entry.file + ": cannot be removed: " + error.message() : std::string();
+}
+
+} // namespace gestell::coupling

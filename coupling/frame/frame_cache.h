@@ -1,0 +1,59 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame_file.h"
+
+#include <cstdint>
+#include <ctime>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// The frame kept in the cache under this key: nothing if there is none, or if the file there is damaged or of another
+/// version or key; the reason is then appended to `note` (the frame has to be made anew).  Found frames count as used
+/// now.
+std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note);
+
+/// Keeps the frame in the cache under the key of its recipe.  A cache that cannot be written is no failure: the reason
+/// is returned, else "".
+std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
+
+/// $GESTELL_CACHE, else $XDG_CACHE_HOME/gestell, else ~/.cache/gestell.
+std::string cache_folder();
+/// Where the frame of this key is kept.
+std::string cache_file(const std::string &key);
+
+/// A file of the cache.
+struct CacheEntry
+{
+  std::string    file, key;
+  std::uintmax_t bytes     = 0;
+  std::time_t    last_used = 0;
+  std::string    defect; ///< why it cannot be used; "": it can
+  FrameOrigin    origin; // empty if it cannot be used
+  int            n_full = 0, n_interface = 0, n_modes = 0;
+};
+
+/// How much of each file is read.
+enum class CacheCheck
+{
+  heads,   ///< head, origin and sizes: damage of the numbers is not seen
+  contents ///< all of it, against its checksum, as where a frame is used
+};
+
+/// All files of the cache, the one used last first: frames and what unfinished writing left.  Other files are not
+/// listed.
+std::vector<CacheEntry> cache_entries(CacheCheck check = CacheCheck::heads);
+
+/// Why this frame of the cache cannot be used, its file read whole; "": it can.
+std::string content_defect(const CacheEntry &entry);
+
+/// The usable entry whose recipe differs from this one in the fewest ingredients; nothing if the cache is empty.
+std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, const Recipe &recipe);
+
+/// Removes an entry.  @return "" or the reason why it is still there.
+std::string remove_entry(const CacheEntry &entry);
+
+} // namespace gestell::coupling

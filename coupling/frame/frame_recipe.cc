@@ -1,0 +1,385 @@
+#include "coupling/frame/frame_recipe.h"
+
+#include "coupling/frame/frame_sources_hash.h"
+#include "coupling/frame/sha256.h"
+#include "coupling/frame/source_files.h"
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Shortest digits that read back as the same number.
+std::string text_of(double value)
+{
+  char digits[40];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value == 0. ? 0. : value).ptr}; // no minus zero
+}
+
+/// Collects ingredients.  Every value below is taken apart by a structured binding that names all its members: a member
+/// that is added later does not compile until it is added here, or named and left out on purpose.
+class Collector
+{
+public:
+  void add(const std::string &name, const std::string &value) { recipe_.push_back({name, value}); }
+  void add(const std::string &name, double value) { add(name, text_of(value)); }
+  void add(const std::string &name, int value) { add(name, std::to_string(value)); }
+  void add(const std::string &name, bool value) { add(name, std::string(value ? "yes" : "no")); }
+  template <typename T>
+  void add(const std::string &name, const std::optional<T> &value)
+  {
+    if (value)
+      add(name, *value);
+  }
+  template <typename T, std::size_t n>
+  void add(const std::string &name, const std::array<T, n> &values)
+  {
+    for (std::size_t i = 0; i < n; ++i)
+      add(name + "." + std::to_string(i + 1), values[i]);
+  }
+  template <typename T>
+  void add(const std::string &name, const std::vector<T> &values)
+  {
+    add(name, int(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      add(name + "." + std::to_string(i + 1), values[i]);
+  }
+  template <typename First, typename Second>
+  void add(const std::string &name, const std::pair<First, Second> &value)
+  {
+    add(name, value.first);
+    add(name + ".with", value.second);
+  }
+  template <typename T>
+  void add(const std::string &name, const std::map<std::string, T> &values)
+  {
+    for (const auto &[key, value] : values)
+      add(name + "." + key, value);
+  }
+  template <typename Enumeration, std::enable_if_t<std::is_enum_v<Enumeration>, int> = 0>
+  void add(const std::string &name, Enumeration value)
+  {
+    add(name, static_cast<int>(value));
+  }
+
+  void add(const std::string &name, const fem::Material &value)
+  {
+    const auto &[E, nu, rho, place, called] = value;
+    add(name + ".E", E);
+    add(name + ".nu", nu);
+    add(name + ".rho", rho);
+    add(name + ".name", called); // the frame tells it
+  }
+  void add(const std::string &name, const fem::SurfaceSelector::Cylinder &value)
+  {
+    const auto &[axis, through, radius] = value;
+    add(name + ".axis", axis);
+    add(name + ".through", through);
+    add(name + ".radius", radius);
+  }
+  void add(const std::string &name, const fem::SurfaceSelector::Plane &value)
+  {
+    const auto &[normal, through] = value;
+    add(name + ".normal", normal);
+    add(name + ".through", through);
+  }
+  void add(const std::string &name, const fem::SurfaceSelector::Box &value)
+  {
+    const auto &[min, max] = value;
+    add(name + ".min", min);
+    add(name + ".max", max);
+  }
+  void add(const std::string &name, const fem::SurfaceSelector &value)
+  {
+    const auto &[cylinder, plane, box, group, tolerance, faces, place] = value;
+    add(name + ".cylinder", cylinder);
+    add(name + ".plane", plane);
+    add(name + ".box", box);
+    add(name + ".group", group);
+    add(name + ".tolerance", tolerance);
+    add(name + ".faces", faces);
+  }
+  void add(const std::string &name, const fem::Support &value)
+  {
+    const auto &[own, surfaces, kind, held, stiffness, damping, place, per_area, axes] = value;
+    add(name, own);
+    add(name + ".surfaces", surfaces);
+    add(name + ".kind", kind);
+    add(name + ".held", held);
+    add(name + ".stiffness", stiffness);
+    add(name + ".damping", damping);
+    add(name + ".per_area", per_area);
+    add(name + ".axes", axes);
+  }
+  void add(const std::string &name, const fem::ModalRatios &value)
+  {
+    const auto &[constant, by_mode, by_frequency] = value;
+    add(name, constant);
+    add(name + ".by_mode", by_mode);
+    add(name + ".by_frequency", by_frequency);
+  }
+  void add(const std::string &name, const fem::AttachedMass &value)
+  {
+    const auto &[own, mass, inertia, centre, interface, surfaces, coupling, place] = value;
+    add(name, own);
+    add(name + ".mass", mass);
+    add(name + ".inertia", std::vector<double>(inertia.data(), inertia.data() + inertia.size()));
+    add(name + ".centre", centre);
+    add(name + ".interface", interface);
+    add(name + ".surfaces", surfaces);
+    add(name + ".coupling", coupling);
+  }
+  void add(const std::string &name, const fem::InterfaceSpecification &value)
+  {
+    const auto &[own, surfaces, coupling, position, place, radius, what] = value; // what: for messages
+    add(name, own);
+    add(name + ".surfaces", surfaces);
+    add(name + ".coupling", coupling);
+    add(name + ".position", position);
+    add(name + ".radius", radius);
+  }
+  void add(const std::string &name, const fem::CutSpecification &value)
+  {
+    const auto &[own, through, normal, place] = value;
+    add(name, own);
+    add(name + ".through", through);
+    add(name + ".normal", normal);
+  }
+  void add(const std::string &name, const fem::MeshOptions &value)
+  {
+    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, place] = value;
+    add(name + ".size", size);
+    add(name + ".surface", surface_size);
+    add(name + ".max_cells", max_cells);
+    add(name + ".gap", gap);
+    add(name + ".bodies", bodies);
+    add(name + ".defeature", defeature);
+    add(name + ".overlaps", overlaps);
+    add(name + ".curved", curved);
+  }
+  void add(const fem::FrameSpecification &value)
+  {
+    const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
+                 interfaces, masses, cuts, stress, scripts, place] = value;
+    add_sources(cad);
+    add("unit", unit);
+    add("mesh", mesh);
+    add("material", material);
+    add("materials", materials);
+    add("damping.ratio", ratios);
+    add("damping.rayleigh mass", rayleigh_mass);
+    add("damping.rayleigh stiffness", rayleigh_stiffness);
+    add("surface", surfaces);
+    add("support", supports);
+    add("interface", interfaces);
+    add("mass", masses);
+    add("cut", cuts);
+    add("stress", stress);
+  }
+
+  template <typename Number, int rows, int columns>
+  void add(const std::string &name, const Eigen::Matrix<Number, rows, columns> &A)
+  {
+    add(name, Sha256().update(size_text(A)).update(A.data(), sizeof(Number) * std::size_t(A.size())).hexadecimal());
+  }
+  template <int order>
+  void add(const std::string &name, const Eigen::SparseMatrix<double, order> &matrix)
+  {
+    Eigen::SparseMatrix<double, order> A = matrix;
+    A.makeCompressed();
+    const auto entries = std::size_t(A.nonZeros());
+    add(name, Sha256()
+                  .update(size_text(A))
+                  .update(A.outerIndexPtr(), sizeof(int) * std::size_t(A.outerSize() + 1))
+                  .update(A.innerIndexPtr(), sizeof(int) * entries)
+                  .update(A.valuePtr(), sizeof(double) * entries)
+                  .hexadecimal());
+  }
+  void add(const std::string &name, const fem::Interface &value)
+  {
+    const auto &[own, position, coordinate, sign] = value;
+    add(name, own);
+    add(name + ".position", position);
+    add(name + ".coordinate", coordinate);
+    add(name + ".sign", sign);
+  }
+  void add(const std::string &name, const fem::FrameOutput &value)
+  {
+    const auto &[own, unit, on_q, on_v, under_acceleration] = value;
+    add(name, own);
+    add(name + ".unit", unit);
+    add(name + ".on_q", on_q);
+    add(name + ".on_v", on_v);
+    add(name + ".under_acceleration", under_acceleration);
+  }
+  void add(const std::string &name, const fem::Picture &value)
+  {
+    const auto &[points, triangles, displacement] = value;
+    Sha256 hash;
+    for (const auto &point : points)
+      hash.update(point.data(), sizeof point);
+    for (const auto &triangle : triangles)
+      hash.update(triangle.data(), sizeof triangle);
+    add(name + ".skin", hash.hexadecimal());
+    add(name + ".displacement", displacement);
+  }
+  void add(const fem::FrameMatrices &value)
+  {
+    const auto &[M, B, C, ratios, modal_damping, interfaces, translations, acceleration_load, rigid_motions, centre,
+                 outputs, picture, facts, mass, stress, n_cells, notes, statements] =
+        value; // facts, stress and the last two: of cells only
+    add("mass", M);
+    add("damping", B);
+    add("stiffness", C);
+    add("damping.ratio", ratios);
+    add("damping.Z", modal_damping.Z);
+    add("damping.d", modal_damping.d);
+    add("interface", interfaces);
+    add("translations", translations);
+    add("acceleration_load", acceleration_load);
+    add("rigid_motions", rigid_motions);
+    add("centre", centre);
+    add("output", outputs);
+    add("picture", picture);
+    add("total mass", mass);
+    add("cells", n_cells);
+  }
+
+  void add(const ReductionOptions &value)
+  {
+    const auto &[n_modes, tolerance, frequency, place, inner, inertia_relief] = value;
+    if (n_modes >= 0)
+      add("reduction.modes", n_modes);
+    else
+      add("reduction.tolerance", tolerance);
+    add("reduction.frequency", frequency); // of what the frame says of its limits, too
+    add("reduction.inside", inner);
+    add("reduction.inertia relief", inertia_relief);
+  }
+
+  Recipe finished()
+  {
+    add("sources of the program", std::string(frame_sources_hash));
+    return std::move(recipe_);
+  }
+
+private:
+  template <typename Matrix>
+  static std::string size_text(const Matrix &A)
+  {
+    return std::to_string(A.rows()) + " x " + std::to_string(A.cols()) + ";";
+  }
+
+  void add_sources(const std::string &cad)
+  {
+    add("kind of file", std::filesystem::path(cad).extension().string());
+    const SourceFiles sources = source_files(cad);
+    for (std::size_t i = 0; i < sources.found.size(); ++i)
+      add("source " + std::to_string(i + 1), sha256_of_file(sources.found[i]));
+    add("missing", sources.missing);
+  }
+
+  Recipe recipe_;
+};
+
+std::runtime_error not_a_recipe()
+{
+  return std::runtime_error("what it was made from cannot be read");
+}
+
+/// Reads "12 " at `at`.
+std::size_t parse_length(const std::string &text, std::size_t &at)
+{
+  std::size_t length = 0;
+  const auto  read   = std::from_chars(text.data() + at, text.data() + text.size(), length);
+  if (read.ec != std::errc() || read.ptr == text.data() + text.size() || *read.ptr != ' ')
+    throw not_a_recipe();
+  at = std::size_t(read.ptr - text.data()) + 1;
+  return length;
+}
+
+/// Reads `length` letters and the one that ends them.
+std::string parse_word(const std::string &text, std::size_t &at, std::size_t length, char end)
+{
+  if (length >= text.size() - at || text[at + length] != end)
+    throw not_a_recipe();
+  const std::string word = text.substr(at, length);
+  at += length + 1;
+  return word;
+}
+
+} // namespace
+
+Recipe recipe_of(const fem::FrameSpecification &frame, const ReductionOptions &options)
+{
+  Collector collector;
+  collector.add(frame);
+  collector.add(options);
+  return collector.finished();
+}
+
+Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &options)
+{
+  Collector collector;
+  collector.add(frame);
+  collector.add(options);
+  return collector.finished();
+}
+
+// Lengths stand before the words, so that no word can pass for two.
+std::string text_of(const Recipe &recipe)
+{
+  std::string text;
+  for (const auto &[name, value] : recipe)
+    text += std::to_string(name.size()) + ' ' + std::to_string(value.size()) + ' ' + name + '=' + value + '\n';
+  return text;
+}
+
+Recipe parse_recipe(const std::string &text)
+{
+  Recipe recipe;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t name_length = parse_length(text, at), value_length = parse_length(text, at);
+    const std::string name = parse_word(text, at, name_length, '=');
+    recipe.push_back({name, parse_word(text, at, value_length, '\n')});
+  }
+  return recipe;
+}
+
+std::string content_key(const Recipe &recipe)
+{
+  return Sha256().update(text_of(recipe)).hexadecimal();
+}
+
+std::vector<Difference> differences(const Recipe &first, const Recipe &second)
+{
+  std::map<std::string, std::string> left;
+  for (const auto &[name, value] : second)
+    left.emplace(name, value);
+  std::vector<Difference> result;
+  for (const auto &[name, value] : first)
+  {
+    const auto other = left.find(name);
+    if (other == left.end())
+      result.push_back({name, value, ""});
+    else if (other->second != value)
+      result.push_back({name, value, other->second});
+    if (other != left.end())
+      left.erase(other);
+  }
+  for (const auto &[name, value] : second)
+    if (left.count(name))
+      result.push_back({name, "", value});
+  return result;
+}
+
+} // namespace gestell::coupling

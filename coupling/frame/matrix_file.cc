@@ -1,0 +1,14 @@
+#include "coupling/frame/matrix_file.h"
+
+#include "coupling/frame/matrix_market.h"
+#include "coupling/frame/petsc_binary.h"
+
+namespace gestell::coupling
+{
+
+Eigen::SparseMatrix<double> read_matrix_file(const std::string &file)
+{
+  return is_petsc_file(file) ? read_petsc_matrix(file) : read_matrix_market(file);
+}
+
+} // namespace gestell::coupling

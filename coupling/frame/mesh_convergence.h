@@ -1,0 +1,70 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+struct MeshConvergence;
+
+struct ConvergenceOptions
+{
+  double tolerance       = 0.01; ///< relative error allowed in every quantity, > 0
+  int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
+  bool   compliances     = true; ///< of all interfaces but those at a point are watched, too
+  int    max_coordinates = 1000000;
+  int    max_meshes      = 6;  ///< >= 2
+  double memory          = 0.; ///< [byte] that a mesh may take with its reduction; 0: what the system has available
+
+  /// Called after each mesh with what is known so far; a convergence that is interrupted keeps that.
+  std::function<void(const MeshConvergence &so_far)> after_mesh = {};
+};
+
+/// One of the meshes.
+struct MeshLevel
+{
+  double size          = 0.; ///< [m] of its elements, the largest
+  int    n_cells       = 0;
+  int    n_coordinates = 0;
+  double cpu_s         = 0.; ///< from the CAD model to the reduced frame
+  // of each quantity watched
+  std::vector<std::string> names; ///< "frequency 1", "compliance of engine"
+  std::vector<double>      values;
+  std::vector<double>      estimates; ///< relative error estimated from the stresses of this mesh alone
+};
+
+/// Leaves of each mesh the quantities that all have, by their names and in the order of the first: meshes may differ in
+/// the number of modes their frames are reduced to.
+/// @return the names left out.
+std::vector<std::string> keep_common(std::vector<MeshLevel> &levels);
+
+/// A frequency or a compliance, followed over the meshes.
+struct ConvergedQuantity
+{
+  std::string name;               ///< "frequency 1", "compliance of engine"
+  std::string unit;               ///< "Hz", "m/N"
+  double      limit       = 0.;   ///< extrapolated to elements of size zero
+  double      uncertainty = 0.;   ///< of the limit, relative
+  double      error       = 0.;   ///< of the last mesh's value against the limit, relative
+  double      order       = 0.;   ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
+  bool        regular     = true; ///< mesh by mesh nearer to the limit, see Extrapolated
+  int         n_meshes    = 0;    ///< that the limit rests on: one alone proves nothing
+  double      bound() const { return (error < 0. ? -error : error) + uncertainty; }
+};
+
+struct MeshConvergence
+{
+  std::vector<MeshLevel>         levels;
+  std::vector<ConvergedQuantity> quantities;
+  bool                           converged = false; ///< every bound() within the tolerance
+  std::string                    stopped;           ///< why not, if it is not
+  std::vector<std::string>       left_out;          ///< quantities that not every mesh has
+  std::vector<std::string>       at_points;         ///< interfaces whose compliance has no limit, and is not watched
+  ReducedFrame                   frame;             ///< of the last mesh
+};
+
+} // namespace gestell::coupling

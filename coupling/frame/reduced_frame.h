@@ -1,0 +1,51 @@
+#pragma once
+
+#include "coupling/frame/reduced_stress.h"
+#include "fem/values/frame_matrices.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * A frame in the coordinates p = (q1 [n1], modes [m]) of (5.5.3/15-20): small, dense, and all that a simulation needs,
+ * including the rows for outputs and pictures.  Interfaces index into p; their coordinates come first.  A small frame
+ * given by matrices has its other physical coordinates in place of modes.
+ */
+struct ReducedFrame
+{
+  Eigen::MatrixXd               M, B, C; // [(n1+m) x (n1+m)]
+  int                           n_interface = 0;
+  bool                          modal       = true; ///< behind the interface stand modes: M_LL = E, C_LL diagonal
+  Eigen::VectorXd               omega0;             // [m] fixed-interface frequencies [rad/s]; empty if not modal
+  std::vector<fem::Interface>   interfaces;
+  Eigen::MatrixXd               translations_load; // [(n1+m) x 3]  T^T M R: load of a unit acceleration in x, y, z
+  std::vector<fem::FrameOutput> outputs;           // rows on p
+
+  // pictures
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<int, 3>>    triangles;
+  Eigen::MatrixXf                    displacement; // [3 points x (n1+m)]
+  ReducedStress                      stress;
+
+  // what is known about the model
+  int                      n_full  = 0; ///< coordinates of the unreduced frame
+  int                      n_cells = 0;
+  double                   mass    = 0.;            ///< [kg]
+  fem::FrameFacts          facts;                   ///< of a frame made of cells
+  Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
+  double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold
+  Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
+  double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
+  std::vector<std::string> notes;                ///< warnings of the making
+  std::vector<std::string> statements;           ///< what was checked in the making and is as it should be
+
+  /// Rigid motions, as the full frame counts them.
+  int n_rigid() const { return int((frequencies_hz.array() == 0.).count()); }
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "coupling/frame/frame_recipe.h"
+#include "coupling/frame/reduced_frame.h"
+
+#include <string>
+
+namespace gestell::coupling
+{
+
+/// Where a reduced frame comes from, kept with it; all of it may be empty.
+struct FrameOrigin
+{
+  Recipe      recipe; ///< what it was made from; its key follows from it
+  std::string scene;  ///< file of the scene that asked for it first
+  std::string source; ///< CAD file or matrix; for people
+};
+
+/**
+ * Writes a reduced frame as HDF5: matrices as datasets in column-major order (dimensions reversed, as HDF5 counts rows
+ * first), one group per interface and output, and its origin.  Format's version and a checksum of the whole stand as
+ * text in the first 512 bytes (sealed_file.h).  The file appears complete or not at all: it is written beside its place
+ * and then renamed, so that any number of processes may write the same one.  Equal frames give equal files.
+ *
+ * @throws std::runtime_error if the folder cannot be made or the file not be written.
+ * @throws std::invalid_argument for a frame that is not modal.
+ */
+void write_reduced_frame(const std::string &file, const ReducedFrame &frame, const FrameOrigin &origin = {});
+
+/// Reads what write_reduced_frame() wrote, bit by bit.
+/// @throws std::invalid_argument if the file is missing, damaged, of another version or not a reduced frame.
+ReducedFrame read_reduced_frame(const std::string &file);
+
+/// A reduced frame as it stands in its file.
+struct StoredFrame
+{
+  FrameOrigin  origin;
+  ReducedFrame frame;
+};
+
+/// The same with its origin.
+/// @throws std::runtime_error with what is wrong with the file.
+StoredFrame read_stored_frame(const std::string &file);
+
+/// What a file tells of its frame without being read whole.
+struct FrameSummary
+{
+  FrameOrigin origin;
+  int         n_full = 0, n_interface = 0, n_modes = 0;
+};
+
+/// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen.
+/// @throws std::runtime_error with what is wrong with the file.
+FrameSummary read_frame_summary(const std::string &file);
+
+} // namespace gestell::coupling

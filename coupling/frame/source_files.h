@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// The files a frame is made from, in the order they are named, each once.
+struct SourceFiles
+{
+  std::vector<std::string> found, missing; ///< missing: as the script writes them
+};
+
+/// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo)
+/// as text in Include, Merge and ShapeFromFile, of a mesh of Abaqus (.inp) in *INCLUDE and INPUT=.  Extensions count in
+/// capitals and small letters.
+SourceFiles source_files(const std::string &cad);
+
+} // namespace gestell::coupling

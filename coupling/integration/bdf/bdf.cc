@@ -1,0 +1,410 @@
+#include "coupling/integration/bdf/bdf.h"
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+[[noreturn]] void fail_divided(const std::string &reason, int halvings, double step)
+{
+  std::ostringstream message;
+  message << reason << "; the step was halved " << halvings << " times, to " << step << " s";
+  throw ConvergenceFailure(message.str());
+}
+} // namespace
+
+Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
+    : system_(system), options_(options), implicit_(system, options.newton), virtual_rates_(system)
+{
+  if (options.order < 1 || options.order > 6)
+    throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
+  if (!(options.step > 0.))
+    throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
+  const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
+  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_})
+    x->setZero(n);
+  g_.setZero(n_u);
+  g_rate_.setZero(n_u);
+  for (LocalState *state : {&local_, &base_, &now_.local})
+    state->resize(system);
+  for (Point &point : points_)
+    point = {0., f_, f_, f_, g_, g_, g_, g_, local_.lambda};
+  cut_point_ = points_[0];
+}
+
+void Bdf::load(double t)
+{
+  const Excitation &excitation = system_.excitation();
+  if (load_known_ && excitation.is_constant())
+    return;
+  excitation.at(t, f_t_);
+  load_known_ = true;
+}
+
+void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  newest_ = 0;
+  local_.p.setZero();
+  local_.lambda.setZero();
+  set(t, q, v);
+  implicit_.begin(past(0).u);
+  begin_from(t);
+}
+
+void Bdf::begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vector<Eigen::VectorXd> &v)
+{
+  const int n = static_cast<int>(q.size());
+  if (n == 0 || n >= capacity || v.size() != q.size())
+    throw std::invalid_argument("BDF: a history of " + std::to_string(n) + " points q and " + std::to_string(v.size()) +
+                                " points v; it needs as many of both, 1 to " + std::to_string(capacity - 1));
+  newest_ = 0;
+  local_.p.setZero();
+  local_.lambda.setZero();
+  for (int i = n - 1; i >= 0; --i)
+  {
+    push();
+    set(t - i * options_.step, q[i], v[i]);
+    begin_from(past(0).t);
+  }
+  n_past_ = n;
+  implicit_.begin(past(0).u);
+}
+
+/// The newest point becomes t, q, v with their measures.
+void Bdf::set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  Point &point           = past(0);
+  point.t                = t;
+  point.q                = q;
+  point.v                = v;
+  point.u.noalias()      = system_.directions().transpose() * q;
+  point.u_rate.noalias() = system_.directions().transpose() * v;
+}
+
+/// Starts at past(0), of which q, v, u, u' are known.
+void Bdf::begin_from(double t)
+{
+  implicit_.forget_contraction();
+  t_begin_     = t;
+  index_       = 0;
+  n_past_      = 1;
+  cut_         = false;
+  Point &first = past(0);
+  first.t      = t;
+  system_.mass_times(first.v, first.w);
+  system_.damping_times(first.q, product_);
+  first.w += product_;
+  local_.t = t;
+  local_.u = first.u;
+  local_.v = first.u_rate;
+  local_.a.setZero();
+  system_.local_force(local_, local_.p);
+  ++work_.evaluations;
+  first.a      = local_.a;
+  first.p      = local_.p;
+  first.lambda = local_.lambda;
+  if (is_implied())
+  {
+    if (system_.n_constraints() > 0 && has_consistent())
+      consistent_->project(first.q, first.v, local_);
+    first.u      = local_.u;
+    first.u_rate = local_.v;
+    system_.mass_times(first.v, first.w);
+    system_.damping_times(first.q, product_);
+    first.w += product_;
+    find_implied(first);
+  }
+  virtual_rates_.settle(first.q, first.v, local_);
+  first.u_rate = local_.v;
+  now_known_   = false;
+}
+
+bool Bdf::is_implied() const
+{
+  return system_.n_constraints() > 0 || !system_.held().empty();
+}
+
+/// Where M is singular there is no acceleration, and the first step finds the forces.
+bool Bdf::has_consistent()
+{
+  if (!consistent_ && !massless_)
+    try
+    {
+      consistent_ = std::make_unique<ConsistentStart>(system_, "BDF", options_.newton.joints);
+    }
+    catch (const std::invalid_argument &)
+    {
+      massless_ = true;
+    }
+  return consistent_ != nullptr;
+}
+
+/// Forces that hold a measure or close a joint, from the equation of motion at a point.
+void Bdf::find_implied(Point &point)
+{
+  if (!has_consistent())
+    return;
+  present(point);
+  consistent_->solve(point.q, point.v, product_, local_, work_);
+  point.a      = local_.a;
+  point.p      = local_.p;
+  point.lambda = local_.lambda;
+}
+
+/// Something is held, and the equation of motion tells by which force.
+bool Bdf::finds_held() const
+{
+  return consistent_ && !system_.held().empty();
+}
+
+void Bdf::restart()
+{
+  if (cut_)
+  {
+    push();
+    past(0) = cut_point_;
+  }
+  begin_from(past(0).t);
+}
+
+/// The measures of a point become those of the present instant.
+void Bdf::present(const Point &point)
+{
+  local_.t      = point.t;
+  local_.u      = point.u;
+  local_.v      = point.u_rate;
+  local_.a      = point.a;
+  local_.p      = point.p;
+  local_.lambda = point.lambda;
+  now_known_    = false;
+}
+
+const Instant &Bdf::instant() const
+{
+  if (!now_known_)
+  {
+    const Point &point = cut_ ? cut_point_ : past(0);
+    now_.t             = point.t;
+    now_.q             = point.q;
+    now_.v             = point.v;
+    now_.local         = local_;
+    now_known_         = true;
+  }
+  return now_;
+}
+
+void Bdf::push()
+{
+  newest_ = (newest_ + 1) % capacity;
+  n_past_ = std::min(n_past_ + 1, capacity - 1);
+}
+
+void Bdf::advance()
+{
+  if (cut_)
+    restart();
+  now_known_     = false;
+  const double t = t_begin_ + static_cast<double>(index_ + 1) * options_.step;
+  try
+  {
+    if (n_past_ < options_.order)
+      start_value(t);
+    else
+      multistep(t);
+  }
+  catch (const ConvergenceFailure &)
+  {
+    present(past(0));
+    throw;
+  }
+  ++index_;
+  ++work_.steps;
+}
+
+void Bdf::cut(double t)
+{
+  interpolate(t, cut_point_.q, cut_point_.v);
+  interpolate(t, base_);
+  keep_held_rates(system_, base_.v);
+  cut_point_.t      = t;
+  cut_point_.u      = base_.u;
+  cut_point_.u_rate = base_.v;
+  cut_point_.a      = base_.a;
+  cut_point_.p      = base_.p;
+  cut_point_.lambda = base_.lambda;
+  if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
+    find_implied(cut_point_);
+  cut_ = true;
+  present(cut_point_);
+}
+
+void Bdf::multistep(double t)
+{
+  const Point *points[6];
+  for (int i = 0; i < options_.order; ++i)
+    points[i] = &past(i);
+  Point &to = points_[(newest_ + 1) % capacity];
+  try
+  {
+    predict(&Point::u, &Point::u_rate, local_.u);
+    if (implicit_.is_sparse())
+      predict(&Point::q, &Point::v, to.q);
+    implicit_.expect_good_predictions(options_.order <= 2 && n_past_ >= 3);
+    formula_step(options_.order, points, t, options_.step, to);
+    implicit_.expect_good_predictions(false);
+  }
+  catch (const ConvergenceFailure &)
+  {
+    implicit_.expect_good_predictions(false);
+    ++work_.rejected;
+    divided_step(past(0), options_.step, 1, to);
+  }
+  push();
+  if (system_.n_constraints() > 0)
+  {
+    if (index_ + 1 < 2 * options_.order || system_.wants_multipliers())
+      find_implied(past(0));
+  }
+  else if (finds_held())
+  {
+    consistent_->hold(past(0).q, past(0).v, local_, work_);
+    past(0).p = local_.p;
+  }
+}
+
+/// By extrapolation, one order above what the first points give.
+void Bdf::predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const
+{
+  if (n_past_ >= 3)
+    to = 3. * (past(0).*x - past(1).*x) + past(2).*x;
+  else if (n_past_ == 2)
+    to = 2. * past(0).*x - past(1).*x;
+  else
+    to = past(0).*x + options_.step * past(0).*rate;
+}
+
+void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
+{
+  const BdfFormula &formula = bdf_formulas[order - 1];
+  const double      h_beta = formula.beta0 * step, inverse = 1. / h_beta;
+  const auto        history = [&](Eigen::VectorXd Point::*x, Eigen::VectorXd &to)
+  {
+    if (order == 2) // in one pass
+      to = -formula.alpha[0] * past[0]->*x - formula.alpha[1] * past[1]->*x;
+    else
+      to = -formula.alpha[0] * past[0]->*x;
+    for (int i = 1; i < order && order != 2; ++i)
+      to -= formula.alpha[i] * past[i]->*x;
+  };
+  history(&Point::q, h_q_);
+  history(&Point::w, h_w_);
+  history(&Point::u_rate, g_rate_);
+  history(&Point::u, g_);
+  load(t);
+  f_      = h_beta * h_w_ + (h_beta * h_beta) * f_t_;
+  base_.t = t;
+  base_.u.setZero();
+  base_.v = -inverse * g_;
+  base_.a = inverse * (base_.v - g_rate_);
+  const StepForm form{1., h_beta, h_beta * h_beta, h_beta * h_beta, 1., inverse, inverse * inverse, h_beta};
+  implicit_.solve(implicit_.condensed(form, work_), h_q_, f_, base_, to.q, local_, work_);
+
+  to.t      = t;
+  to.v      = inverse * (to.q - h_q_);
+  to.u      = local_.u;
+  to.u_rate = local_.v;
+  to.a      = local_.a;
+  to.p      = local_.p;
+  to.lambda = local_.lambda;
+  system_.stiffness_times(to.q, product_);
+  to.w          = h_w_ + h_beta * (f_t_ - product_);
+  const auto &W = system_.directions();
+  for (int j = 0; j < W.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+      to.w[it.row()] += h_beta * it.value() * local_.p[j];
+}
+
+void Bdf::divided_step(const Point &from, double length, int halvings, Point &to)
+{
+  const double half   = 0.5 * length;
+  const Point  start  = from;
+  Point        middle = from;
+  for (int part = 0; part < 2; ++part)
+  {
+    const Point *begin    = part == 0 ? &start : &middle;
+    Point       &end      = part == 0 ? middle : to;
+    const Point  base     = *begin;
+    const Point *points[] = {&base};
+    try
+    {
+      local_.u = base.u + half * base.u_rate;
+      if (implicit_.is_sparse())
+        end.q = base.q + half * base.v;
+      formula_step(1, points, base.t + half, half, end);
+    }
+    catch (const ConvergenceFailure &failure)
+    {
+      if (halvings == options_.max_halvings)
+        fail_divided(failure.what(), halvings, half);
+      ++work_.rejected;
+      divided_step(base, half, halvings + 1, end);
+    }
+  }
+}
+
+void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
+{
+  Point        base = from;
+  const double step = length / n;
+  for (int i = 0; i < n; ++i)
+  {
+    const Point *points[] = {&base};
+    try
+    {
+      local_.u = base.u + step * base.u_rate;
+      if (implicit_.is_sparse())
+        to.q = base.q + step * base.v;
+      formula_step(1, points, base.t + step, step, to);
+    }
+    catch (const ConvergenceFailure &)
+    {
+      ++work_.rejected;
+      divided_step(base, step, 1, to);
+    }
+    base = to;
+  }
+}
+
+void Bdf::start_value(double t)
+{
+  // One order more for BDF 2: behind an event the acceleration may begin at zero (breaking away from rest), and then
+  // the displacement of the first step is all local error.
+  const int          order = options_.order == 2 ? 3 : options_.order;
+  const double       h     = options_.step;
+  std::vector<Point> table(order, past(0)); // Neville's table, newest column in place
+  for (int j = 0; j < order; ++j)
+  {
+    euler_chain(past(0), h, j + 1, table[j]);
+    for (int k = j - 1; k >= 0; --k)
+    {
+      // table[k] becomes the value of order j - k + 1 from the chains k + 1 .. j + 1
+      const double weight = 1. / (static_cast<double>(j + 1) / (k + 1) - 1.);
+      const auto   refine = [&](Eigen::VectorXd Point::*x)
+      { table[k].*x = table[k + 1].*x + weight * (table[k + 1].*x - table[k].*x); };
+      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate, &Point::a, &Point::p, &Point::lambda})
+        refine(x);
+    }
+  }
+  push();
+  past(0)   = table[0];
+  past(0).t = t;
+  if (is_implied())
+    find_implied(past(0));
+  present(past(0));
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,117 @@
+#pragma once
+
+#include "coupling/integration/bdf/bdf_formula.h"
+#include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/step/virtual_rates.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * BDF (Gear) of order p = 1..6 with fixed step in the form (5.5.2/4-13).
+ *
+ * With w = M q' + B q (the book's v) and h^q, h^w from the past by (5.5.2/8):
+ *
+ *     A q_k = M h^q + h_beta h^w + h_beta^2 (f_t + W p),     A = M + h_beta B + h_beta^2 C      (5.5.2/12, 13)
+ *     q'_k  = (q_k - h^q)/h_beta,     w_k = h_beta (f_t + W p - C q_k) + h^w                    (5.5.2/6, 10)
+ *
+ * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
+ * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not.
+ * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as
+ * many points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
+ *
+ * The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ * (ConsistentStart::hold()).
+ *
+ * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
+ * max_halvings times; the grid stays as it was.
+ */
+class Bdf : public TimeIntegrator
+{
+public:
+  struct Options
+  {
+    int           order        = 2;
+    double        step         = 0.; ///< h [s], > 0
+    int           max_halvings = 10;
+    NewtonOptions newton;
+  };
+
+  /// @throws std::invalid_argument for an order outside 1..6 or a step that is not positive.
+  Bdf(const SecondOrderSystem &system, const Options &options);
+
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  /// Continues a motion that is known at t and at steps before: q[i], v[i] [n] at t - i h.  As many points as the order
+  /// has (at most 7) make steps of the start unnecessary.
+  /// @throws std::invalid_argument for no points, too many, or not as many q as v
+  void begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vector<Eigen::VectorXd> &v);
+  void advance() override;
+
+  const LocalState      &local() const override { return local_; }
+  const Instant         &instant() const override;
+  double                 step_begin() const override { return past(n_past_ > 1 ? 1 : 0).t; }
+  void                   interpolate(double t, LocalState &state) const override;
+  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void                   cut(double t) override;
+  void                   restart() override;
+  const IntegrationWork &work() const override { return work_; }
+
+private:
+  /// A past point: q, v = q', w = M q' + B q [n]; motion of the measures and their forces.
+  struct Point
+  {
+    double          t = 0.;
+    Eigen::VectorXd q, v, w, u, u_rate, a, p, lambda;
+  };
+
+  Point       &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest
+  const Point &past(int i) const { return points_[(newest_ + capacity - i) % capacity]; }
+  void         push();
+  void         set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+  void         begin_from(double t);
+  bool         has_consistent();
+  bool         is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
+  void         find_implied(Point &point);
+  bool         finds_held() const;
+  void         multistep(double t);
+  void         start_value(double t);
+  void         euler_chain(const Point &from, double length, int n, Point &to);
+  void         divided_step(const Point &from, double length, int halvings, Point &to);
+  void         predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const;
+  void         formula_step(int order, const Point *const *past, double t, double step, Point &to);
+  void         load(double t);
+  void         present(const Point &point);
+  int          interpolation_points(double *t, const Point **points) const;
+  int          value_weights(double t, double *weights) const;
+
+  static constexpr int capacity = 8; ///< points kept: up to 6 past ones, the new one, one spare
+
+  const SecondOrderSystem    &system_;
+  Options                     options_;
+  ImplicitStep                implicit_;
+  VirtualRates                virtual_rates_;
+  mutable IntegrationWork     work_;
+  mutable Instant             now_;
+  mutable bool                now_known_ = false;
+  double                      t_begin_   = 0.;
+  long                        index_     = 0; ///< of the newest point, t = t_begin + index h
+  std::array<Point, capacity> points_;
+  int                         newest_ = 0, n_past_ = 0;
+  Point                       cut_point_;
+  bool                        cut_ = false; ///< the present instant is cut_point_, inside the last step
+  LocalState                  local_, base_;
+  Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
+  mutable Eigen::VectorXd     q_inside_, v_inside_;
+  bool                        load_known_ = false;
+
+  std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first, or for joints
+  bool                             massless_ = false; ///< M is singular: there is none
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,356 @@
+#include "coupling/integration/events/event_driver.h"
+
+#include "coupling/integration/step/loads_to_come.h"
+#include "coupling/integration/system/error_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
+constexpr double nearby     = 0.25; ///< share of its length by which a parabola errs about a turn at its end
+constexpr double a_little =
+    0.1; ///< share of a step by which the force that holds a measure errs in the time of an event
+
+/// To what an event at t in a step of length h is located: far below what any step's error does to its time.
+double resolution(double t, double h)
+{
+  return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
+}
+} // namespace
+
+EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
+    : system_(system), integrator_(integrator), options_(options), detection_(system)
+{
+  before_.resize(system);
+  between_.resize(system);
+  make_room();
+}
+
+void EventDriver::make_room()
+{
+  const Eigen::Index room = system_.n_guards() + 4 * system_.directions().cols() + 4;
+  for (Eigen::VectorXd &g : g_)
+    g.setZero(room);
+  probe_.setZero(room);
+}
+
+void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  before_.t           = t;
+  before_.u.noalias() = system_.directions().transpose() * q;
+  before_.v.noalias() = system_.directions().transpose() * v;
+  before_.a.setZero();
+  before_.p.setZero();
+  system_.follow_history(false);
+  system_.start(before_);
+  auto *const  control  = dynamic_cast<ErrorControl *>(&integrator_);
+  const bool   controls = control && control->controls_error();
+  LoadedMotion loaded;
+  if (controls)
+    loaded = loads_to_come(system_, before_, options_.end);
+  system_.follow_history(options_.locate);
+  integrator_.begin(t, q, v);
+  if (controls)
+    control->expect(loaded.way, loaded.speed);
+  before_ = integrator_.local();
+  detection_.begin(before_);
+  window_begin_ = t;
+  in_window_    = 0;
+}
+
+void EventDriver::advance()
+{
+  if (!options_.locate)
+  {
+    step_over();
+    tell_events();
+    return;
+  }
+  integrator_.advance();
+  const double full = integrator_.time() - integrator_.step_begin();
+  if (integrator_.time() - window_begin_ > length_ + full)
+  {
+    window_begin_ = integrator_.step_begin();
+    in_window_    = 0;
+  }
+  length_ = full;
+  if (!cut_at_end())
+    return;
+
+  Crossing crossing;
+  if (!first_crossing(crossing))
+  {
+    observe();
+    system_.accept(integrator_.local());
+    before_ = integrator_.local();
+    return;
+  }
+  take(crossing);
+  tell_events();
+  if (++in_window_ > options_.max_per_step && integrator_.time() < options_.end)
+  {
+    ++chattering_;
+    in_window_ = 0;
+    system_.follow_history(false);
+    detection_.begin(integrator_.local());
+    step_over();
+    chattering_time_ += integrator_.time() - before_.t;
+    system_.follow_history(true);
+    integrator_.restart();
+    before_ = integrator_.local();
+    tell_events();
+  }
+}
+
+/// A step with all laws following the motion; its events are found afterwards.
+void EventDriver::step_over()
+{
+  before_ = integrator_.local();
+  integrator_.advance();
+  if (!cut_at_end())
+    return;
+  observe();
+  detection_.step(before_, integrator_.local(), events_);
+  system_.accept(integrator_.local());
+}
+
+/// False: the integrator gave the step up instead; it goes on from its begin with a smaller one.
+bool EventDriver::cut_at_end()
+{
+  if (!(integrator_.time() > options_.end))
+    return true;
+  integrator_.cut(options_.end);
+  if (integrator_.time() == options_.end)
+    return true;
+  integrator_.restart();
+  before_ = integrator_.local();
+  return false;
+}
+
+void EventDriver::observe() const
+{
+  if (observer_)
+    observer_();
+}
+
+void EventDriver::tell_events()
+{
+  for (; told_ < events_.size(); ++told_)
+    if (event_observer_)
+      event_observer_(events_[told_]);
+}
+
+double EventDriver::value_at(int guard, double t)
+{
+  integrator_.interpolate(t, between_);
+  system_.guard_values(between_, probe_);
+  return sign(guard) * probe_[guard];
+}
+
+/// Illinois' variant of regula falsi on the dense output; ends just past the zero.
+void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
+{
+  const double finest = resolution(high, high - low);
+  const double width  = high - low;
+  int          side   = 0;
+  double       f_low = g_low, f_high = g_high;
+  for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
+  {
+    double t = f_high - f_low > 0. ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
+    if (!(t > low && t < high) || k % 8 == 7)
+      t = 0.5 * (low + high);
+    const double g    = value_at(guard, t);
+    const bool   wide = high - low > 1e-3 * width; // below, the slope would be rounding
+    if (g < 0.)
+    {
+      if (wide)
+        crossing.slope = (g_high - g) / (high - t);
+      low = t, f_low = g_low = g;
+      if (side == -1)
+        f_high *= 0.5;
+      side = -1;
+    }
+    else
+    {
+      if (wide)
+        crossing.slope = (g - g_low) / (t - low);
+      high = t, f_high = g_high = g;
+      if (side == 1)
+        f_low *= 0.5;
+      side = 1;
+    }
+  }
+  crossing.guard = guard;
+  crossing.t     = high;
+}
+
+/// Begin, end and one instant between them tell that no guard comes near zero: the parabola through them stays away by
+/// more than twice what it moves, the part that bends counted sixfold.  That instant is not the middle, where a rise in
+/// one half and a fall in the other would hide: c s (s - 1/2) (s - 1) is nowhere larger than 1.7 times there.
+bool EventDriver::far_from_zero() const
+{
+  for (int i = 0; i < system_.n_guards(); ++i)
+  {
+    const double s = sign(i), begin = s * g_[0][i], inside = s * probe_[i], end = s * g_[n_inside + 1][i];
+    const double way = std::abs(end - begin) + 6. * std::abs(inside - begin - off_middle * (end - begin));
+    if (!(std::max({begin, inside, end}) < -2. * way))
+      return false;
+  }
+  return true;
+}
+
+bool EventDriver::first_crossing(Crossing &first)
+{
+  const int n = system_.n_guards();
+  if (n == 0)
+    return false;
+  if (n > probe_.size())
+    make_room();
+  const double  begin = integrator_.step_begin(), end = integrator_.time();
+  constexpr int last = n_inside + 1;
+  double        t[last + 1];
+  for (int k = 0; k <= last; ++k)
+    t[k] = k == last ? end : begin + (end - begin) * k / last;
+  const auto sample = [&](int k)
+  {
+    integrator_.interpolate(t[k], between_);
+    system_.guard_values(between_, g_[k]);
+  };
+  system_.guard_values(before_, g_[0]);
+  system_.guard_values(integrator_.local(), g_[last]);
+  integrator_.interpolate(begin + off_middle * (end - begin), between_);
+  system_.guard_values(between_, probe_);
+  if (far_from_zero())
+    return false;
+  for (int k = 1; k < last; ++k)
+    sample(k);
+
+  first.t = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n; ++i)
+  {
+    const auto look = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
+    if (first.t > begin && is_due_at_begin(i, look(0).g, look(1).g))
+      first = {i, begin, 0.};
+    for (int k = 0; k < last && t[k] < first.t; ++k)
+    {
+      const Look here = look(k), next = look(k + 1);
+      Look       low = here, high = next;
+      const bool crosses = here.g < 0. && next.g >= 0. && (next.g > 0. || k + 1 < last);
+      if (!crosses && !(k > 0 && turns_above_zero(i, look(k - 1), here, next, low, high)))
+        continue;
+      Crossing crossing;
+      crossing.slope = (high.g - low.g) / (high.t - low.t);
+      locate(i, low.t, low.g, high.t, high.g, crossing);
+      if (crossing.t < first.t)
+        first = crossing;
+      break;
+    }
+  }
+  return first.guard >= 0;
+}
+
+/// Past zero at the begin of a step.  Behind a transition rounding may leave the guard there that would take it back;
+/// the force that holds a measure is known at once, and rounding is what would come back to the limit in no time.
+bool EventDriver::is_due_at_begin(int guard, double here, double next)
+{
+  constexpr double no_time = 1e-3; // of the way to the next look: what moves by then is a part in 10^9
+  return (here >= 0. && next > 0.) || (here > no_time * (here - next) && here > 0. && looks_at_held_force(guard));
+}
+
+/// At the begin of a step: the guard is another one without the forces that hold measures.
+bool EventDriver::looks_at_held_force(int guard)
+{
+  if (system_.held().empty())
+    return false;
+  between_ = before_;
+  for (const HeldMeasure &h : system_.held())
+    between_.p[h.measure] = 0.;
+  system_.guard_values(between_, probe_);
+  return probe_[guard] != g_[0][guard];
+}
+
+/// Whether a guard that is negative at three instants turns above zero between them: `top` there, `low` before it.
+/// Parabolas close in on the turn until their vertex is far below against what they err.
+bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top)
+{
+  constexpr double err = 0.1; // of the rise within a parabola: a sine bends its peak by 3 % at 0.8 rad between looks
+  if (!(a.g < 0. && b.g < 0. && c.g < 0.))
+    return false;
+  for (int k = 0; k < 8; ++k)
+  {
+    const double rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
+    double       t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+    if (!(curvature < 0. && t > a.t - nearby * (c.t - a.t) && t < c.t + nearby * (c.t - a.t)))
+      return false;
+    const double vertex = a.g + (t - a.t) * (rise + curvature * (t - b.t));
+    const double way    = std::max({a.g, b.g, c.g, vertex}) - std::min({a.g, b.g, c.g});
+    if (vertex < -err * way || t == b.t)
+      return false;
+    // A turn that seems to lie outside is looked for at the end, from inside.
+    if (t >= c.t)
+      t = 0.25 * b.t + 0.75 * c.t;
+    else if (t <= a.t)
+      t = 0.25 * b.t + 0.75 * a.t;
+    const Look seen{t, value_at(guard, t)};
+    if (seen.g > 0.)
+    {
+      low = t > b.t ? b : a;
+      top = seen;
+      return true;
+    }
+    // The highest of the four stays with its neighbours.
+    Look four[] = {a, b, c, seen};
+    std::sort(four, four + 4, [](const Look &x, const Look &y) { return x.t < y.t; });
+    const auto highest =
+        std::max_element(four, four + 4, [](const Look &x, const Look &y) { return x.g < y.g; }) - four;
+    const Look *middle = four + std::clamp<std::ptrdiff_t>(highest, 1, 2);
+    a = middle[-1], b = middle[0], c = middle[1];
+  }
+  return false;
+}
+
+void EventDriver::take(const Crossing &crossing)
+{
+  const int    guard = crossing.guard;
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  const double finest = resolution(end, end - begin);
+  const double most   = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
+  double       t      = crossing.t;
+  integrator_.cut(t);
+  // The state at the cut may be better than the dense output: move the cut until its own guard is zero.
+  double slope = crossing.slope, t_last = t, g_last = 0.;
+  for (int k = 0; k < 6 && t > begin; ++k)
+  {
+    system_.guard_values(integrator_.local(), probe_);
+    const double g = sign(guard) * probe_[guard];
+    if (k > 0 && t != t_last)
+      slope = (g - g_last) / (t - t_last);
+    const double next = slope > 0. ? std::clamp(t - g / slope, begin, end) : t;
+    if (std::abs(next - t) <= finest || std::abs(next - crossing.t) > most)
+      break;
+    t_last = t, g_last = g, t = next;
+    integrator_.cut(t);
+  }
+  if (integrator_.time() < t)
+  {
+    integrator_.restart(); // the integrator gave the step up: it goes on from its begin with a smaller one
+    before_ = integrator_.local();
+    return;
+  }
+  observe();
+  const ActiveGuard active = system_.guard(guard);
+  events_.push_back({integrator_.time(), active.name, active.kind});
+  between_ = integrator_.local();
+  system_.accept(between_);
+  system_.transition(guard, between_);
+  integrator_.restart();
+  before_ = integrator_.local();
+}
+
+} // namespace gestell::coupling

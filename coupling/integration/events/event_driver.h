@@ -1,0 +1,107 @@
+#pragma once
+
+#include "coupling/integration/events/event_detection.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+struct EventOptions
+{
+  bool locate       = true; ///< false: events are told, the integration goes over them
+  int  max_per_step = 20;   ///< located within the length of one step; more is chatter
+
+  double end = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
+};
+
+/**
+ * Drives an integrator from event to event and keeps the history of the elements.
+ *
+ * Between events every law follows its branch, smoothly continued (SecondOrderSystem::follow_history), so that the
+ * integrator keeps its order.  After each step the guards are looked at, at both ends, inside it, and where parabolas
+ * through three of these values turn, drawn closer until they tell on which side of zero the guard turns; the first
+ * zero in a guard's direction is located on the dense output, the step is cut there, improved until the guard of the
+ * state itself is zero, the transition is taken and the integration restarted.  A guard that is past its zero at the
+ * begin of a step and stays so, or that looks at the force that holds a measure, is an event at that begin.
+ *
+ * Chatter (Zeno): after max_per_step events within one step's length, one step is taken with the laws following the
+ * motion and events only told.
+ */
+class EventDriver
+{
+public:
+  EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options);
+
+  /// Starts history and integration;
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+
+  /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
+  /// @throws ConvergenceFailure
+  void advance();
+
+  /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
+  /// there: before anything of it is accepted and before the transition at its end.
+  void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
+  /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events
+  /// of a step that was gone over at its end.
+  void on_event(std::function<void(const Event &)> observer) { event_observer_ = std::move(observer); }
+
+  const std::vector<Event> &events() const { return events_; }
+  long                      chattering_steps() const { return chattering_; }
+  /// [s] that those steps took.
+  double chattering_time() const { return chattering_time_; }
+
+private:
+  struct Crossing
+  {
+    int    guard = -1;
+    double t     = 0.; ///< just past the zero
+    double slope = 0.; ///< of the guard there
+  };
+
+  /// A guard at an instant, turned so that it rises through its zero.
+  struct Look
+  {
+    double t, g;
+  };
+
+  bool   first_crossing(Crossing &crossing);
+  bool   is_due_at_begin(int guard, double here, double next);
+  bool   looks_at_held_force(int guard);
+  bool   turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top);
+  bool   far_from_zero() const;
+  void   locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing);
+  double value_at(int guard, double t);
+  double sign(int guard) const { return system_.crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
+  void   take(const Crossing &crossing);
+  void   step_over();
+  bool   cut_at_end();
+  void   observe() const;
+  void   tell_events();
+  void   make_room();
+
+  static constexpr int n_inside = 3; ///< samples inside a step
+
+  SecondOrderSystem                        &system_;
+  TimeIntegrator                           &integrator_;
+  EventOptions                              options_;
+  EventDetection                            detection_;
+  std::vector<Event>                        events_;
+  LocalState                                before_, between_;
+  std::array<Eigen::VectorXd, n_inside + 2> g_; ///< guards at the samples of the step
+  Eigen::VectorXd                           probe_;
+  double                                    window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
+  int                                       in_window_       = 0;
+  long                                      chattering_      = 0;
+  double                                    chattering_time_ = 0.;
+  std::function<void()>                     observer_;
+  std::function<void(const Event &)>        event_observer_;
+  std::size_t                               told_ = 0; ///< events
+};
+
+} // namespace gestell::coupling

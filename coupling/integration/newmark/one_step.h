@@ -1,0 +1,81 @@
+#pragma once
+
+#include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * What all methods share that go from one point with q, q' and an acceleration to the next, with fixed step.
+ *
+ * - Start and restart: the acceleration of the equation of motion there (ConsistentStart), so M must be regular.
+ * - A step in which Newton fails is divided: two steps of half the length by the same formula, each divided again up to
+ *   max_halvings times; the grid stays as it was.
+ * - Dense output: cubic Hermite through q, q' at both ends (order 4 in the step), q' its derivative; a and p linear.
+ * - The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ *   (ConsistentStart::hold()).
+ * - A cut takes the dense output; advance() after it begins anew there.
+ */
+class OneStep : public TimeIntegrator
+{
+public:
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  /// Continues a motion of which the acceleration that the method carries is known too, a [n].
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a);
+  void advance() override;
+
+  const LocalState      &local() const override { return present().motion.local; }
+  const Instant         &instant() const override { return present().motion; }
+  const Eigen::VectorXd &acceleration() const { return present().a; } ///< [n], as the method carries it
+  double                 step_begin() const override { return (stepped_ ? begin_ : end_).motion.t; }
+  void                   interpolate(double t, LocalState &state) const override;
+  void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void cut(double t) override;
+  void restart() override;
+  const IntegrationWork &work() const override { return work_; }
+
+protected:
+  /// A point of time: motion, acceleration as the method carries it and load f_t, both [n].
+  struct Point
+  {
+    Instant         motion;
+    Eigen::VectorXd a, f;
+  };
+
+  /// @param name  of the method, for messages
+  /// @throws std::invalid_argument for a step that is not positive, constraints, singular M
+  OneStep(const SecondOrderSystem &system, const std::string &name, double step, int max_halvings,
+          const NewtonOptions &newton);
+
+  /// One step of length h from `from`; on entry to.motion.local.p is that of `from`.
+  /// @throws ConvergenceFailure
+  virtual void formula_step(const Point &from, double h, Point &to) = 0;
+
+  const SecondOrderSystem &system_;
+  ImplicitStep             implicit_;
+  mutable IntegrationWork  work_;
+
+private:
+  const Point &present() const { return cut_ ? cut_point_ : end_; }
+  void         resize(Point &point) const;
+  void         place(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+  void         step_or_divide(const Point &from, double length, int halvings, Point &to);
+
+  double                  step_;
+  int                     max_halvings_;
+  mutable ConsistentStart start_;
+  Point                   begin_, end_, cut_point_;
+  mutable Eigen::VectorXd q_inside_, v_inside_;
+  std::vector<Point>      middle_; ///< of divided steps, by the number of halvings
+  double                  t_begin_ = 0.;
+  long                    index_   = 0;     ///< of the end of the last step, t = t_begin + index h
+  bool                    stepped_ = false; ///< begin_ and end_ bound a step
+  bool                    cut_     = false; ///< the present instant is cut_point_, inside the last step
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "coupling/integration/propagation/force_step.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * Forces as the polynomial through s Gauss points, at which the laws are met:
+ *
+ *     p_i = phi(u_i, u'_i),   u_i = u_free(c_i) + sum_j S_u(i, j) p_j,   u'_i = u'_free(c_i) + sum_j S_v(i, j) p_j.
+ *
+ * Order 2 s at the ends of steps, as the error of the polynomial is orthogonal to all of degree s - 1.  Newton solves
+ * for all p_i at once and keeps its Jacobian as long as it contracts well.  It stops where what it leaves moves no
+ * measure by the tolerance, relative to its largest excursion, and from order 6 on is small beside the local error:
+ * forces are met to newton_share times the square of the relative defect of the polynomial at the end of the step
+ * before.
+ *
+ * Error.  The defect d of the law at the ends of the step, the larger one, would, acting all the step, move the
+ * measures by S d.  A tenth of that is compared with their largest excursions, which do not count for less than
+ * least_part of how far the motion as a whole has gone, or loads to come would lead it, in the norm of the energy. What
+ * sticks holds others too: S is what is left of the mobility then.  A measure that sticks does not move: its force is
+ * as good as it should be if it errs little beside its own largest value, or if the error moves little beside the
+ * motion as a whole.
+ */
+class CollocationStep final : public ForceStep
+{
+public:
+  CollocationStep(ExactContext &context, int stages);
+
+  const ForceBasis &basis() const override { return basis_; }
+
+  void begin(const Eigen::VectorXd &x, const LocalState &at) override;
+
+  bool solve(const StepTable &table, LocalState &end) override;
+
+  void accept() override;
+
+  void   begin_state(Eigen::VectorXd &x) const override { x = x_begin_; }
+  void   end_state(Eigen::VectorXd &x) const override { x = x_end_; }
+  void   forces(Eigen::VectorXd &p) const override { p = P_; }
+  double error() const override { return error_; }
+  int    error_order() const override { return s_ + 2; }
+  double interpolation_error(double phase) const override { return std::min(1., nodes_.error(phase)); }
+
+  void interpolate(double sigma, LocalState &state) const override;
+
+private:
+  static HermiteNodes hermite_nodes(std::vector<double> points);
+
+  /// u, v at point i from the free motion and P.
+  void motion(const StepTable &table, int i, LocalState &state) const;
+
+  /// The last step's polynomial goes on; behind an event the force at its begin does.
+  void predict(double h);
+
+  /// Residuals phi(u_i, v_i) - P_i; with their Jacobian if it is wanted.
+  bool evaluate(const StepTable &table, bool jacobian);
+
+  bool iterate(const StepTable &table);
+
+  /// The largest defects so far, as parts of the largest forces.
+  void note_defect();
+
+  /// Relative error of the forces that Newton may leave; up to order 4 the tolerance is small enough beside the error.
+  double part_left() const;
+
+  bool is_expected(double h) const { return begin_at_.t + h <= expected_until_; }
+
+  /// The excursions of accepted steps, of this iterate, and those to be expected.
+  void grow_scale(const Eigen::Ref<const Eigen::VectorXd> &u, const Eigen::Ref<const Eigen::VectorXd> &v, double h);
+
+  bool is_held(int measure) const;
+
+  /// What a change of the forces does to the measures, relative to their scales; what sticks, to what its force does.
+  /// Forces that balance each other leave rounding of what each would do alone, which shows where iterations do not
+  /// end.
+  /// @param part  the change, relative to the largest forces
+  double size_of(const StepTable &table, const Eigen::VectorXd &change, int iteration, double &part) const;
+
+  /// What all forces would move a measure together, were they not to balance each other.
+  double of_all(const StepTable &table, int row) const;
+
+  /// Of I - S dp at the begin of the step, what sticks left out: no pivot is small or negative.
+  bool is_sound(const StepTable &table);
+
+  void finish(const StepTable &table, LocalState &end);
+
+  void find_defect(const LocalState &end);
+
+  /// How far the measures and their forces go in the step.
+  void reach(const LocalState &end);
+
+  /// error_ of the step, and the part of the forces that the defect is.
+  void estimate(const StepTable &table);
+
+  /// Largest excursions of the measures, their forces, and the way of the motion as a whole.
+  struct Reach
+  {
+    Eigen::VectorXd u, p;
+    double          way = 0.;
+  };
+
+  ExactContext       &context_;
+  int                 s_, n_u_;
+  ForceBasis          basis_;
+  HermiteNodes        nodes_;
+  Eigen::VectorXd     x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_, defect_begin_;
+  Eigen::VectorXd     mobile_; ///< what is left of the mobility of a measure while others are held [n_u]
+  Eigen::VectorXd     scale_;  ///< of the measures in the step in work [n_u]
+  long                age_of_way_ = 0;
+  Reach               reached_, expected_; ///< by the end of the step in work; of one refused
+  double              expected_until_ = 0.;
+  int                 doubtful_       = 0;    ///< steps refused from the present begin that erred by all they moved
+  Eigen::VectorXd     largest_defect_;        ///< of the forces so far [n_u]
+  double              defect_part_ = 1.;      ///< the largest of them, as a part of the largest force
+  const StepTable    *tried_       = nullptr; ///< of a step from the present begin
+  Eigen::MatrixXd     U_, V_, dp_du_, dp_dv_, extrapolate_;
+  std::vector<double> at_begin_, at_end_;
+  LocalState          begin_at_, node_;
+  SmallLu             lu_, sound_;
+  const StepTable    *factors_   = nullptr;
+  double              factors_h_ = 0.;
+  double              h_ = 0., h_last_ = 0., ratio_ = 0., error_ = 0.;
+};
+
+} // namespace gestell::coupling

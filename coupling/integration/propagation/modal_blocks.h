@@ -1,0 +1,68 @@
+#pragma once
+
+#include "coupling/integration/system/second_order_system.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// x' = Lambda x of two real states:
+///   oscillating  [s -w; w s]   eigenvalues s +- i w
+///   decaying     [s 0; 0 w]    two real ones, zero included
+///   free         [0 1; 0 0]    displacement and velocity of a motion without stiffness and damping
+struct ModalBlock
+{
+  enum Kind
+  {
+    oscillating,
+    decaying,
+    free
+  };
+  Kind   kind;
+  double s, w; ///< [1/s]
+};
+
+/**
+ * A linear system M q'' + B q' + C q = f in blocks of its (complex) modes:
+ *
+ *     x' = Lambda x + G f,     q = Q x,   q' = V x,     Lambda block diagonal, x [2 n_b].
+ *
+ * Motions without stiffness are found as the null space of C scaled to unit diagonal, and treated exactly: free where B
+ * lets them go (a double zero eigenvalue), with one zero and one decaying eigenvalue where it damps them.  Proportional
+ * damping keeps the real modes; any other takes the eigenvectors of the state matrix, scaled so that it is nearly skew.
+ *
+ * Behind the blocks of the modes come those of the load: each harmonic turns in a block of its own without input, whose
+ * columns of Q and V are the forced motion.
+ */
+struct ModalBlocks
+{
+  std::vector<ModalBlock> blocks;
+  int                     n_modal = 0;    ///< blocks of the system itself; those of harmonics follow
+  Eigen::MatrixXd         Q, V;           ///< [n x 2 n_b]
+  Eigen::MatrixXd         G;              ///< [2 n_modal x n]
+  Eigen::MatrixXd         from_q, from_v; ///< x = from_q q + from_v q' of the modal blocks [2 n_modal x n]
+  std::vector<double>     harmonics;      ///< omega of the blocks behind the modal ones
+
+  /// x [2 n_b] at t for q, q' [n].
+  Eigen::VectorXd state(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const;
+  /// Sets the states of the harmonics to those at t.
+  void turn_harmonics(double t, Eigen::VectorXd &x) const;
+};
+
+/// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is no sum of
+///         harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
+ModalBlocks modal_blocks(const SecondOrderSystem &system);
+
+/// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] by columns a, b as the block's kind has it.
+struct Block2
+{
+  double a11, a12, a21, a22;
+};
+
+/// phi_0(Z) .. phi_k(Z), Z = Lambda h:  phi_0 = exp, phi_k+1(z) = (phi_k(z) - 1/k!)/z.
+void phi_functions(const ModalBlock &block, double h, int k, Block2 *phi);
+
+} // namespace gestell::coupling

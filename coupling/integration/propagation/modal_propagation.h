@@ -1,0 +1,120 @@
+#pragma once
+
+#include "coupling/integration/propagation/force_step.h"
+#include "coupling/integration/system/error_control.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+namespace gestell::coupling
+{
+
+/**
+ * Exact propagation of the linear base system (5.5.2/1) in its modes, the forces of the elements interpolated in time.
+ *
+ *     x' = Lambda x + G (f_t + W p),     x(t + h) = e^(Lambda h) x + int_0^h e^(Lambda (h - s)) G (f_t + W p) ds
+ *
+ * Lambda is block diagonal (ModalBlocks), constant and harmonic loads are carried exactly, p is a polynomial over the
+ * step (ForceRule).  The step is therefore bound to the elements alone: a frame mode of 5 kHz costs no accuracy and no
+ * stability.  A step reads and writes every mode once; n_u unknowns remain.
+ *
+ *     average      order 2, stable at every contact
+ *     linear       order 2, one evaluation a step, stable up to omega_contact h = 2 sqrt(3)
+ *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
+ *
+ * Inside a step the measures are interpolated, or, with collocation, where modes that move them turn too far in a step
+ * for that, read from the modes.
+ *
+ * The force that holds a measure follows from the equation of motion at x, at ends of steps and inside.
+ *
+ * Steps lie on the grid t_begin + k h / 2^r: behind an event a shorter step leads back to it, so that all others share
+ * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
+ * the grid allows.
+ */
+class Exact : public TimeIntegrator, public ErrorControl
+{
+public:
+  struct Options
+  {
+    ForceRule     force     = ForceRule::collocation;
+    int           order     = 6;  ///< of collocation: 2, 4, 6 or 8
+    double        step      = 0.; ///< h [s], the largest one with a tolerance; 0 there: chosen from the lowest mode
+    double        tolerance = 0.; ///< of the local error in the measures, relative to their largest excursion; 0: fixed
+    int           max_halvings = 24;
+    NewtonOptions newton;
+  };
+
+  /// @throws std::invalid_argument as modal_blocks()
+  Exact(const SecondOrderSystem &system, const Options &options);
+
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
+  void advance() override;
+
+  const LocalState &local() const override { return local_; }
+  const Instant    &instant() const override;
+  double            step_begin() const override { return t_begin_; }
+  void              interpolate(double t, LocalState &state) const override;
+  void              interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  void cut(double t) override;
+  void restart() override;
+  const IntegrationWork &work() const override { return context_.work; }
+  bool                   controls_error() const override { return options_.tolerance > 0.; }
+  void                   expect(double way, double speed) override;
+
+private:
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone
+
+  static constexpr int finest = 30; ///< ticks are h / 2^finest
+
+  /// Where the step under way leads.
+  struct Target
+  {
+    double  t = 0., h = 0.;
+    int64_t tick    = 0;
+    bool    on_grid = false; ///< h is that of a rung
+    int     rung    = 0;
+  };
+
+  Target                 next_target() const;
+  const StepTable       &table_for(const Target &target);
+  double                 spacing(int rung) const { return std::ldexp(step_, -rung); }
+  bool                   attempt(const Target &target);
+  void                   start_piece();
+  void                   turn_harmonics();
+  void                   forget_inside();
+  bool                   is_smooth(double h) const;
+  void                   hold_rates(double t, Eigen::VectorXd &x) const;
+  const Eigen::VectorXd &state_at(double t) const; ///< x [2 n_p] inside the last step or at its end
+  [[noreturn]] void      fail(const std::string &reason) const;
+
+  const SecondOrderSystem   &system_;
+  Options                    options_;
+  ModalBlocks                modes_;
+  mutable ExactContext       context_;
+  std::unique_ptr<ForceStep> force_;
+  RowMatrix                  Q_, V_;  ///< [n x 2 n_p]
+  std::map<int, StepTable>   tables_; ///< by rung
+  StepTable                  partial_;
+  double                     step_ = 0., t_origin_ = 0., t_begin_ = 0.;
+  double                     t_full_  = 0.; ///< end of the step before it was cut
+  int64_t                    tick_    = 0;
+  bool                       on_grid_ = true, cut_ = false, stepped_ = false;
+  int                        rung_       = 0;
+  double                     last_error_ = 0.; ///< of the step before, in tolerances
+  Target                     target_;
+  LocalState                 local_, local_begin_;
+  Eigen::VectorXd            x_;
+  mutable Eigen::VectorXd    x_work_, x_inside_, forces_;
+  mutable LocalState         held_; ///< scratch of hold_rates()
+  mutable Instant            now_;
+  mutable bool               now_known_ = false;
+  mutable double             h_smooth_  = 0.; ///< of the last step, once is_smooth() looked at it; else 0
+  mutable bool               smooth_    = true;
+  double                     fastest_   = 0.; ///< of the motions of all blocks [1/s]
+  mutable double             t_inside_  = 0.; ///< of x_inside_, inside the last step; else it is not known
+};
+
+} // namespace gestell::coupling

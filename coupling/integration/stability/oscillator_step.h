@@ -1,0 +1,32 @@
+#pragma once
+
+#include "coupling/integration/stability/stability.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+using LongMatrix2 = Eigen::Matrix<long double, 2, 2>;
+
+/// The parameters of Newmark's family:
+///
+///     M ((1-alpha_m) a_1 + alpha_m a_0) + (1-alpha_f) (B v + C q)_1 + alpha_f (B v + C q)_0 = f,
+///     v_1 = v_0 + h ((1-gamma) a_0 + gamma a_1),    q_1 = q_0 + h v_0 + h^2 ((1/2-beta) a_0 + beta a_1).
+struct NewmarkFamily
+{
+  double alpha_m, alpha_f, beta, gamma;
+};
+
+/// Newmark itself, central differences (beta = 0, gamma = 1/2), HHT (alpha_f = -alpha, Hilber, Hughes and Taylor 1977),
+/// generalised alpha (Chung and Hulbert 1993); and the contact oscillator under exact propagation with a mean
+/// (beta = 1/4) or a linear force (beta = 1/6), gamma = 1/2.
+NewmarkFamily newmark_family(const MethodOptions &options);
+
+/// Step (x, h x') of a free mass with the spring and damper of an element under exact propagation, where the element's
+/// force is the polynomial through its values at Gauss points c_i:
+///
+///     p_i = -(Omega^2 u_i + 2 zeta Omega h u'_i),   u_i = u_0 + c_i h u'_0 + sum_j p_j int_0^c_i (c_i - s) L_j(s) ds.
+LongMatrix2 contact_step(const MethodOptions &options, const TestOscillator &oscillator);
+
+} // namespace gestell::coupling

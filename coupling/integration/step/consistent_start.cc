@@ -1,0 +1,322 @@
+#include "coupling/integration/step/consistent_start.h"
+
+#include "coupling/integration/step/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
+
+/// A coordinate without mass, or how the solver puts it.
+[[noreturn]] void refuse_singular(const SecondOrderSystem &system, const std::string &method, const std::string &why)
+{
+  std::ostringstream message;
+  message << method << ": the mass matrix is singular, so that the acceleration to begin with is not defined";
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.size()), column = unit;
+  int             massless = -1;
+  for (int i = 0; i < system.size() && massless < 0; ++i)
+  {
+    unit[i] = 1.;
+    system.mass_times(unit, column);
+    unit[i] = 0.;
+    if (column.isZero(0.))
+      massless = i;
+  }
+  if (massless >= 0)
+    message << ": " << system.coordinate_name(massless) << " has no mass";
+  else
+    message << " (" << why << ")";
+  message << "; give it mass, or use bdf, which needs none";
+  throw std::invalid_argument(message.str());
+}
+
+[[noreturn]] void fail_open(const SecondOrderSystem &system, const Eigen::VectorXd &g, double t)
+{
+  int worst = 0;
+  g.cwiseAbs().maxCoeff(&worst);
+  std::ostringstream message;
+  message << "the joints cannot be closed at t = " << t << " s: " << system.constraint_name(worst) << " stays open by "
+          << g[worst] << " (m or rad); check positions and lengths";
+  throw ConvergenceFailure(message.str());
+}
+
+} // namespace
+
+void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v)
+{
+  for (const HeldMeasure &h : system.held())
+    v[h.measure] = h.rate;
+}
+
+ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method, JointSolver joints)
+    : system_(system), G_(system.constraint_blocks())
+{
+  const auto n = system.size(), n_u = static_cast<int>(system.directions().cols());
+  for (Eigen::VectorXd *x : {&f_, &product_, &a_})
+    x->setZero(n);
+  a_free_.setZero(n_u);
+  correction_.setZero(n_u);
+  scale_.setZero(n_u);
+  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_})
+    x->setZero(G_.n_rows());
+  try
+  {
+    mass_ = system.factorise(1., 0., 0.);
+  }
+  catch (const std::invalid_argument &singular)
+  {
+    refuse_singular(system, method, singular.what());
+  }
+  // Solvers without a check of their own answer a singular M by values that are no numbers.
+  f_.setOnes();
+  mass_->solve(f_, product_);
+  if (!product_.allFinite())
+    refuse_singular(system, method, "no solution exists");
+  tangent_.setZero(tangent_size(system.force_blocks()));
+  saddle_ = SaddleMatrix::for_joints(system, joints);
+  if (!saddle_)
+    condense();
+}
+
+void ConsistentStart::condense()
+{
+  const auto &W   = system_.directions();
+  const int   n_u = static_cast<int>(W.cols());
+  matrix_         = std::make_unique<CondensedMatrix>(system_);
+  Y_.setZero(W.rows(), n_u);
+  for (int j = 0; j < n_u; ++j)
+  {
+    f_ = W.col(j);
+    mass_->solve(f_, product_);
+    Y_.col(j) = product_;
+  }
+  D_ = W.transpose() * Y_;
+}
+
+void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
+                            IntegrationWork &work)
+{
+  system_.excitation().at(local.t, f_);
+  system_.damping_times(v, product_);
+  f_ -= product_;
+  system_.stiffness_times(q, product_);
+  f_ -= product_;
+  mass_->solve(f_, a);
+  ++work.solves;
+  if (saddle_)
+  {
+    iterate_sparse(a, local, work);
+    return;
+  }
+  if (D_.cols() == 0)
+    return;
+  a_free_.noalias() = system_.directions().transpose() * a;
+  iterate(local, work);
+  a.noalias() += Y_.lazyProduct(local.p);
+}
+
+void ConsistentStart::factorise(double t)
+{
+  if (matrix_->factorise(D_, tangent_, system_.held()))
+    return;
+  if (matrix_->failed_joint() >= 0)
+    fail_dependent(system_, matrix_->failed_joint(), t);
+  fail_singular(system_, t);
+}
+
+/// Moves x, and its measures xi, by the impulses on the joints that change g by -g_, whatever sticks.
+void ConsistentStart::move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t)
+{
+  tangent_.setZero();
+  matrix_->set_joints(D_, G_);
+  if (!matrix_->factorise(D_, tangent_, {}))
+    fail_dependent(system_, matrix_->failed_joint(), t);
+  correction_.setZero();
+  matrix_->solve_in_place(D_, G_, correction_, g_);
+  xi += correction_;
+  correction_.setZero();
+  G_.set_forces(g_, correction_);
+  x.noalias() += Y_.lazyProduct(correction_);
+}
+
+void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local)
+{
+  if (G_.n_rows() == 0)
+    return;
+  double rounding = std::numeric_limits<double>::infinity(); // of the numbers whose difference g is
+  for (const ConstraintBlock &block : G_.blocks())
+    rounding = std::min(rounding, std::numeric_limits<double>::epsilon() * block.size);
+  double open = std::numeric_limits<double>::infinity();
+  for (int iteration = 0;; ++iteration)
+  {
+    system_.constraints(local, g_, G_);
+    const double before = open;
+    open                = g_.cwiseAbs().maxCoeff();
+    if (open <= rounding || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
+      break;
+    if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)
+      fail_open(system_, g_, local.t);
+    if (saddle_)
+      move_sparse(q, local.u, local.t);
+    else
+      move(q, local.u, local.t);
+  }
+  system_.constraint_rates(local, rate_, bias_);
+  g_ = rate_;
+  G_.add_product(1., local.v, g_);
+  if (saddle_)
+    move_sparse(v, local.v, local.t);
+  else
+    move(v, local.v, local.t);
+}
+
+/// The correction of u'' against the terms it is the sum of.  Bodies in joints may be held by them: rounding of the
+/// others is what is left of their acceleration.
+bool ConsistentStart::is_small(const Eigen::VectorXd &p)
+{
+  double largest = 0.;
+  for (int i = 0; i < correction_.size(); ++i)
+  {
+    scale_[i] = std::abs(a_free_[i]);
+    for (int j = 0; j < correction_.size(); ++j)
+      scale_[i] += std::abs(D_(i, j) * p[j]);
+    largest = std::max(largest, scale_[i]);
+  }
+  if (G_.n_rows() > 0)
+    scale_.setConstant(largest);
+  return (correction_.array().abs() <= converged * scale_.array()).all();
+}
+
+void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
+{
+  const auto &held   = system_.held();
+  const bool  joints = G_.n_rows() > 0;
+  if (joints)
+  {
+    system_.constraints(local, g_, G_);
+    system_.constraint_rates(local, rate_, bias_);
+    matrix_->set_joints(D_, G_);
+  }
+  local.a = a_free_;
+  for (const HeldMeasure &h : held)
+    local.a[h.measure] = 0.;
+  for (int iteration = 0; iteration < most_iterations(); ++iteration)
+  {
+    system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    ++work.newton;
+    ++work.evaluations;
+    // No force depends on u'' or multipliers: one step finds all.
+    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
+    linear_           = linear_ && linear;
+    if (joints)
+    {
+      G_.set_forces(local.lambda, local.p);
+      g_ = bias_;
+      G_.add_product(1., local.a, g_);
+    }
+    correction_ = a_free_ - local.a;
+    correction_.noalias() += D_.lazyProduct(local.p);
+    factorise(local.t);
+    matrix_->solve_in_place(D_, G_, correction_, g_);
+    if (joints)
+      local.lambda += g_;
+    for (const HeldMeasure &h : held) // linear in p: nothing to iterate
+    {
+      local.p[h.measure] += correction_[h.measure];
+      correction_[h.measure] = 0.;
+    }
+    local.a += correction_;
+    if (linear || is_small(local.p))
+    {
+      if (joints)
+        G_.set_forces(local.lambda, local.p);
+      return;
+    }
+  }
+  fail_unconverged(local.t);
+}
+
+void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, LocalState &local, IntegrationWork &work)
+{
+  if (saddle_ || G_.n_rows() > 0 || !linear_)
+  {
+    solve(q, v, a_, local, work);
+    return;
+  }
+  prepare_hold(local.t);
+  system_.excitation().at(local.t, f_);
+  system_.local_force(local, local.p);
+  ++work.evaluations;
+  for (const int h : holding_)
+    local.p[h] = local.a[h] = 0.;
+  held_p_.noalias() = hold_v_.transpose() * v;
+  held_p_.noalias() += hold_q_.transpose() * q;
+  held_p_.noalias() -= hold_f_.transpose() * f_;
+  for (std::size_t i = 0; i < holding_.size(); ++i)
+    held_p_[Eigen::Index(i)] -= D_.row(holding_[i]).dot(local.p);
+  delassus_.solve_in_place(held_p_);
+  for (std::size_t i = 0; i < holding_.size(); ++i)
+    local.p[holding_[i]] = held_p_[Eigen::Index(i)];
+}
+
+/// What hold() needs of the measures that are held now.
+void ConsistentStart::prepare_hold(double t)
+{
+  const auto &held = system_.held();
+  const auto  same = [](int own, const HeldMeasure &h) { return own == h.measure; };
+  if (std::equal(holding_.begin(), holding_.end(), held.begin(), held.end(), same))
+    return;
+  const auto n_h = Eigen::Index(held.size());
+  holding_.clear();
+  for (Eigen::MatrixXd *x : {&hold_f_, &hold_v_, &hold_q_})
+    x->resize(f_.size(), n_h);
+  held_p_.resize(n_h);
+  delassus_.resize(int(n_h));
+  for (Eigen::Index i = 0; i < n_h; ++i)
+  {
+    holding_.push_back(held[i].measure);
+    f_             = Y_.col(holding_.back());
+    hold_f_.col(i) = f_;
+    system_.damping_times(f_, product_);
+    hold_v_.col(i) = product_;
+    system_.stiffness_times(f_, product_);
+    hold_q_.col(i) = product_;
+  }
+  for (int i = 0; i < n_h; ++i)
+    for (int j = 0; j < n_h; ++j)
+      delassus_.matrix()(i, j) = D_(holding_[i], holding_[j]);
+  if (!delassus_.factorise())
+    fail_singular(system_, t);
+}
+
+int ConsistentStart::most_iterations() const
+{
+  return system_.forces_need_multipliers() ? most_by_friction : max_iterations;
+}
+
+void ConsistentStart::fail_unconverged(double t) const
+{
+  std::ostringstream message;
+  message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << most_iterations()
+          << " iterations; the last correction was " << correction_.cwiseAbs().maxCoeff() << " m/s^2 (or rad/s^2)";
+  int worst = 0;
+  if (g_.size() > 0)
+  {
+    g_.cwiseAbs().maxCoeff(&worst);
+    message << ", and most of all the force of " << system_.constraint_name(worst) << " goes on changing";
+  }
+  if (system_.forces_need_multipliers())
+    message << "; friction in a joint may make the force that causes it, so that the joint jams: lengthen the guide or "
+               "lower the coefficient";
+  throw ConvergenceFailure(message.str());
+}
+
+} // namespace gestell::coupling

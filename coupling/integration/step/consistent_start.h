@@ -1,0 +1,96 @@
+#pragma once
+
+#include "coupling/integration/step/condensed_matrix.h"
+#include "coupling/integration/step/saddle_matrix.h"
+#include "coupling/integration/system/small_lu.h"
+#include "coupling/integration/system/time_integrator.h"
+
+namespace gestell::coupling
+{
+
+/// Rates of held measures in v [n_u] become those they are held at, free of rounding: a motion that lets go there
+/// begins at the very zero of the guard by which it would stick again.
+void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v);
+
+/**
+ * The acceleration that belongs to q and q' at an instant:
+ *
+ *     M a = f_t + W p(t, u, u', u'') - B q' - C q.
+ *
+ * Condensed to the measures, with D = W^T M^-1 W [n_u x n_u]:  u'' = u''_free + D p, which Newton solves where forces
+ * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1); so do
+ * the multipliers of ideal joints from g'' = G u'' + bias = 0,
+ *
+ *     G D G^T lambda = -bias - G (u''_free + D p),
+ *
+ * whose accuracy is that of q and q', whatever integrator they came from.
+ *
+ * With many joints the same equations are solved uncondensed, for a and lambda at once, by SaddleMatrix with A = M, f
+ * = 1.
+ *
+ * Methods that carry the acceleration from step to step begin with it; M has to be regular for them.
+ */
+class ConsistentStart
+{
+public:
+  /// Factorises M.
+  /// @param method  for messages: "Newmark"
+  /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
+  ConsistentStart(const SecondOrderSystem &system, const std::string &method,
+                  JointSolver joints = JointSolver::automatic);
+
+  /// a [n] at local.t, for which local.u and local.v belong to q, v [n]; fills local.a, local.p and local.lambda.
+  /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge, or if joints depend on each other
+  void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
+             IntegrationWork &work);
+
+  /// The forces that hold measures, into local.p with u'' = 0 of these measures, at any instant of a motion: as
+  /// solve(), by as few products as there are held measures where neither joints nor forces that depend on u'' take
+  /// part,
+  ///
+  ///     D_hh p_h = -(M^-1 W_h)^T (f_t - B q' - C q) - D_ho p_o.
+  ///
+  /// The branches must be those of the last solve().
+  void hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, LocalState &local, IntegrationWork &work);
+
+  /// The position nearest to q with g(t, u) = 0, then the velocity nearest to v with G u' + rate = 0, both measured by
+  /// their kinetic energy; local.u and local.v with them.
+  /// @throws ConvergenceFailure if joints depend on each other or g cannot be closed
+  void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
+
+private:
+  static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms it is the sum of
+  static constexpr int    max_iterations   = 25;
+  static constexpr int    most_by_friction = 8 * max_iterations; ///< where they converge linearly
+
+  int               most_iterations() const;
+  [[noreturn]] void fail_unconverged(double t) const; ///< g_ tells by what the multipliers changed last
+  void              factorise(double t);
+  void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  bool              is_small(const Eigen::VectorXd &p);
+  void              iterate(LocalState &local, IntegrationWork &work);
+  void              prepare_hold(double t);
+  void              condense();
+  void              iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
+  void              factorise_sparse(double t);
+  void              move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  double            largest_acceleration(const Eigen::VectorXd &p);
+
+  const SecondOrderSystem         &system_;
+  std::unique_ptr<LinearSolver>    mass_;
+  Eigen::MatrixXd                  Y_, D_; // Y = M^-1 W [n x n_u]
+  Eigen::VectorXd                  f_, product_, a_free_, correction_, scale_;
+  ConstraintJacobian               G_;
+  Eigen::VectorXd                  g_, rate_, bias_;          // [n_c]
+  Eigen::VectorXd                  tangent_;                  ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix> matrix_;                   ///< null: sparse
+  std::unique_ptr<SaddleMatrix>    saddle_;                   ///< null: condensed
+  Eigen::VectorXd                  y_, load_;                 ///< [n + n_c + n_h], [n]
+  bool                             linear_ = true;            ///< no force was seen to depend on u'' or multipliers
+  std::vector<int>                 holding_;                  ///< measures that hold_f_ to delassus_ are made for
+  Eigen::MatrixXd                  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
+  Eigen::VectorXd                  held_p_, a_;               ///< [n_h], [n]
+  SmallLu                          delassus_;                 ///< D_hh
+};
+
+} // namespace gestell::coupling

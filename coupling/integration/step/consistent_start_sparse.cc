@@ -1,0 +1,105 @@
+#include "coupling/integration/step/consistent_start.h"
+
+#include "coupling/integration/step/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+// Starts of systems with many joints: see ConsistentStart and SaddleMatrix for the equations.
+
+void ConsistentStart::factorise_sparse(double t)
+{
+  if (saddle_->factorise(tangent_, G_))
+    return;
+  const int row = saddle_->failed() - saddle_->n_motion();
+  if (row >= 0 && row < G_.n_rows())
+    fail_dependent(system_, row, t);
+  fail_singular(system_, t);
+}
+
+/// The smallest motion that moves the joints by -g_, whatever sticks: x, and the measures xi with it.
+void ConsistentStart::move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t)
+{
+  saddle_->hold({});
+  saddle_->set_weights(1., 0., 0., 1.);
+  tangent_.setZero();
+  factorise_sparse(t);
+  y_.setZero(saddle_->size());
+  y_.tail(g_.size()) = -g_;
+  saddle_->solve_in_place(y_);
+  x += y_.head(x.size());
+  xi.noalias() += system_.directions().transpose() * y_.head(x.size());
+}
+
+/// The terms of which u'' is the sum: |u''_free| and W^T M^-1 W |p|, the largest of all measures.
+double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
+{
+  const auto &W = system_.directions();
+  correction_   = p.cwiseAbs();
+  f_.setZero();
+  for (int j = 0; j < W.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+      f_[it.row()] += std::abs(it.value()) * correction_[j];
+  mass_->solve(f_, product_);
+  correction_.noalias() = W.transpose() * product_;
+  return std::max(a_free_.cwiseAbs().maxCoeff(), correction_.cwiseAbs().maxCoeff());
+}
+
+/// From a = M^-1 (f_t - B q' - C q), with that right hand side in f_.
+void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work)
+{
+  const auto &W    = system_.directions();
+  const auto &held = system_.held();
+  const auto  n = a.size(), n_c = Eigen::Index(G_.n_rows());
+  load_ = f_;
+  saddle_->hold(held);
+  saddle_->set_weights(1., 0., 0., 1.);
+  system_.constraints(local, g_, G_);
+  system_.constraint_rates(local, rate_, bias_);
+  y_.setZero(saddle_->size());
+  a_free_.noalias() = W.transpose() * a;
+  local.a           = a_free_;
+  for (const HeldMeasure &h : held)
+    local.a[h.measure] = 0.;
+  for (int iteration = 0; iteration < most_iterations(); ++iteration)
+  {
+    system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    G_.set_forces(local.lambda, local.p);
+    ++work.newton;
+    ++work.evaluations;
+    // No force depends on u'' or multipliers: one step finds all.
+    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
+    factorise_sparse(local.t);
+    ++work.factorisations;
+    y_.head(n) = load_;
+    y_.head(n).noalias() += W * local.p;
+    y_.head(n).noalias() -= saddle_->A() * a;
+    correction_.noalias() = W.transpose() * a;
+    g_                    = -bias_;
+    G_.add_product(-1., correction_, g_);
+    y_.segment(n, n_c) = g_;
+    for (std::size_t h = 0; h < held.size(); ++h)
+      y_[n + n_c + Eigen::Index(h)] = -correction_[held[h].measure];
+    saddle_->solve_in_place(y_);
+    ++work.solves;
+    a += y_.head(n);
+    g_ = y_.segment(n, n_c);
+    local.lambda += g_;
+    for (std::size_t h = 0; h < held.size(); ++h)
+      local.p[held[h].measure] += y_[n + n_c + Eigen::Index(h)];
+    correction_.noalias() = W.transpose() * y_.head(n);
+    const double change   = correction_.cwiseAbs().maxCoeff();
+    local.a.noalias()     = W.transpose() * a;
+    for (const HeldMeasure &h : held)
+      local.a[h.measure] = 0.;
+    G_.set_forces(local.lambda, local.p);
+    if (linear || change <= converged * largest_acceleration(local.p))
+      return;
+  }
+  fail_unconverged(local.t);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,418 @@
+#include "coupling/integration/step/implicit_step.h"
+
+#include "coupling/integration/step/rounding_floors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double rounding         = 8. * std::numeric_limits<double>::epsilon();
+constexpr double joint_rounding   = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double share_of_joints  = 1e-3; ///< of the tolerance
+constexpr double most_left        = 1e-7; ///< of the excursion of a measure, however large the local error is
+constexpr double finest_tolerance = 1e-13;
+constexpr int    most_usual       = 3;    ///< iterations
+constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
+} // namespace
+
+void fail_singular(const SecondOrderSystem &system, double t)
+{
+  std::ostringstream message;
+  message << "the equation of the forces is singular at t = " << t << " s";
+  const char *separator = ": the elements that stick hold the same motion, on ";
+  for (const HeldMeasure &h : system.held())
+    for (Eigen::SparseMatrix<double>::InnerIterator it(system.directions(), h.measure); it; ++it)
+    {
+      message << separator << system.coordinate_name(static_cast<int>(it.row()));
+      separator = ", ";
+    }
+  if (!system.held().empty())
+    message << "; make one of them a regularised friction, or put a spring between them";
+  throw ConvergenceFailure(message.str());
+}
+
+void fail_dependent(const SecondOrderSystem &system, int row, double t)
+{
+  std::ostringstream message;
+  message << "the joints do not hold the mechanism at t = " << t << " s: " << system.constraint_name(row)
+          << " follows from the others here, as in a stretched linkage, or says what they say; change the position, or "
+             "make that joint compliant";
+  throw ConvergenceFailure(message.str());
+}
+
+namespace
+{
+/// W acts on the coordinates N alone.
+bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
+{
+  std::vector<char> is_in_N(W.rows(), 0);
+  for (const int i : N)
+    is_in_N[i] = 1;
+  for (int j = 0; j < W.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
+      if (!is_in_N[it.row()])
+        return false;
+  return !N.empty();
+}
+} // namespace
+
+ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
+    : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks()),
+      most_left_(most_left)
+{
+  // What positions are wrong by, multipliers are by m/h^2 times that.
+  if (G_.n_rows() > 0)
+  {
+    options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
+    options_.share_of_error *= share_of_joints;
+    most_left_ *= share_of_joints;
+    // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
+    if (system.forces_need_multipliers())
+      options_.share_of_error = 0.;
+  }
+  const int n_u = static_cast<int>(system.directions().cols());
+  xi_.setZero(n_u);
+  xi_free_.setZero(n_u);
+  residual_.setZero(n_u);
+  correction_.setZero(n_u);
+  first_correction_.setZero(n_u);
+  u_begin_.setZero(n_u);
+  scale_.setZero(n_u);
+  scale_before_.setZero(n_u);
+  g_.setZero(G_.n_rows());
+  begin(u_begin_);
+  tangent_.setZero(tangent_size(force_blocks_));
+  saddle_ = SaddleMatrix::for_joints(system, options.joints);
+  if (saddle_)
+    y_.setZero(saddle_->size());
+  else
+    matrix_ = std::make_unique<CondensedMatrix>(system);
+}
+
+void ImplicitStep::begin(const Eigen::VectorXd &u)
+{
+  u_begin_ = u;
+  scale_.setZero();
+  levers_age_ = 0;
+  forget_contraction();
+}
+
+void ImplicitStep::forget_contraction()
+{
+  contraction_ = seen_ = seen_size_ = unseen_contraction;
+  unseen_                           = 0;
+}
+
+/// Newton contracts less in a longer step, and a prediction over another length errs by another amount.
+void ImplicitStep::note_form(const StepForm &form)
+{
+  if (form.time == form_time_)
+    return;
+  if (form.time > form_time_)
+    contraction_ = unseen_contraction;
+  form_time_ = form.time;
+  seen_ = seen_size_ = unseen_contraction;
+}
+
+const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, IntegrationWork &work)
+{
+  const std::array<double, 4> key{form.w_M, form.w_B, form.w_C, form.force};
+  const auto                  found = cache_.find(key);
+  if (found != cache_.end())
+    return found->second;
+
+  Condensed made;
+  made.form = form;
+  if (saddle_)
+    return cache_.emplace(key, std::move(made)).first->second;
+  made.solver = system_.factorise(form.w_M, form.w_B, form.w_C);
+  ++work.factorisations;
+  const auto &W = system_.directions();
+  made.Y.resize(W.rows(), W.cols());
+  Eigen::VectorXd x(W.rows());
+  for (int j = 0; j < W.cols(); ++j)
+  {
+    made.solver->solve(form.force * Eigen::VectorXd(W.col(j)), x);
+    made.Y.col(j) = x;
+    ++work.solves;
+  }
+  made.S = W.transpose() * made.Y;
+  if (leads(made.solver->leading(), W))
+  {
+    made.Y_led = made.Y(made.solver->leading(), Eigen::all);
+    x_led_.setZero(made.Y_led.rows());
+  }
+  return cache_.emplace(key, std::move(made)).first->second;
+}
+
+void ImplicitStep::motion(const StepForm &form, const LocalState &base, LocalState &local) const
+{
+  local.u = base.u + form.w_u * xi_;
+  local.v = base.v + form.w_v * xi_;
+  local.a = base.a + form.w_a * xi_;
+}
+
+/// p += p' xi
+void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd &p) const
+{
+  const double *value = tangent_.data();
+  for (const ForceBlock &block : force_blocks_)
+    for (int j = 0; j < block.n_measures; ++j)
+      for (int i = 0; i < block.n_measures; ++i)
+        p[block.first_measure + i] += *value++ * xi[block.first_measure + j];
+}
+
+/// Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves; of the
+/// measures of joints, what rounding in g = G u leaves, the difference of numbers as large as the block tells; other
+/// elements act on bodies that joints carry, and get their share.  G turns so little that
+/// once in some steps is enough.
+void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
+{
+  const double left = rounding / options_.tolerance;
+  scale_            = scale_.cwiseMax((local.u - u_begin_).cwiseAbs())
+               .cwiseMax(form.time * local.v.cwiseAbs())
+               .cwiseMax(left * local.u.cwiseAbs());
+  if (!of_joints_too || G_.n_rows() == 0 || levers_age_++ % steps_of_levers != 0)
+    return;
+  double of_joints = 0.;
+  for (std::size_t b = 0; b < G_.blocks().size(); ++b)
+  {
+    const ConstraintBlock &block = G_.blocks()[b];
+    const auto             G     = static_cast<const ConstraintJacobian &>(G_)[b];
+    const double           least = weak_lever * G.cwiseAbs().maxCoeff();
+    if (least > 0.)
+      of_joints = std::max(of_joints, joint_rounding * left * block.size * weak_lever / least);
+    for (int k = 0; least > 0. && k < block.n_measures; ++k)
+    {
+      const double lever = std::max(least, G.col(k).cwiseAbs().maxCoeff());
+      double      &scale = scale_[block.first_measure + k];
+      scale              = std::max(scale, joint_rounding * left * block.size / lever);
+    }
+  }
+  scale_ = scale_.cwiseMax(of_joints);
+}
+
+/// Largest correction in the scales of the measures, at most 1.
+double ImplicitStep::size_of_correction() const
+{
+  if (correction_.size() == 0)
+    return 0.;
+  const auto size = correction_.cwiseAbs();
+  return size.cwiseQuotient(scale_.cwiseMax(size).cwiseMax(std::numeric_limits<double>::min())).maxCoeff();
+}
+
+/// What a correction leaves, by what the one before it left.  Newton's corrections shrink the faster the smaller they
+/// are; one that is larger than that seen last is thought to leave more in proportion.  Of one that has suddenly grown,
+/// as where a law bends, and where nothing has been seen yet, only the next one tells.
+double ImplicitStep::remaining(int iteration, double size, double size_before)
+{
+  double contraction = contraction_;
+  if (iteration > 0 && size_before > 0.)
+  {
+    contraction = contraction_ = std::clamp(size / size_before, 1e-4, 1.);
+    if (good_predictions_)
+    {
+      seen_      = size / size_before;
+      seen_size_ = size_before;
+      unseen_    = 0;
+    }
+  }
+  else if (good_predictions_ && unseen_ < most_unseen && size < sudden_growth * first_size_)
+  {
+    contraction = std::min(1., seen_ * std::max(1., size / seen_size_));
+    ++unseen_;
+  }
+  if (iteration == 0)
+    first_size_ = size;
+  const double left = contraction < 1. ? size * contraction / (1. - contraction) : size;
+  return std::min(size, left);
+}
+
+/// A share of the first correction is taken for each measure by itself: in the first iteration that of the largest one
+/// says the same of all.
+bool ImplicitStep::is_converged(int iteration, double size, double remaining) const
+{
+  if (remaining <= options_.tolerance)
+    return true;
+  if (!good_predictions_ || remaining > most_left_)
+    return false;
+  if (iteration == 0)
+    return remaining <= options_.share_of_error * size;
+  const double part = remaining / size;
+  for (Eigen::Index j = 0; j < correction_.size(); ++j)
+    if (part * std::abs(correction_[j]) >
+        std::max(options_.tolerance * scale_[j], options_.share_of_error * std::abs(first_correction_[j])))
+      return false;
+  return true;
+}
+
+bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
+{
+  const StepForm &form        = condensed.form;
+  const auto     &held        = system_.held();
+  const bool      joints      = G_.n_rows() > 0;
+  bool            turned      = joints; // G has, since Newton's matrix got it
+  double          size_before = 0.;
+  note_form(form);
+  singular_ = joints_singular_ = false;
+  for (const HeldMeasure &h : held)
+    xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
+  for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
+  {
+    motion(form, base, local);
+    system_.local_tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
+    ++work.newton;
+    ++work.evaluations;
+    if (joints)
+    {
+      system_.constraints(local, g_, G_);
+      G_.set_forces(local.lambda, local.p);
+      g_ /= form.w_u;
+    }
+    if (turned)
+      matrix_->set_joints(condensed.S, G_);
+    turned    = false;
+    residual_ = xi_free_ - xi_;
+    residual_.noalias() += condensed.S.lazyProduct(local.p);
+    correction_ = residual_;
+    if (!matrix_->factorise(condensed.S, tangent_, held))
+    {
+      dependent_row_   = matrix_->failed_joint();
+      joints_singular_ = dependent_row_ >= 0;
+      singular_        = !joints_singular_;
+      return false;
+    }
+    matrix_->solve_in_place(condensed.S, G_, correction_, g_);
+    if (!correction_.allFinite() || !g_.allFinite())
+      return false;
+
+    for (const HeldMeasure &h : held) // linear in p: nothing to iterate
+    {
+      local.p[h.measure] += correction_[h.measure];
+      correction_[h.measure] = 0.;
+    }
+    grow_scale(form, local, iteration == 0);
+    if (iteration >= most_usual)
+    {
+      const double left = rounding / options_.tolerance;
+      allow_for_rounding(condensed.S, local.p, left * std::abs(form.w_u), scale_);
+      allow_for_closing(system_, condensed.S, force_blocks_, tangent_, joint_rounding * left, scale_);
+    }
+    const double size = size_of_correction();
+    // A correction that grows again jumps between the branches of a law: shorten it.
+    const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
+    xi_.noalias() += damping * correction_;
+    if (joints)
+      local.lambda += damping * g_;
+    if (damping == 1. && is_converged(iteration, size, remaining(iteration, size, size_before)))
+    {
+      // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
+      add_tangent_times(correction_, local.p);
+      if (joints)
+        G_.set_forces(local.lambda, local.p);
+      motion(form, base, local);
+      contraction_ = std::max(contraction_, best_contraction);
+      return true;
+    }
+    if (iteration == 0 && good_predictions_)
+      first_correction_ = correction_;
+    turned      = joints && iteration > 0 && size > good_contraction * size_before;
+    size_before = size;
+  }
+  return false;
+}
+
+void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base,
+                         Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+{
+  if (saddle_)
+  {
+    local.t       = base.t;
+    scale_before_ = scale_;
+    if (iterate_sparse(condensed.form, f, base, x, local, work))
+      return;
+    scale_ = scale_before_;
+    forget_contraction();
+    saddle_->forget_pivots();
+    fail(base.t);
+  }
+  condensed.solver->solve(f, x);
+  find_forces(condensed, base, x, local, work);
+  x.noalias() += condensed.Y.lazyProduct(local.p);
+}
+
+void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &h, const Eigen::VectorXd &f,
+                         const LocalState &base, Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+{
+  if (condensed.Y_led.size() == 0)
+  {
+    f_.resize(h.size());
+    system_.mass_times(h, f_);
+    f_ += f;
+    solve(condensed, f_, base, x, local, work);
+    return;
+  }
+  condensed.solver->solve_leading(h, f, x);
+  find_forces(condensed, base, x, local, work);
+  const std::vector<int> &N = condensed.solver->leading();
+  x_led_.noalias()          = condensed.Y_led.lazyProduct(local.p);
+  for (std::size_t i = 0; i < N.size(); ++i)
+    x[N[i]] += x_led_[Eigen::Index(i)];
+  condensed.solver->solve_following(h, f, x);
+}
+
+/// The forces p in A x = f + W p, where x holds what there is without them.
+void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x,
+                               LocalState &local, IntegrationWork &work)
+{
+  const auto &W = system_.directions();
+  ++work.solves;
+  local.t = base.t;
+  if (W.cols() == 0)
+  {
+    if (!x.allFinite()) // with elements Newton sees it
+      throw ConvergenceFailure("the motion grew beyond all numbers at t = " + std::to_string(base.t) + " s");
+    return;
+  }
+  xi_free_.noalias() = W.transpose() * x;
+  if (condensed.form.w_u != 0.)
+    xi_ = (local.u - base.u) / condensed.form.w_u;
+  else
+    xi_ = xi_free_;
+  scale_before_ = scale_;
+  if (!iterate(condensed, base, local, work))
+  {
+    scale_ = scale_before_; // runaway iterates are no excursions
+    forget_contraction();
+    levers_age_ = 0;
+    fail(base.t);
+  }
+}
+
+void ImplicitStep::fail(double t) const
+{
+  if (singular_)
+    fail_singular(system_, t);
+  if (joints_singular_)
+    fail_dependent(system_, dependent_row_, t);
+  int worst = 0;
+  for (int i = 1; i < residual_.size(); ++i)
+    if (std::abs(residual_[i]) * scale_[worst] > std::abs(residual_[worst]) * scale_[i])
+      worst = i;
+  std::string coordinate = "?";
+  for (Eigen::SparseMatrix<double>::InnerIterator it(system_.directions(), worst); it; ++it)
+    coordinate = system_.coordinate_name(static_cast<int>(it.row()));
+  std::ostringstream message;
+  message << "Newton's method did not converge at t = " << t << " s in " << options_.max_iterations
+          << " iterations; the largest residual is " << std::abs(residual_[worst]) << " (m or rad) at the force on "
+          << coordinate;
+  throw ConvergenceFailure(message.str());
+}
+
+} // namespace gestell::coupling

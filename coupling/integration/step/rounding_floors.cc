@@ -1,0 +1,47 @@
+#include "coupling/integration/step/rounding_floors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+bool is_virtual(const SecondOrderSystem &system, int measure)
+{
+  const auto &all = system.virtual_coordinates();
+  return std::any_of(all.begin(), all.end(), [&](int i) { return system.directions().coeff(i, measure) != 0.; });
+}
+} // namespace
+
+void allow_for_rounding(const Eigen::MatrixXd &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale)
+{
+  for (Eigen::Index j = 0; j < scale.size(); ++j)
+    scale[j] = std::max(scale[j], left * S.row(j).cwiseAbs().dot(p.cwiseAbs()));
+}
+
+void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S, const std::vector<ForceBlock> &blocks,
+                       const Eigen::VectorXd &tangent, double left, Eigen::VectorXd &scale)
+{
+  double size = 0.;
+  for (const ConstraintBlock &joint : system.constraint_blocks())
+    size = std::max(size, joint.size);
+  if (size == 0. || system.virtual_coordinates().empty())
+    return;
+  const double *first = tangent.data();
+  for (const ForceBlock &block : blocks)
+  {
+    const int                               n = block.n_measures;
+    const Eigen::Map<const Eigen::MatrixXd> law(first, n, n);
+    for (int i = 0; i < n; ++i)
+      if (const int j = block.first_measure + i; is_virtual(system, j))
+      {
+        const double by_others = law.row(i).cwiseAbs().sum() - std::abs(law(i, i));
+        scale[j]               = std::max(scale[j], left * size * std::abs(S(j, j)) * by_others);
+      }
+    first += n * n;
+  }
+}
+
+} // namespace gestell::coupling

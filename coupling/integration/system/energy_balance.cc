@@ -1,0 +1,195 @@
+#include "coupling/integration/system/energy_balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+/// Gauss and Legendre, four points on (0, 1).
+constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
+constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+
+constexpr double closed      = 1e-7; ///< share of the energy exchanged, for one step
+constexpr double converged   = 0.1;  ///< of what is open: what twice as many panels change
+constexpr int    most_panels = 4096;
+} // namespace
+
+EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
+{
+  for (Eigen::VectorXd *x : {&product_, &load_, &kinetic_, &kinetic_begin_, &between_.q, &between_.v})
+    x->setZero(system.size());
+  between_.local.resize(system);
+}
+
+EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double weight_b, const Power &b)
+{
+  return {weight_a * a.input + weight_b * b.input, weight_a * a.dissipated + weight_b * b.dissipated};
+}
+
+/// x . product_, the virtual coordinates left out.
+double EnergyBalance::work_with_product(const Eigen::VectorXd &x)
+{
+  for (const int i : system_.virtual_coordinates())
+    product_[i] = 0.;
+  return x.dot(product_);
+}
+
+EnergyBalance::Power EnergyBalance::power(const Instant &instant)
+{
+  Power power;
+  system_.local_power(instant.local, instant.local.p, power.input, power.dissipated);
+  system_.damping_times(instant.v, product_);
+  power.dissipated += work_with_product(instant.v);
+  if (!system_.excitation().is_constant())
+  {
+    system_.excitation().at(instant.t, load_);
+    power.input += load_.dot(instant.v);
+  }
+  return power;
+}
+
+double EnergyBalance::stored(const Instant &instant, double in_elements)
+{
+  system_.mass_times(instant.v, product_);
+  kinetic_      = 0.5 * instant.v.cwiseProduct(product_);
+  double energy = kinetic_.sum();
+  system_.stiffness_times(instant.q, product_);
+  energy += 0.5 * work_with_product(instant.q);
+  forces_ = product_.lpNorm<1>() + load_.lpNorm<1>() + instant.local.p.lpNorm<1>();
+  if (system_.excitation().is_constant())
+    energy -= load_.dot(instant.q);
+  return energy + in_elements;
+}
+
+void EnergyBalance::begin(const Instant &instant)
+{
+  system_.excitation().at(instant.t, load_);
+  t_begin_ = t_ = instant.t;
+  work_begin_ = work_ = Power();
+  first_ = last_ = power(instant);
+  in_elements_   = system_.local_stored_energy(instant.local);
+  stored_ = stored_begin_ = stored(instant, in_elements_);
+  kinetic_begin_          = kinetic_;
+}
+
+void EnergyBalance::jump(const Instant &instant)
+{
+  const double before = in_elements_;
+  in_elements_        = system_.local_stored_energy(instant.local);
+  work_.dissipated += std::max(0., before - in_elements_);
+  stored_ += in_elements_ - before;
+  last_ = power(instant);
+}
+
+void EnergyBalance::step(const Instant &instant)
+{
+  t_begin_     = t_;
+  first_       = last_;
+  work_begin_  = work_;
+  last_        = power(instant);
+  in_elements_ = system_.local_stored_energy(instant.local);
+  t_           = instant.t;
+  work_        = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
+}
+
+void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule, double exchanged)
+{
+  stored_last_ = stored_;
+  step(integrator.instant());
+  panels_.clear();
+  if (!rule.gauss)
+    return;
+  integrate(integrator, 1);
+  if (!(t_ - t_begin_ > rule.shortest))
+    return;
+  stored_            = stored(integrator.instant(), in_elements_);
+  const double small = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
+  for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
+  {
+    if (open() <= small)
+      return;
+    const Power before = work_;
+    integrate(integrator, panels);
+    const double change = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
+    if (change < converged * open())
+      return; // what is open is the method's own
+  }
+}
+
+/// |input - dissipated - change of stored| over the last step.
+double EnergyBalance::open() const
+{
+  return std::abs(work_.input - work_begin_.input - (work_.dissipated - work_begin_.dissipated) -
+                  (stored_ - stored_last_));
+}
+
+void EnergyBalance::integrate(const TimeIntegrator &integrator, int panels)
+{
+  const double h = (t_ - t_begin_) / panels;
+  panels_.assign(1, work_begin_);
+  for (int i = 0; i < panels; ++i)
+    panels_.push_back(sum(1., panels_.back(), 1., integral(integrator, t_begin_ + i * h, t_begin_ + (i + 1) * h)));
+  work_ = panels_.back();
+}
+
+EnergyBalance::Power EnergyBalance::integral(const TimeIntegrator &integrator, double from, double to)
+{
+  Power work;
+  for (int i = 0; i < 4; ++i)
+  {
+    between_.t = from + gauss_points[i] * (to - from);
+    integrator.interpolate(between_.t, between_.q, between_.v);
+    integrator.interpolate(between_.t, between_.local);
+    system_.local_force(between_.local, between_.local.p);
+    work = sum(1., work, gauss_weights[i] * (to - from), power(between_));
+  }
+  return work;
+}
+
+/// Cubic through both ends and their powers.  Where the integral grows and both powers are positive it grows all the
+/// way if no slope exceeds three times the mean one.
+EnergyBalance::Power EnergyBalance::between(double t) const
+{
+  const double h = t_ - t_begin_, s = (t - t_begin_) / h, r = 1. - s,
+               mean = (work_.dissipated - work_begin_.dissipated) / h;
+  Power first = first_, last = last_;
+  if (mean >= 0. && first.dissipated >= 0. && last.dissipated >= 0.)
+  {
+    first.dissipated = std::min(first.dissipated, 3. * mean);
+    last.dissipated  = std::min(last.dissipated, 3. * mean);
+  }
+  return sum(1., sum(r * r * (1. + 2. * s), work_begin_, s * s * (1. + 2. * r), work_), 1.,
+             sum(h * s * r * r, first, -h * s * s * r, last));
+}
+
+EnergyState EnergyBalance::at(const Instant &instant, const Power &work)
+{
+  const double in_elements = instant.t < t_ ? system_.local_stored_energy(instant.local) : in_elements_;
+  const double now         = stored(instant, in_elements);
+  const auto   exchange    = (kinetic_ - kinetic_begin_).array();
+  if (!(instant.t < t_))
+    stored_ = now;
+  return {work.input, now - stored_begin_, work.dissipated, std::max(exchange.max(0.).sum(), -exchange.min(0.).sum()),
+          forces_};
+}
+
+EnergyState EnergyBalance::state(const Instant &instant)
+{
+  return at(instant, instant.t < t_ ? between(instant.t) : work_);
+}
+
+EnergyState EnergyBalance::state(const TimeIntegrator &integrator, const Instant &instant)
+{
+  const auto panels = int(panels_.size()) - 1;
+  if (panels < 1 || !(instant.t < t_))
+    return state(instant);
+  const double h    = (t_ - t_begin_) / panels;
+  const int    i    = std::clamp(int((instant.t - t_begin_) / h), 0, panels - 1);
+  const Power  work = sum(1., panels_[i], 1., integral(integrator, t_begin_ + i * h, instant.t));
+  return at(instant, work);
+}
+
+} // namespace gestell::coupling

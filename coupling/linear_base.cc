@@ -1,8 +1,0 @@
-#include "coupling/linear_base.h"
-
-namespace gestell::coupling
-{
-
-LinearBase::~LinearBase() = default;
-
-} // namespace gestell::coupling

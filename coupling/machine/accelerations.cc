@@ -1,0 +1,84 @@
+#include "coupling/machine/accelerations.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+[[noreturn]] void refuse_singular(const SecondOrderSystem &system)
+{
+  const auto     &lags = system.virtual_coordinates();
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.size()), column = unit;
+  std::string     massless = "some combination of coordinates";
+  for (int i = 0; i < system.size(); ++i)
+  {
+    unit[i] = 1.;
+    system.mass_times(unit, column);
+    unit[i] = 0.;
+    if (column.isZero(0.) && std::find(lags.begin(), lags.end(), i) == lags.end())
+    {
+      massless = "\"" + system.coordinate_name(i) + "\"";
+      break;
+    }
+  }
+  throw std::invalid_argument("this machine has no acceleration that a signal could tell: " + massless +
+                              " has no mass; give it some, or leave accelerations out of output.signals");
+}
+
+} // namespace
+
+Accelerations::Accelerations(const SecondOrderSystem &system) : system_(system)
+{
+  for (Eigen::VectorXd *x : {&f_, &product_, &a_})
+    x->setZero(system.size());
+  p_.setZero(system.directions().cols());
+  try
+  {
+    mass_ = system.factorise(1., 0., 0.);
+  }
+  catch (const std::invalid_argument &)
+  {
+    refuse_singular(system);
+  }
+  f_.setOnes();
+  mass_->solve(f_, a_);
+  if (!a_.allFinite()) // of a solver without a check of its own
+    refuse_singular(system);
+}
+
+const Eigen::VectorXd &Accelerations::at(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const LocalState &local)
+{
+  p_ = local.p;
+  system_.local_force(local, p_);
+  system_.excitation().at(local.t, f_);
+  f_.noalias() += system_.directions() * p_;
+  system_.damping_times(v, product_);
+  f_ -= product_;
+  system_.stiffness_times(q, product_);
+  f_ -= product_;
+  for (const int i : system_.virtual_coordinates())
+    f_[i] = 0.;
+  mass_->solve(f_, a_);
+  return a_;
+}
+
+const Eigen::VectorXd &Accelerations::at(double t, const TimeIntegrator &integrator, const LocalState &local,
+                                         Eigen::VectorXd &q, Eigen::VectorXd &v)
+{
+  if (t != integrator.time())
+    integrator.interpolate(t, q, v);
+  else
+  {
+    const Instant &now = integrator.instant();
+    q                  = now.q;
+    v                  = now.v;
+  }
+  return at(q, v, local);
+}
+
+} // namespace gestell::coupling

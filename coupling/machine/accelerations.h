@@ -1,0 +1,42 @@
+#pragma once
+
+#include "coupling/integration/system/time_integrator.h"
+
+#include <memory>
+
+namespace gestell::coupling
+{
+
+/**
+ * The accelerations q'' [n] that the equation of motion gives to a motion,
+ *
+ *     M q'' = f_t + W p(t, u, u', history) - B q' - C q,
+ *
+ * as good as positions, velocities and multipliers of joints are, for every method, at ends of steps and on the dense
+ * output, on either side of an event.  At ends of steps of BDF they are those of its formula.
+ *
+ * Virtual coordinates have none: 0.
+ */
+class Accelerations
+{
+public:
+  /// Factorises M.
+  /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
+  explicit Accelerations(const SecondOrderSystem &system);
+
+  /// @param q, v   [n]
+  /// @param local  the same motion in the measures; its p is taken where no law tells it, of joints and of what sticks
+  const Eigen::VectorXd &at(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const LocalState &local);
+  /// The same at t in the last step of an integrator.
+  /// @param local  the motion of the measures there
+  /// @param q, v   [n] become the motion there
+  const Eigen::VectorXd &at(double t, const TimeIntegrator &integrator, const LocalState &local, Eigen::VectorXd &q,
+                            Eigen::VectorXd &v);
+
+private:
+  const SecondOrderSystem      &system_;
+  std::unique_ptr<LinearSolver> mass_;
+  Eigen::VectorXd               p_, f_, product_, a_;
+};
+
+} // namespace gestell::coupling

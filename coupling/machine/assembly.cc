@@ -1,0 +1,307 @@
+#include "coupling/machine/assembly.h"
+
+#include "coupling/machine/constraint_rank.h"
+#include "coupling/machine/dense_matrices.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    most_iterations = 60;
+constexpr double closed          = 1e-10; ///< m or rad: residual that counts as closed where rounding stops progress
+
+/// Value of a measure, or of a rate: of a measure or of a rigid body's rotation.
+struct Demand
+{
+  std::string      name; ///< for messages
+  double           value;
+  std::string      measure;
+  const KnownSpin *spin = nullptr;
+};
+
+std::vector<Demand> demands_of(const std::vector<std::pair<std::string, double>> &measures,
+                               const std::vector<KnownSpin>                      &spins)
+{
+  std::vector<Demand> demands;
+  for (const auto &[name, value] : measures)
+    demands.push_back({"the measure \"" + name + "\"", value, name});
+  for (const KnownSpin &spin : spins)
+    demands.push_back({"the angular velocity \"" + spin.body + ".w" + "xyz"[spin.axis] + "\"", spin.value, "", &spin});
+  return demands;
+}
+
+class Assembly
+{
+public:
+  Assembly(Machine &machine, const KnownStart &known)
+      : machine_(machine), known_(known), measures_(demands_of(known.measures, {})),
+        rates_(demands_of(known.rates, known.spins)), state_(known.state), G_(machine.constraint_blocks()),
+        n_c_(G_.n_rows()), yielding_(compliant_joints(machine))
+  {
+    local_.resize(machine);
+    g_.setZero(n_c_);
+    rate_.setZero(n_c_);
+    bias_.setZero(n_c_);
+    machine.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine.size()), local_);
+    machine.start(local_); // the laws of driven joints begin here
+  }
+
+  InitialState assembled()
+  {
+    with_yielding([this] { return close(); });
+    refuse_dependent();
+    with_yielding([this] { return turn(); });
+    return state_;
+  }
+
+private:
+  /// Takes compliant joints for ideal ones, or if that leads to no end lets them open.
+  template <class Closing>
+  void with_yielding(const Closing &closing)
+  {
+    const InitialState before = state_;
+    if (!yielding_.empty() && closing())
+      return;
+    yielding_.clear();
+    state_ = before;
+    closing();
+  }
+
+  /// Rows: joints, then measures, then compliant joints; columns: free coordinates, scaled to equal mass.
+  void evaluate(const std::vector<Demand> &demands, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates)
+  {
+    machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
+    machine_.constraints(local_, g_, G_);
+    for (const auto &[row, shift] : known_.shifts)
+      g_[row] -= shift;
+    Eigen::Index n_yielding = 0;
+    for (const CompliantPlace &own : yielding_)
+      n_yielding += own.joint->n_equations();
+    residual.resize(n_c_ + Eigen::Index(demands.size()) + n_yielding);
+    rows.resize(residual.size(), machine_.size());
+    if (rates)
+    {
+      machine_.constraint_rates(local_, rate_, bias_);
+      g_ = rate_;
+      G_.add_product(1., local_.v, g_);
+    }
+    residual.head(n_c_) = g_;
+    rows.topRows(n_c_)  = joint_jacobian(machine_, G_);
+    Eigen::VectorXd gradient;
+    for (std::size_t i = 0; i < demands.size(); ++i)
+    {
+      const Demand &demand = demands[i];
+      double        value  = 0.;
+      if (demand.spin)
+      {
+        gradient = spin_gradient(machine_, *demand.spin, state_.q);
+        value    = gradient.dot(state_.v);
+      }
+      else
+      {
+        const auto measured = machine_.measure(demand.measure).evaluate(state_.q, state_.v, &gradient);
+        value               = rates ? measured.rate : measured.s;
+      }
+      residual[n_c_ + Eigen::Index(i)] = value - demand.value;
+      rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
+    }
+    add_yielding(n_c_ + Eigen::Index(demands.size()), residual, rows, rates);
+  }
+
+  void add_yielding(Eigen::Index row, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates) const
+  {
+    double gradient[mechanism::PlacedMeasure::max_measures];
+    for (const CompliantPlace &own : yielding_)
+      for (int i = 0; i < own.joint->n_equations(); ++i, ++row)
+      {
+        const auto opening =
+            own.joint->opening(i, local_.u.data() + own.first_measure, local_.v.data() + own.first_measure, gradient);
+        residual[row] = rates ? opening.rate : opening.s;
+        const int  k  = own.joint->n_measures();
+        const auto W  = machine_.directions().middleCols(own.first_measure, k);
+        rows.row(row) = (W * Eigen::Map<const Eigen::VectorXd>(gradient, k)).transpose();
+      }
+  }
+
+  /// Bodies begin with the rotation they are given.
+  void guess_spins()
+  {
+    for (const Body &body : machine_.bodies())
+    {
+      Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+      for (const KnownSpin &known : known_.spins)
+        if (known.body == body.name)
+          omega[known.axis] = known.value;
+      for (int i = 0; body.kind == BodyKind::rigid && i < 3; ++i)
+      {
+        const int first = body.coordinate + 3 + 3 * i;
+        state_.v.segment<3>(first) += omega.cross(Eigen::Vector3d::Unit(i) + state_.q.segment<3>(first));
+      }
+    }
+  }
+
+  /// The smallest change of the free coordinates that takes the residual away to first order.
+  Eigen::VectorXd change(const Eigen::VectorXd &residual, const Eigen::MatrixXd &rows, const std::vector<char> &given)
+  {
+    std::vector<int> free;
+    for (int i = machine_.n_frame(); i < machine_.size(); ++i)
+      if (!given[i])
+        free.push_back(i);
+    Eigen::VectorXd delta = Eigen::VectorXd::Zero(machine_.size());
+    if (free.empty())
+      return delta;
+    Eigen::VectorXd unit = delta, column = delta, scale(free.size());
+    Eigen::MatrixXd A(rows.rows(), free.size());
+    for (std::size_t j = 0; j < free.size(); ++j)
+    {
+      unit[free[j]] = 1.;
+      machine_.mass_times(unit, column);
+      unit[free[j]]          = 0.;
+      const double m         = column[free[j]];
+      scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
+      A.col(Eigen::Index(j)) = scale[Eigen::Index(j)] * rows.col(free[j]);
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
+    qr.setThreshold(1e-12);
+    qr.compute(A);
+    const Eigen::VectorXd x = qr.solve(-residual);
+    for (std::size_t j = 0; j < free.size(); ++j)
+      delta[free[j]] = scale[Eigen::Index(j)] * x[Eigen::Index(j)];
+    return delta;
+  }
+
+  /// Returns whether compliant joints are closed too.
+  bool close()
+  {
+    Eigen::VectorXd residual, next;
+    Eigen::MatrixXd rows;
+    evaluate(measures_, residual, rows, false);
+    for (int k = 0; k < most_iterations && residual.size() > 0; ++k)
+    {
+      const Eigen::VectorXd delta = change(residual, rows, known_.q_given), q = state_.q;
+      double                part = 1.;
+      for (;; part *= 0.5) // shorter where the whole way leads further off
+      {
+        state_.q = q + part * delta;
+        evaluate(measures_, next, rows, false);
+        if (next.norm() < residual.norm() || part < 1e-3)
+          break;
+      }
+      const bool better = next.norm() < 0.5 * residual.norm();
+      if (!(next.norm() < residual.norm()))
+      {
+        state_.q = q;
+        break;
+      }
+      residual = next;
+      if (!better && residual.cwiseAbs().maxCoeff() < closed)
+        break;
+    }
+    evaluate(measures_, residual, rows, false);
+    return is_closed(residual, measures_, "m or rad", "positions");
+  }
+
+  /// Equations that follow from others leave multipliers undetermined, and so does a position without hold.
+  void refuse_dependent()
+  {
+    if (n_c_ == 0)
+      return;
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd rows;
+    evaluate({}, residual, rows, false);
+    rows.conservativeResize(n_c_, Eigen::NoChange);
+    if (const JointRank rank(machine_, rows); !rank.full())
+      throw std::invalid_argument(rank.dependence());
+  }
+
+  bool turn()
+  {
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd rows;
+    guess_spins();
+    for (int k = 0; k < 2; ++k) // linear: the second time takes what rounding left
+    {
+      evaluate(rates_, residual, rows, true);
+      if (residual.size() > 0)
+        state_.v += change(residual, rows, known_.v_given);
+    }
+    evaluate(rates_, residual, rows, true);
+    return is_closed(residual, rates_, "m/s or rad/s", "velocities");
+  }
+
+  /// false: compliant joints have to open.  @throws std::invalid_argument if without them others stay open
+  bool is_closed(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
+                 const std::string &what) const
+  {
+    if (residual.size() == 0)
+      return true;
+    int          worst = 0;
+    const double open  = residual.cwiseAbs().maxCoeff(&worst);
+    if (open <= closed * std::max(1., what == "velocities" ? state_.v.cwiseAbs().maxCoeff() : 1.))
+      return true;
+    if (!yielding_.empty())
+      return false;
+    std::ostringstream message;
+    message << "the mechanism cannot be assembled: with the given " << what << " "
+            << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst) : demands[worst - n_c_].name)
+            << " stays open by " << open << " " << unit
+            << "; check its places and lengths, or give fewer or other values in [start]";
+    throw std::invalid_argument(message.str());
+  }
+
+  Machine                    &machine_;
+  const KnownStart           &known_;
+  std::vector<Demand>         measures_, rates_;
+  InitialState                state_;
+  LocalState                  local_;
+  ConstraintJacobian          G_;
+  Eigen::VectorXd             g_, rate_, bias_;
+  int                         n_c_;
+  std::vector<CompliantPlace> yielding_; ///< compliant joints that are to close
+};
+
+} // namespace
+
+InitialState assemble(Machine &machine, const KnownStart &known)
+{
+  return Assembly(machine, known).assembled();
+}
+
+/// e . omega = 1/2 sum d_i' . (e x d_i)
+Eigen::VectorXd spin_gradient(const Machine &machine, const KnownSpin &spin, const Eigen::VectorXd &q)
+{
+  const int             first    = machine.body(spin.body).coordinate + 3;
+  const Eigen::Vector3d e        = Eigen::Vector3d::Unit(spin.axis);
+  Eigen::VectorXd       gradient = Eigen::VectorXd::Zero(machine.size());
+  for (int i = 0; i < 3; ++i)
+    gradient.segment<3>(first + 3 * i) = 0.5 * e.cross(Eigen::Vector3d::Unit(i) + q.segment<3>(first + 3 * i));
+  return gradient;
+}
+
+std::vector<CompliantPlace> compliant_joints(const Machine &machine)
+{
+  std::vector<CompliantPlace> found;
+  int                         first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    if (const auto *joint = dynamic_cast<const mechanism::CompliantJoint *>(placement.element.get()))
+      found.push_back({joint, first});
+    first += placement.element->n_measures();
+  }
+  return found;
+}
+
+bool has_joints(const Machine &machine)
+{
+  return machine.n_constraints() > 0 || !compliant_joints(machine).empty();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "coupling/machine/linear_base.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// The modal coordinates L of a base system: n of them, one behind the other.
+struct ModalRange
+{
+  int first = 0, n = 0;
+};
+
+/**
+ * Small dense base system, with the structure that Craig-Bampton coordinates have.  With L the modal coordinates, N the
+ * others,
+ *
+ *     M = [ M_NN  M_NL ]      C = [ C_NN   0   ]      B = [ B_NN  B_NL ]
+ *         [ M_LN   E   ]          [  0    C_LL ],         [ B_LN  B_LL ],     C_LL diagonal, B_LL diagonal or full.
+ *
+ * Multiplications leave out the zeros.  factorise() condenses L (5.5.3/1-7) where B_LL is diagonal:
+ *
+ *     q_N = A_red^-1 (f_N - A_NL A_LL^-1 f_L),     q_L = A_LL^-1 (f_L - A_LN q_N);
+ *
+ * N leads then (LinearSolver), and for loads M h + f of a step one pass over M_LN does for each of the two where A_LN
+ * is a multiple of it, as without damping of q_N against q_L or with Rayleigh's.
+ *
+ * Where modal damping of the supported frame fills B_LL, the inverse of the whole A is kept, which for some sixty
+ * coordinates multiplies faster than two triangles are solved.  A is scaled to unit diagonal before it is inverted, so
+ * that metres and radians do not spoil its condition.  Nothing allocates after factorise().
+ *
+ * Workspaces are kept inside: one object serves one thread at a time.
+ */
+class DenseBase : public LinearBase
+{
+public:
+  /// @param M, B, C  symmetric [n x n]
+  /// @throws std::invalid_argument for sizes, symmetry or structure that do not fit
+  DenseBase(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C, const ModalRange &modal = {});
+
+  int                           size() const override { return int(M_.rows()); }
+  void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
+  std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const override;
+  std::vector<SpectrumLine>     spectrum() const override;
+
+  /// The matrices in the order of the coordinates.
+  const Eigen::MatrixXd &mass() const { return M_; }
+  const Eigen::MatrixXd &damping() const { return B_; }
+  const Eigen::MatrixXd &stiffness() const { return C_; }
+
+private:
+  /// A matrix by the blocks that are not zero.
+  struct Blocks
+  {
+    Eigen::MatrixXd NN;       // [n_N x n_N]
+    Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last that is not zero; empty if there is none
+    Eigen::VectorXd diagonal; // [n_L] of LL
+    Eigen::MatrixXd LL;       // [n_L x n_L]; empty if diagonal
+  };
+  Blocks blocks_of(const Eigen::MatrixXd &A) const;
+  void   multiply(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
+
+  Eigen::MatrixXd         M_, B_, C_;
+  ModalRange              L_;
+  std::vector<int>        N_;
+  Blocks                  mass_, damping_, stiffness_;
+  mutable Eigen::VectorXd x_N_, y_N_;
+};
+
+} // namespace gestell::coupling

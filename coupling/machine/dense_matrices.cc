@@ -1,0 +1,225 @@
+#include "coupling/machine/dense_matrices.h"
+
+#include "fem/values/nearest_name.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+template <typename Times>
+Eigen::MatrixXd columns(int n, const Times &times)
+{
+  Eigen::MatrixXd matrix(n, n);
+  Eigen::VectorXd column(n);
+  for (int j = 0; j < n; ++j)
+  {
+    times(Eigen::VectorXd::Unit(n, j), column);
+    matrix.col(j) = column;
+  }
+  return 0.5 * (matrix + matrix.transpose());
+}
+} // namespace
+
+Eigen::MatrixXd dense_mass(const Machine &machine)
+{
+  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.mass_times(x, y); });
+}
+
+Eigen::MatrixXd dense_damping(const Machine &machine)
+{
+  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.damping_times(x, y); });
+}
+
+Eigen::MatrixXd dense_stiffness(const Machine &machine)
+{
+  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.stiffness_times(x, y); });
+}
+
+namespace
+{
+
+template <typename Matrices>
+void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping,
+            const Matrices &of_element)
+{
+  const int             n = machine.size();
+  const auto           &W = machine.directions();
+  const Eigen::VectorXd u = W.transpose() * q;
+  stiffness.setZero(n, n);
+  damping.setZero(n, n);
+  int first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+    of_element(placement, u.data() + first, K, D);
+    const Eigen::MatrixXd own = W.middleCols(first, k);
+    stiffness += own * K * own.transpose();
+    damping += own * D * own.transpose();
+    first += k;
+  }
+}
+
+} // namespace
+
+void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
+                      Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping)
+{
+  std::vector<std::string> names;
+  for (const ElementPlacement &placement : machine.elements())
+    names.push_back(placement.name);
+  for (const std::string &name : open)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
+  add_up(machine, q, stiffness, damping,
+         [&open](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         {
+           placement.element->engaged(u, K.data(), D.data());
+           if (std::find(open.begin(), open.end(), placement.name) == open.end())
+             return;
+           const Eigen::MatrixXd engaged_K = K, engaged_D = D;
+           placement.element->open_branch(u, K.data(), D.data());
+           if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
+             throw std::invalid_argument("modes: element \"" + placement.name +
+                                         "\" acts in every position, so that it cannot be open; leave it out of "
+                                         "modes.open, and for modes without it take it out of the scene");
+         });
+}
+
+void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                       Eigen::MatrixXd &damping)
+{
+  add_up(machine, q, stiffness, damping,
+         [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         { placement.element->stiffest(u, K.data(), D.data()); });
+}
+
+void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
+                   Eigen::MatrixXd &damping)
+{
+  add_up(machine, q, stiffness, damping,
+         [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
+         { placement.element->open_branch(u, K.data(), D.data()); });
+}
+
+namespace
+{
+
+/// Stiff or damping somewhere near u: a cubic spring is neither where it is relaxed.
+bool is_structure(const mechanism::ForceElement &element, const Eigen::VectorXd &u)
+{
+  constexpr double beside = 1e-3; // m or rad
+  const auto       k      = u.size();
+  Eigen::MatrixXd  K(k, k), D(k, k);
+  const auto       acts_at = [&](const Eigen::VectorXd &at)
+  {
+    element.engaged(at.data(), K.data(), D.data());
+    return !K.isZero(0.) || !D.isZero(0.);
+  };
+  bool acts = acts_at(u);
+  for (Eigen::Index i = 0; !acts && i < k; ++i) // each alone: two that move together may leave a distance as it is
+    acts = acts_at(u + beside * Eigen::VectorXd::Unit(k, i)) || acts_at(u - beside * Eigen::VectorXd::Unit(k, i));
+  return acts;
+}
+
+} // namespace
+
+Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u, Acting acting)
+{
+  Eigen::VectorXd acts  = Eigen::VectorXd::Ones(u.size());
+  int             first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int k = placement.element->n_measures();
+    if (acting == Acting::structure && placement.element->n_constraints() == 0 &&
+        !is_structure(*placement.element, u.segment(first, k)))
+      acts.segment(first, k).setZero();
+    first += k;
+  }
+  return acts;
+}
+
+namespace
+{
+
+/// v^T g'' w of the position function of an element, by polarisation of its quadratic form.
+double closure_curvature(const mechanism::ForceElement &element, const double *u, const Eigen::VectorXd &v,
+                         const Eigen::VectorXd &w)
+{
+  Eigen::VectorXd       gradient(v.size());
+  const Eigen::VectorXd sum = v + w, difference = v - w;
+  double                g, of_sum, of_difference;
+  element.closure(u, sum.data(), g, gradient.data(), of_sum);
+  element.closure(u, difference.data(), g, gradient.data(), of_difference);
+  return 0.25 * (of_sum - of_difference);
+}
+
+/// K -= P g'' for each element with a position function, p = P grad g.
+void add_turning_closures(const Machine &machine, const LocalState &state, Eigen::MatrixXd &K)
+{
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(state.u.size());
+  machine.local_force(state, p);
+  int first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int             k    = placement.element->n_measures();
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(k);
+    Eigen::VectorXd       gradient(k);
+    double                g, curvature;
+    const double         *u = state.u.data() + first;
+    if (placement.element->closure(u, rest.data(), g, gradient.data(), curvature))
+    {
+      const double P = p.segment(first, k).dot(gradient) / gradient.squaredNorm();
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j < k; ++j)
+          K(first + i, first + j) -=
+              P * closure_curvature(*placement.element, u, Eigen::VectorXd::Unit(k, i), Eigen::VectorXd::Unit(k, j));
+    }
+    first += k;
+  }
+}
+
+} // namespace
+
+Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state, Acting acting)
+{
+  Eigen::MatrixXd local;
+  machine.geometric(state, local);
+  add_turning_closures(machine, state, local);
+  const Eigen::VectorXd acts = acting_measures(machine, state.u, acting);
+  local                      = acts.asDiagonal() * local * acts.asDiagonal();
+  const auto &W              = machine.directions();
+  return W * local * W.transpose();
+}
+
+Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G)
+{
+  Eigen::MatrixXd rows(G.n_rows(), machine.size());
+  G.times(Eigen::MatrixXd(machine.directions().transpose()), rows);
+  return rows;
+}
+
+Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, const std::vector<int> &fixed)
+{
+  const int n = machine.size(), n_c = machine.n_constraints(), n_f = int(fixed.size());
+  if (n_c + n_f == 0)
+    return Eigen::MatrixXd::Identity(n, n);
+  ConstraintJacobian G(machine.constraint_blocks());
+  Eigen::VectorXd    g(n_c);
+  machine.constraints(state, g, G);
+  Eigen::MatrixXd held(n_c + n_f, n);
+  held.topRows(n_c) = joint_jacobian(machine, G);
+  held.bottomRows(n_f).setZero();
+  for (int i = 0; i < n_f; ++i)
+    held(n_c + i, fixed[i]) = 1.;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held.transpose());
+  const Eigen::MatrixXd                       Q = qr.householderQ();
+  return Q.rightCols(n - qr.rank());
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,301 @@
+#include "coupling/machine/machine_parts.h"
+
+#include "coupling/machine/dense_base.h"
+#include "coupling/machine/sparse_base.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+/// Coordinates of a mechanism without frame from which on sparse matrices are cheaper.  Only with ideal joints: all
+/// else there is for mechanisms works on dense ones.
+constexpr int dense_mechanism = 60;
+
+void add_to(Eigen::MatrixXd &dense, const std::vector<Eigen::Triplet<double>> &triplets)
+{
+  for (const auto &entry : triplets)
+    dense(entry.row(), entry.col()) += entry.value();
+}
+
+/// [a 0; 0 0] + triplets, n x n.
+Eigen::SparseMatrix<double> enlarged(const Eigen::SparseMatrix<double> &a, int n,
+                                     const std::vector<Eigen::Triplet<double>> &triplets)
+{
+  Eigen::SparseMatrix<double> sum = a;
+  sum.conservativeResize(n, n);
+  if (triplets.empty())
+    return sum;
+  Eigen::SparseMatrix<double> added(n, n);
+  added.setFromTriplets(triplets.begin(), triplets.end());
+  return sum + added;
+}
+} // namespace
+
+int Machine::Parts::add_coordinates(const std::string &body, const std::vector<std::string> &names)
+{
+  if (markers.count(body))
+    throw std::invalid_argument("the name \"" + body + "\" is used twice; give every body its own");
+  const int first = size();
+  coordinate_names.insert(coordinate_names.end(), names.begin(), names.end());
+  return first;
+}
+
+bool Machine::Parts::is_lag(const Measure &u) const
+{
+  return std::any_of(
+      u.begin(), u.end(),
+      [this](const auto &term)
+      { return std::find(lag_coordinates.begin(), lag_coordinates.end(), term.first) != lag_coordinates.end(); });
+}
+
+int Machine::add_lag(const std::string &name, double time_constant)
+{
+  if (!(time_constant > 0.) || !std::isfinite(time_constant))
+    throw std::invalid_argument("lag \"" + name + "\": time constant " + std::to_string(time_constant) +
+                                " s must be positive");
+  const int x = parts_->size();
+  parts_->add_dyad(parts_->B, time_constant, {{x, 1.}});
+  parts_->add_dyad(parts_->C, 1., {{x, 1.}});
+  parts_->coordinate_names.push_back(name);
+  parts_->lag_coordinates.push_back(x);
+  return x;
+}
+
+const std::vector<int> &Machine::virtual_coordinates() const
+{
+  return parts_->lag_coordinates;
+}
+
+void Machine::Parts::add_body(const Body &body)
+{
+  bodies.push_back(body);
+  markers[body.name]   = body.marker;
+  positions[body.name] = body.position;
+}
+
+void Machine::Parts::add_interfaces(const std::vector<fem::Interface> &interfaces)
+{
+  for (const fem::Interface &interface : interfaces)
+  {
+    Marker marker;
+    marker.name = "frame." + interface.name;
+    for (int i = 0; i < 6; ++i)
+      if (interface.coordinate[i] >= 0)
+        (i < 3 ? marker.translation[i] : marker.rotation[i - 3]) = {{interface.coordinate[i], interface.sign[i]}};
+    positions[marker.name] = interface.position;
+    markers[marker.name]   = marker;
+  }
+}
+
+void Machine::Parts::add_dyad(Triplets &matrix, double factor, const Measure &w)
+{
+  if (factor != 0.)
+    for (const auto &[i, wi] : w)
+      for (const auto &[j, wj] : w)
+        matrix.emplace_back(i, j, factor * wi * wj);
+}
+
+void Machine::Parts::add_loads(double mass, const std::array<Measure, 3> &translation)
+{
+  for (int d = 0; d < 3; ++d)
+    acceleration_load[d] = acceleration_load[d] + mass * translation[d];
+}
+
+void Machine::Parts::add_mass(double mass, const std::array<Measure, 3> &translation)
+{
+  for (int d = 0; d < 3; ++d)
+    add_dyad(M, mass, translation[d]);
+  add_loads(mass, translation);
+}
+
+Vector3 Machine::Parts::position_of(const std::string &marker) const
+{
+  const auto found = positions.find(marker);
+  return found == positions.end() ? Vector3{} : found->second;
+}
+
+bool Machine::Parts::moves_with_frame(const Marker &marker) const
+{
+  for (const auto &motion : {marker.translation, marker.rotation})
+    for (const Measure &u : motion)
+      for (const auto &term : u)
+        if (term.first < n_frame)
+          return true;
+  return false;
+}
+
+void Machine::Parts::finish()
+{
+  const int n       = size();
+  translation_loads = Eigen::MatrixXd::Zero(n, 3);
+  if (full)
+    assemble_sparse(n);
+  else if (!reduced && n > dense_mechanism && has_joints())
+    assemble_mechanism(n);
+  else
+    assemble_dense(n);
+  for (int d = 0; d < 3; ++d)
+    for (const auto &[coordinate, value] : acceleration_load[d])
+      translation_loads(coordinate, d) += value;
+
+  const Eigen::VectorXd weight = translation_loads * Eigen::Map<const Eigen::Vector3d>(gravity.data());
+  excitation                   = Excitation(n);
+  for (int i = 0; i < n; ++i)
+    excitation.add_constant(i, weight[i]);
+  for (const auto &[coordinate, value] : constant_load)
+    excitation.add_constant(coordinate, value);
+  for (const Load &load : loads)
+    for (const Oscillation &part : load.oscillations)
+      for (const auto &[coordinate, value] : load.u)
+        excitation.add_harmonic(coordinate, part.omega, value * part.amplitude * std::sin(part.phase),
+                                value * part.amplitude * std::cos(part.phase));
+  add_watches();
+  place_elements(n);
+  place_switches();
+}
+
+void Machine::Parts::assemble_dense(int n)
+{
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
+  ModalRange      modal;
+  if (reduced)
+  {
+    mass.topLeftCorner(n_frame, n_frame)      = reduced->M;
+    damping.topLeftCorner(n_frame, n_frame)   = reduced->B;
+    stiffness.topLeftCorner(n_frame, n_frame) = reduced->C;
+    translation_loads.topRows(n_frame)        = reduced->translations_load;
+    if (reduced->modal)
+      modal = {n_interface, n_frame - n_interface};
+  }
+  add_to(mass, M);
+  add_to(damping, B);
+  add_to(stiffness, C);
+  base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
+}
+
+void Machine::Parts::assemble_sparse(int n)
+{
+  if (full->acceleration_load.size() > 0)
+    translation_loads.topRows(n_frame) = full->acceleration_load;
+  else
+    translation_loads.topRows(n_frame) = full->M * full->translations;
+  fem::ModalDamping damping_operator = full->modal_damping;
+  if (damping_operator.Z.cols() > 0)
+  {
+    damping_operator.Z.conservativeResize(n, Eigen::NoChange);
+    damping_operator.Z.bottomRows(n - n_frame).setZero();
+  }
+  base = std::make_unique<SparseBase>(enlarged(full->M, n, M), enlarged(full->B, n, B), enlarged(full->C, n, C),
+                                      std::move(damping_operator));
+}
+
+bool Machine::Parts::has_joints() const
+{
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const ElementPlacement &placement) { return placement.element->n_constraints() > 0; });
+}
+
+/// Bodies alone: a few numbers per row.
+void Machine::Parts::assemble_mechanism(int n)
+{
+  const Eigen::SparseMatrix<double> zero(n, n);
+  base = std::make_unique<SparseBase>(enlarged(zero, n, M), enlarged(zero, n, B), enlarged(zero, n, C));
+}
+
+void Machine::Parts::place_elements(int n)
+{
+  int      n_measures = 0, n_history = 0, n_constraints = 0;
+  Triplets columns;
+  placed.clear();
+  joints.clear();
+  joint_blocks.clear();
+  force_blocks.clear();
+  for (const ElementPlacement &placement : elements)
+  {
+    const int k = placement.element->n_measures();
+    if (k > max_measures)
+      throw std::invalid_argument("element \"" + placement.name + "\" has " + std::to_string(k) +
+                                  " measures; at most " + std::to_string(max_measures) + " are provided for");
+    int n_motions = k;
+    while (n_motions > 0 && is_lag(placement.measures[n_motions - 1]))
+      --n_motions;
+    placed.push_back({placement.element.get(), n_measures, k, n_history, n_motions});
+    if (const int n_c = placement.element->n_constraints(); n_c > 0)
+    {
+      placed.back().first_constraint = placed.back().first_multiplier = n_constraints;
+      joints.push_back(int(placed.size()) - 1);
+      joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->size_of_terms()});
+      n_constraints += n_c;
+    }
+    else
+    {
+      force_blocks.push_back({n_measures, k, placement.element->size_of_terms()});
+      if (placement.joint >= 0)
+        placed.back().first_multiplier = placed[placement.joint].first_constraint;
+    }
+    for (int j = 0; j < k; ++j)
+      for (const auto &[coordinate, weight] : placement.measures[j])
+        columns.emplace_back(coordinate, n_measures + j, weight);
+    n_measures += k;
+    n_history += placement.element->n_history();
+    if (placement.joint >= 0 && k == 1 && placement.element->n_history() > 0)
+    {
+      placed.back().stop = n_history;
+      n_history += 2;
+    }
+  }
+  W.resize(n, n_measures);
+  W.setFromTriplets(columns.begin(), columns.end());
+  history = Eigen::VectorXd::Zero(n_history);
+}
+
+void Machine::Parts::refresh_guards()
+{
+  guards.clear();
+  held.clear();
+  for (std::size_t e = 0; e < placed.size(); ++e)
+  {
+    double rate     = 0.;
+    placed[e].holds = placed[e].element->holds(history_of(placed[e]), rate) && !is_stopped(placed[e]);
+    if (placed[e].holds)
+      held.push_back({placed[e].first_measure, rate});
+    if (is_stopped(placed[e]))
+      continue;
+    const auto own = placed[e].element->guards(history_of(placed[e]));
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      const bool rising = own[i].crossing == mechanism::Crossing::rising;
+      guards.push_back({static_cast<int>(e),
+                        static_cast<int>(i),
+                        rising ? GuardCrossing::rising : GuardCrossing::falling,
+                        {elements[e].name, own[i].kind}});
+    }
+  }
+  for (std::size_t i = 0; i < switches.size(); ++i)
+    if (is_active(switches[i]))
+      guards.push_back({-1,
+                        static_cast<int>(i),
+                        switch_crossing(switches[i]),
+                        {switches[i].request.name, switch_event(switches[i])}});
+}
+
+std::string Machine::Parts::coordinate_name(int i) const
+{
+  if (i >= n_frame)
+    return coordinate_names[i - n_frame];
+  const std::vector<fem::Interface> &interfaces = reduced ? reduced->interfaces : full->interfaces;
+  for (const fem::Interface &interface : interfaces)
+    for (int m = 0; m < 6; ++m)
+      if (interface.coordinate[m] == i)
+        return "frame." + interface.name + "." + motion_names[m];
+  return reduced && reduced->modal ? "frame mode " + std::to_string(i - n_interface + 1)
+                                   : "frame coordinate " + std::to_string(i);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,134 @@
+#include "coupling/machine/machine_parts.h"
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Guards of what sticks: it lets go.
+constexpr int forward = 0, backward = 1;
+
+/// What rows of velocities span, all of the same length; orthonormal.
+class Span
+{
+public:
+  /// False: the row is in the span already.
+  bool add(const Eigen::VectorXd &row)
+  {
+    const Eigen::VectorXd rest = rest_of(row);
+    if (!(rest.norm() > dependent))
+      return false;
+    rows_.push_back(rest.normalized());
+    return true;
+  }
+  bool contains(const Eigen::VectorXd &row, double share = dependent) const { return !(rest_of(row).norm() > share); }
+
+  static constexpr double dependent = 1e-7; ///< share of a row below which it is rounding
+
+private:
+  Eigen::VectorXd rest_of(const Eigen::VectorXd &row) const
+  {
+    Eigen::VectorXd rest = row.normalized();
+    for (int pass = 0; pass < 2; ++pass) // the second takes what rounding left
+      for (const Eigen::VectorXd &own : rows_)
+        rest -= own.dot(rest) * own;
+    return rest;
+  }
+
+  std::vector<Eigen::VectorXd> rows_;
+};
+
+} // namespace
+
+/**
+ * Joints that stick may hold one and the same motion: the first one holds it.  Others that it stops are marked, so that
+ * nothing looks at their guards: they keep sliding friction, or (at a start at rest) have none.  Where joints alone
+ * prescribe the motion, no friction can stick, in a joint or elsewhere: what comes to rest slides on the other way.
+ *
+ * Source: docs/theory/contact.md (6).
+ */
+void Machine::Parts::find_stopped(const LocalState &state)
+{
+  double rate = 0.;
+  if (std::none_of(placed.begin(), placed.end(),
+                   [&](const PlacedElement &part)
+                   { return part.stop >= 0 || (part.came != 0 && part.element->holds(history_of(part), rate)); }))
+    return;
+  // Rows over the coordinates that anything here moves.
+  std::map<int, int> places;
+  const auto         touch = [&](int measure)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, measure); it; ++it)
+      places.emplace(int(it.row()), int(places.size()));
+  };
+  for (const ConstraintBlock &block : joint_blocks)
+    for (int k = 0; k < block.n_measures; ++k)
+      touch(block.first_measure + k);
+  for (const PlacedElement &part : placed)
+    if (part.stop >= 0 || part.element->holds(history_of(part), rate))
+      touch(part.first_measure);
+  const auto add_measure = [&](double factor, int measure, Eigen::VectorXd &row)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, measure); it; ++it)
+      row[places.at(int(it.row()))] += factor * it.value();
+  };
+  const auto row_of = [&](const PlacedElement &part)
+  {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(Eigen::Index(places.size()));
+    add_measure(1., part.first_measure, row);
+    return row;
+  };
+
+  Span            span;
+  double          G[max_measures * max_measures], g[max_measures];
+  Eigen::VectorXd row(places.size());
+  for (std::size_t i = 0; i < joints.size(); ++i)
+  {
+    const PlacedElement   &part  = placed[joints[i]];
+    const ConstraintBlock &block = joint_blocks[i];
+    part.element->constraint(part.motion(state, by_history), history_of(part), g, G);
+    for (int r = 0; r < block.n_rows; ++r)
+    {
+      row.setZero();
+      for (int k = 0; k < block.n_measures; ++k)
+        add_measure(G[r + block.n_rows * k], block.first_measure + k, row);
+      span.add(row);
+    }
+  }
+  const auto slide_on = [&](const PlacedElement &part, double came)
+  { part.element->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
+  // Near a dead point joints alone stop a motion, and holding it would take any force.
+  const auto by_joints = [joints_alone = span](const Eigen::VectorXd &own) { return joints_alone.contains(own, 1e-3); };
+  for (const PlacedElement &part : placed)
+    if (part.stop < 0 && part.element->holds(history_of(part), rate))
+    {
+      const Eigen::VectorXd own = row_of(part);
+      if (part.came != 0 && by_joints(own))
+        slide_on(part, part.came);
+      else
+        span.add(own);
+    }
+  for (const bool before : {true, false}) // what held before goes on holding
+    for (PlacedElement &part : placed)
+    {
+      if (part.stop < 0 || part.holds != before || !part.element->holds(history_of(part), rate))
+        continue;
+      const Eigen::VectorXd own = row_of(part);
+      history[part.stop]        = 0.;
+      if (by_joints(own))
+        slide_on(part, history[part.stop + 1]);
+      else if (!span.add(own))
+        history[part.stop] = 1.;
+    }
+  for (const PlacedElement &part : placed)
+    if (part.stop >= 0 && !part.element->holds(history_of(part), rate))
+    {
+      const Eigen::VectorXd own = row_of(part);
+      history[part.stop]        = !by_joints(own) && span.contains(own) ? 1. : 0.;
+    }
+}
+
+} // namespace gestell::coupling

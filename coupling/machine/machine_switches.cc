@@ -1,0 +1,345 @@
+#include "coupling/machine/machine_parts.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Carries the motion of a signal into u, so that it is known wherever events are looked for; acts with no force.
+class Watch : public mechanism::ForceElement
+{
+public:
+  explicit Watch(int n_measures) : n_measures_(n_measures) {}
+
+  int  n_measures() const override { return n_measures_; }
+  void force(const mechanism::LocalMotion &, const double *, double *p) const override
+  {
+    std::fill(p, p + n_measures_, 0.);
+  }
+  void tangent(const mechanism::LocalMotion &motion, const double *history, const mechanism::TangentWeights &,
+               double *p, double *dp) const override
+  {
+    force(motion, history, p);
+    std::fill(dp, dp + n_measures_ * n_measures_, 0.);
+  }
+  std::vector<mechanism::Quantity> quantities() const override { return {}; }
+  double quantity(int, const mechanism::LocalMotion &, const double *) const override { return 0.; }
+
+private:
+  int n_measures_;
+};
+
+} // namespace
+
+/// @throws std::invalid_argument with the nearest name, or for a signal that no event can be looked for in
+Signal Machine::Parts::watched_signal(const Switch &request) const
+{
+  try
+  {
+    const Signal watched = signal(request.signal);
+    if (watched.reads_acceleration())
+      throw std::invalid_argument("\"" + request.signal +
+                                  "\" is an acceleration, in which no event can be located; let a force or a velocity "
+                                  "throw it");
+    return watched;
+  }
+  catch (const std::invalid_argument &unfit)
+  {
+    throw std::invalid_argument(std::string("when: ") + unfit.what());
+  }
+}
+
+void Machine::add_switch(const Switch &request)
+{
+  parts_->watched_signal(request);
+  std::vector<std::string> names;
+  for (const ElementPlacement &element : parts_->elements)
+    names.push_back(element.name);
+  for (const auto &[name, order] : request.orders)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw std::invalid_argument("there is no element \"" + name + "\"" + suggestion(name, names));
+    const auto &element = *parts_->elements[found - names.begin()].element;
+    const auto  known   = element.commands();
+    if (std::find(known.begin(), known.end(), order.name) == known.end())
+      throw std::invalid_argument("\"" + name + "\" knows no order \"" + order.name + "\"" +
+                                  (known.empty() ? std::string("; it obeys none") : suggestion(order.name, known)));
+    element.check_order(order);
+  }
+  parts_->switch_requests.push_back(request);
+}
+
+/// Elements of no force for switches whose signal is a motion: its measures, or the two sums on q and q'.
+void Machine::Parts::add_watches()
+{
+  switches.clear();
+  for (const Switch &request : switch_requests)
+  {
+    PlacedSwitch own;
+    own.request = request;
+    own.signal  = watched_signal(request);
+    if (own.signal.element >= 0)
+      own.watched = own.signal.element;
+    else if (own.signal.on_t == 0.)
+    {
+      own.watched         = static_cast<int>(elements.size());
+      const auto watching = own.signal.measure >= 0 ? measures[own.signal.measure].measures
+                                                    : std::vector<Measure>{own.signal.on_q, own.signal.on_v};
+      elements.push_back(
+          {"switch " + request.name, std::make_shared<Watch>(static_cast<int>(watching.size())), watching});
+    }
+    switches.push_back(own);
+  }
+}
+
+namespace
+{
+enum Slot
+{
+  phase_slot,
+  due_slot,
+  side_slot, ///< -1: the signal lies below the level, or is taken to, until it rises above; 1: above; 0: not known yet
+  n_slots
+};
+} // namespace
+
+void Machine::Parts::place_switches()
+{
+  for (PlacedSwitch &own : switches)
+  {
+    for (const SwitchOrder &order : own.request.orders)
+    {
+      const auto target = std::find_if(elements.begin(), elements.end(),
+                                       [&](const ElementPlacement &element) { return element.name == order.element; });
+      own.targets.push_back(static_cast<int>(target - elements.begin()));
+    }
+    for (std::size_t i = 0; i < switches.size(); ++i)
+      if (!own.request.after.empty() && switches[i].request.name == own.request.after)
+        own.after = static_cast<int>(i);
+    if (!own.request.after.empty() && own.after < 0)
+      throw std::invalid_argument("switch \"" + own.request.name + "\": there is no switch \"" + own.request.after +
+                                  "\" that it could wait for");
+    own.history = static_cast<int>(history.size());
+    history.conservativeResize(history.size() + n_slots);
+  }
+  start_switches(nullptr);
+}
+
+void Machine::Parts::start_switches(const LocalState *state)
+{
+  for (const PlacedSwitch &own : switches)
+  {
+    history[own.history + due_slot] = 0.;
+    watch(own, state);
+    if (own.after >= 0)
+      history[own.history + phase_slot] = double(SwitchPhase::waits);
+  }
+}
+
+/// Begins to watch.  A crossing in either direction is one from the side on which the signal is: where that is not
+/// known, or it stands at the level itself, the next accepted instant tells.
+/// @param state  null: not known
+void Machine::Parts::watch(const PlacedSwitch &own, const LocalState *state)
+{
+  history[own.history + phase_slot] = double(SwitchPhase::watches);
+  double &side                      = history[own.history + side_slot];
+  side                              = own.request.crossing == SwitchCrossing::rising    ? -1.
+                                      : own.request.crossing == SwitchCrossing::falling ? 1.
+                                                                                        : 0.;
+  if (side != 0. || !state || (own.signal.element >= 0 && tells_found_force(own)))
+    return;
+  const double past = watched_value(own, *state) - own.request.level;
+  side              = past < 0. ? -1. : past > 0. ? 1. : 0.;
+}
+
+/// The signal follows from forces that no law tells, but the equations of the step: at a start they are not known yet.
+bool Machine::Parts::tells_found_force(const PlacedSwitch &own) const
+{
+  double      rate = 0.;
+  const auto &part = placed[own.watched];
+  return part.tells_multipliers(own.signal.quantity) || part.element->holds(history_of(part), rate);
+}
+
+void Machine::Parts::find_sides(const LocalState &state)
+{
+  bool found = false;
+  for (const PlacedSwitch &own : switches)
+    if (phase(own) == SwitchPhase::watches && history[own.history + side_slot] == 0.)
+    {
+      const double past                = watched_value(own, state) - own.request.level;
+      history[own.history + side_slot] = past < 0. ? -1. : past > 0. ? 1. : 0.;
+      found                            = found || history[own.history + side_slot] != 0.;
+    }
+  if (found)
+    refresh_guards();
+}
+
+Machine::Parts::SwitchPhase Machine::Parts::phase(const PlacedSwitch &own) const
+{
+  return static_cast<SwitchPhase>(static_cast<int>(history[own.history + phase_slot]));
+}
+
+bool Machine::Parts::is_active(const PlacedSwitch &own) const
+{
+  return phase(own) != SwitchPhase::waits && phase(own) != SwitchPhase::rests;
+}
+
+GuardCrossing Machine::Parts::switch_crossing(const PlacedSwitch &own) const
+{
+  const bool either = own.request.crossing == SwitchCrossing::either, back = phase(own) == SwitchPhase::returns;
+  if (phase(own) == SwitchPhase::delays || (either && back))
+    return GuardCrossing::rising;
+  return (history[own.history + side_slot] <= 0.) != back ? GuardCrossing::rising : GuardCrossing::falling;
+}
+
+std::string Machine::Parts::switch_event(const PlacedSwitch &own) const
+{
+  return phase(own) == SwitchPhase::delays ? "orders" : phase(own) == SwitchPhase::returns ? "ready" : "switch";
+}
+
+double Machine::Parts::switch_guard(const PlacedSwitch &own, const LocalState &state) const
+{
+  if (phase(own) == SwitchPhase::delays)
+    return state.t - history[own.history + due_slot];
+  const double side = history[own.history + side_slot];
+  if (phase(own) == SwitchPhase::watches && side == 0.)
+    return -1.; // not past what rises
+  const double past = watched_value(own, state) - own.request.level;
+  if (phase(own) == SwitchPhase::watches)
+    return past;
+  if (own.request.crossing == SwitchCrossing::either)
+    return std::abs(past) - own.request.hysteresis;
+  return past - side * own.request.hysteresis;
+}
+
+/// Passes what it waited for: the crossing, the delay, the way back.
+void Machine::Parts::throw_switch(int index, const LocalState &state)
+{
+  const PlacedSwitch &own  = switches[index];
+  double             &next = history[own.history + phase_slot];
+  switch (phase(own))
+  {
+  case SwitchPhase::watches:
+    if (own.request.delay > 0.)
+    {
+      next                            = double(SwitchPhase::delays);
+      history[own.history + due_slot] = state.t + own.request.delay;
+      return;
+    }
+    give_orders(index, state);
+    return;
+  case SwitchPhase::delays:
+    give_orders(index, state);
+    return;
+  case SwitchPhase::returns:
+    watch(own, &state);
+    return;
+  case SwitchPhase::waits:
+  case SwitchPhase::rests:
+    return;
+  }
+}
+
+void Machine::Parts::give_orders(int index, const LocalState &state)
+{
+  const PlacedSwitch &own  = switches[index];
+  double             &next = history[own.history + phase_slot], &side = history[own.history + side_slot];
+  const bool          at_level = phase(own) == SwitchPhase::watches;
+  next                         = double(own.request.repeat ? SwitchPhase::returns : SwitchPhase::rests);
+  if (own.request.repeat && own.request.crossing == SwitchCrossing::either && own.request.hysteresis == 0.)
+  {
+    if (at_level) // rounding must not tell on which side it is
+      next = double(SwitchPhase::watches), side = -side;
+    else
+      watch(own, &state);
+  }
+  for (std::size_t i = 0; i < own.targets.size(); ++i)
+  {
+    const PlacedElement &target = placed[own.targets[i]];
+    const SwitchOrder   &told   = own.request.orders[i];
+    try
+    {
+      target.element->command(told.order, target.motion(state, by_history), history_of(target));
+    }
+    catch (const std::domain_error &beyond) // it has no law that goes on so
+    {
+      std::ostringstream message;
+      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << told.element
+              << "\": " << beyond.what();
+      throw ConvergenceFailure(message.str());
+    }
+  }
+  for (const PlacedSwitch &other : switches)
+    if (other.after == index && phase(other) == SwitchPhase::waits)
+      watch(other, &state);
+}
+
+double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &state) const
+{
+  if (own.signal.on_t != 0.)
+    return own.signal.scale * own.signal.on_t * state.t;
+  const PlacedElement &part   = placed[own.watched];
+  const auto           motion = part.motion(state, by_history);
+  double               value  = own.signal.offset;
+  if (own.signal.element >= 0)
+    value += part.element->quantity(own.signal.quantity, motion, history_of(part));
+  else if (own.signal.measure >= 0)
+  {
+    double     gradient[mechanism::CombinedMeasure::max_measures];
+    const auto measured = measures[own.signal.measure].measure.evaluate(motion.u, motion.v, gradient);
+    value += own.signal.quantity == 0 ? measured.s : measured.rate;
+  }
+  else
+    value += motion.u[0] + motion.v[1];
+  if (own.signal.load >= 0)
+    value += loads[own.signal.load].at(state.t);
+  return own.signal.scale * value;
+}
+
+bool Machine::wants_multipliers() const
+{
+  const auto watches_joint = [&](const Parts::PlacedSwitch &own)
+  { return own.signal.element >= 0 && parts_->placed[own.watched].tells_multipliers(own.signal.quantity); };
+  // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
+  const auto sticks_in_joint = [](const Parts::PlacedElement &part)
+  { return part.holds && part.first_multiplier >= 0; };
+  return parts_->reads_joints || std::any_of(parts_->placed.begin(), parts_->placed.end(), sticks_in_joint) ||
+         std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
+}
+
+void Machine::will_read(const std::vector<Signal> &signals)
+{
+  const auto reads_joint = [&](const Signal &signal)
+  {
+    return (signal.reads_acceleration() && !parts_->joints.empty()) ||
+           (signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity));
+  };
+  parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
+}
+
+bool Machine::forces_need_multipliers() const
+{
+  return std::any_of(parts_->elements.begin(), parts_->elements.end(),
+                     [](const ElementPlacement &placement) { return placement.joint >= 0; });
+}
+
+const NamedMeasure &Machine::measure(const std::string &name) const
+{
+  std::vector<std::string> names;
+  for (const NamedMeasure &measure : parts_->measures)
+  {
+    if (measure.name == name)
+      return measure;
+    names.push_back(measure.name);
+  }
+  throw std::invalid_argument("there is no measure \"" + name + "\"" + suggestion(name, names));
+}
+
+} // namespace gestell::coupling

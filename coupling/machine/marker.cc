@@ -1,0 +1,70 @@
+#include "coupling/machine/marker.h"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+Measure combine(const Measure &a, const Measure &b, double sign)
+{
+  std::map<int, double> sum(a.begin(), a.end());
+  for (const auto &[coordinate, weight] : b)
+    sum[coordinate] += sign * weight;
+  Measure result;
+  for (const auto &term : sum)
+    if (term.second != 0.)
+      result.push_back(term);
+  return result;
+}
+
+Measure projection(const std::array<Measure, 3> &motion, const Vector3 &direction)
+{
+  const double length =
+      std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+  if (!(length > 0.))
+    throw std::invalid_argument("marker: a direction of length zero; give three numbers of which one is not zero");
+  Measure result;
+  for (int d = 0; d < 3; ++d)
+    if (direction[d] != 0.)
+      result = result + (direction[d] / length) * motion[d];
+  return result;
+}
+} // namespace
+
+Measure operator+(const Measure &a, const Measure &b)
+{
+  return combine(a, b, 1.);
+}
+Measure operator-(const Measure &a, const Measure &b)
+{
+  return combine(a, b, -1.);
+}
+
+Measure operator*(double s, const Measure &a)
+{
+  Measure result;
+  for (const auto &[coordinate, weight] : a)
+    if (s * weight != 0.)
+      result.emplace_back(coordinate, s * weight);
+  return result;
+}
+
+Measure Marker::along(const Vector3 &direction) const
+{
+  return projection(translation, direction);
+}
+Measure Marker::about(const Vector3 &axis) const
+{
+  if (turns_freely)
+    throw std::invalid_argument(
+        "\"" + name +
+        "\" turns freely in space, so that no constant axis tells its angle; let the element act "
+        "on a [measure] of type \"angle\", or on a rotor that a rigid joint holds to the body");
+  return projection(rotation, axis);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,154 @@
+#include "coupling/modes/damped_modes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Complex = std::complex<double>;
+
+/// omega^2, negative for a motion that is driven away.
+Eigen::VectorXd squares(const DenseModes &modes)
+{
+  return modes.omega.cwiseAbs2() - modes.growth.cwiseAbs2();
+}
+
+/// Sets of modes that are solved together.
+class Groups
+{
+public:
+  explicit Groups(Eigen::Index n) : root_(n) { std::iota(root_.begin(), root_.end(), 0); }
+
+  Eigen::Index root(Eigen::Index i)
+  {
+    while (root_[i] != i)
+      i = root_[i] = root_[root_[i]];
+    return i;
+  }
+  void join(Eigen::Index i, Eigen::Index j) { root_[root(i)] = root(j); }
+
+  std::vector<std::vector<Eigen::Index>> sets()
+  {
+    std::vector<std::vector<Eigen::Index>> by_root(root_.size());
+    for (Eigen::Index i = 0; i < Eigen::Index(root_.size()); ++i)
+      by_root[root(i)].push_back(i);
+    by_root.erase(std::remove_if(by_root.begin(), by_root.end(), [](const auto &set) { return set.empty(); }),
+                  by_root.end());
+    return by_root;
+  }
+
+private:
+  std::vector<Eigen::Index> root_;
+};
+
+/// What the coupling with another mode does to s, in units of what may be left out.
+struct Share
+{
+  double       amount;
+  Eigen::Index other;
+};
+
+/// Both roots of s^2 + b s + square, the vibrating one once.
+std::array<Complex, 2> roots(double b, double square)
+{
+  const Complex root = std::sqrt(Complex(0.25 * b * b - square));
+  return {-0.5 * b + root, -0.5 * b - root};
+}
+
+/// Joins mode j with those whose coupling may not be left out.
+void join_coupled(Eigen::Index j, const Eigen::MatrixXd &B, const Eigen::VectorXd &square,
+                  const CouplingTolerance &tolerance, std::vector<Share> &shares, Groups &groups)
+{
+  shares.clear();
+  for (Eigen::Index i = 0; i < B.rows(); ++i)
+    if (i != j && B(i, j) != 0.)
+    {
+      double amount = 0.;
+      for (const Complex &s : roots(B(j, j), square[j]))
+      {
+        const Complex moved = B(i, j) * B(i, j) * s * s / ((2. * s + B(j, j)) * (s * s + B(i, i) * s + square[i]));
+        const auto    part  = [](double of, double whole) { return of == 0. ? 0. : of / whole; };
+        const double  own   = std::max(part(std::abs(moved), tolerance.of_s * std::abs(s)),
+                                       part(std::abs(moved.real()), tolerance.of_decay * std::abs(s.real())));
+        amount              = std::max(amount, std::isfinite(own) ? own : 2.); // roots that meet are joined
+      }
+      if (amount > 0.)
+        shares.push_back({amount, i});
+    }
+  std::sort(shares.begin(), shares.end(), [](const Share &a, const Share &b) { return a.amount < b.amount; });
+  double sum = 0.;
+  for (const Share &share : shares)
+    if ((sum += share.amount) > 1.)
+      groups.join(j, share.other);
+}
+
+/// s of one mode alone.
+void add_single(const DenseModes &modes, const Eigen::MatrixXd &B, Eigen::Index j, std::vector<DampedMode> &result)
+{
+  const double omega = modes.omega[j], zeta = 0.5 * B(j, j) / omega;
+  if (omega > 0. && std::abs(zeta) < 1.)
+    result.push_back({{omega, zeta}, j});
+}
+
+/// s of modes that are coupled.  In the state (Omega y, y') the matrix is as large as the highest frequency, so that
+/// the lowest keep their digits.
+void add_joined(const DenseModes &modes, const Eigen::MatrixXd &B, const std::vector<Eigen::Index> &joined,
+                std::vector<DampedMode> &result)
+{
+  const auto      p = Eigen::Index(joined.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * p, 2 * p);
+  for (Eigen::Index a = 0; a < p; ++a)
+  {
+    const double omega = modes.omega[joined[a]], growth = modes.growth[joined[a]];
+    A(a, p + a) = growth > 0. ? growth : omega;
+    A(p + a, a) = growth > 0. ? growth : -omega;
+    for (Eigen::Index b = 0; b < p; ++b)
+      A(p + a, p + b) = -B(joined[a], joined[b]);
+  }
+  const Eigen::VectorXcd s     = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+  const double           noise = 1e-13 * double(p) * A.norm(); // of eigenvalues of a matrix of that norm
+  for (const Complex &value : s)
+    if (value.imag() > std::max(noise, 1e-9 * std::abs(value))) // two that meet part by the root of rounding
+    {
+      const auto nearer = [&](Eigen::Index a, Eigen::Index b)
+      { return std::abs(modes.omega[a] - std::abs(value)) < std::abs(modes.omega[b] - std::abs(value)); };
+      result.push_back({{std::abs(value), -value.real() / std::abs(value)},
+                        *std::min_element(joined.begin(), joined.end(), nearer)});
+    }
+}
+
+} // namespace
+
+std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,
+                                     const CouplingTolerance &tolerance)
+{
+  if (!B.allFinite() || !modes.omega.allFinite())
+    throw std::invalid_argument("damped_modes: the damping of a mode is not finite; a damper is far too large beside a "
+                                "mass: check their units");
+  const Eigen::VectorXd square = squares(modes);
+  Groups                groups(B.rows());
+  std::vector<Share>    shares;
+  for (Eigen::Index j = 0; j < B.rows(); ++j)
+    join_coupled(j, B, square, tolerance, shares, groups);
+  std::vector<DampedMode> result;
+  for (const std::vector<Eigen::Index> &set : groups.sets())
+    if (set.size() == 1)
+      add_single(modes, B, set[0], result);
+    else
+      add_joined(modes, B, set, result);
+  std::sort(result.begin(), result.end(),
+            [](const DampedMode &a, const DampedMode &b) { return a.line.omega < b.line.omega; });
+  return result;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/system/second_order_system.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A vibrating mode of the damped machine: omega = |s|, zeta = -Re s/|s|, and the undamped mode it is nearest to.
+struct DampedMode
+{
+  SpectrumLine line;
+  Eigen::Index nearest; ///< column of DenseModes::V
+};
+
+/// How much of the coupling of modes by dampers may be left out: relative errors of s, and of its real part.
+struct CouplingTolerance
+{
+  double of_s, of_decay;
+};
+
+/**
+ * Complex eigenvalues s of the undamped modes with the dampers between them, ascending in |s|; only those that vibrate:
+ *
+ *     (s^2 E + s B + diag(omega^2)) y = 0,     B = V^T B V [p x p], symmetric.
+ *
+ * Modes that dampers couple hardly are taken each by itself: coupling of mode j with mode i moves its s by about
+ *
+ *     B_ij^2 s^2 / ((2 s + B_jj) (s^2 + B_ii s + omega_i^2))
+ *
+ * and as much of this as the tolerance allows is left out, the smallest first.  What is joined by the rest is solved
+ * together: a frame with a few dashpots takes the time of its few joined modes, not that of all.
+ *
+ * Source: docs/stability.md, Damped modes.
+ * @throws std::invalid_argument if an entry of B is not finite
+ */
+std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,
+                                     const CouplingTolerance &tolerance);
+
+} // namespace gestell::coupling

@@ -1,0 +1,148 @@
+#include "coupling/modes/linear_spectrum.h"
+
+#include "coupling/machine/dense_matrices.h"
+#include "coupling/modes/modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Geometric stiffness [n x n] of the forces that act as the machine moves on from rest.  It falls to zero where these
+/// are not found: a run that cannot start says so itself.
+Eigen::MatrixXd geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
+{
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  local.resize(machine);
+  machine.gather(start.t, start.q, zero, zero, local);
+  if (machine.n_constraints() > 0)
+    try
+    {
+      local.lambda = multipliers_at_rest(machine, start.q, local);
+    }
+    catch (const ConvergenceFailure &)
+    {
+      return Eigen::MatrixXd::Zero(machine.size(), machine.size());
+    }
+  const Eigen::MatrixXd K = geometric_stiffness(machine, local);
+  return 0.5 * (K + K.transpose());
+}
+
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd &A)
+{
+  return 0.5 * (A + A.transpose());
+}
+
+/// K and D are what elements add to B and C; all in free motions.
+LinearMachine in_modes(ModeOrigin origin, const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                       const Eigen::MatrixXd &K, const Eigen::MatrixXd &D)
+{
+  LinearMachine result{origin, dense_modes(C + K, M), {}, {}};
+  const auto   &V      = result.modes.V;
+  result.B             = symmetric(V.transpose() * (B + D) * V);
+  result.contact_omega = (V.cwiseProduct(K * V)).colwise().sum().cwiseMax(0.).cwiseSqrt();
+  return result;
+}
+
+// --- large machines
+
+/// Stiffness [n_u x n_u] of all elements in the stiffest branch of their laws.
+Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const Eigen::VectorXd &q)
+{
+  const Eigen::VectorXd               u = machine.directions().transpose() * q;
+  std::vector<Eigen::Triplet<double>> entries;
+  int                                 first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+    placement.element->stiffest(u.data() + first, K.data(), D.data());
+    for (int i = 0; i < k; ++i)
+      for (int j = 0; j < k; ++j)
+        if (K(i, j) != 0.)
+          entries.emplace_back(first + i, first + j, K(i, j));
+    first += k;
+  }
+  Eigen::SparseMatrix<double> K(u.size(), u.size());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+/// The highest frequency by power iteration on M^-1 C, approached from below; two hundred steps come within a per cent.
+LargeMode highest_mode(const Machine &machine, const Eigen::VectorXd &q, double damping_ratio)
+{
+  const auto  mass = machine.factorise(1., 0., 0.);
+  const auto &W    = machine.directions();
+  const auto  K    = stiffest_of_measures(machine, q);
+
+  Eigen::VectorXd x(machine.size()), y(x.size()), z(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    x[i] = std::cos(1.7 * double(i) * double(i)); // rough, so that no high mode is missed
+  double omega = 0.;
+  for (int i = 0; i < 200; ++i)
+  {
+    machine.stiffness_times(x, y);
+    y += W * (K * (W.transpose() * x));
+    machine.mass_times(x, z);
+    omega = std::sqrt(std::max(0., x.dot(y) / x.dot(z)));
+    mass->solve(y, x);
+    x /= x.norm();
+  }
+  const ModeOrigin origin = K.nonZeros() > 0 ? ModeOrigin::closed : ModeOrigin::base;
+  return {origin, machine.size(), {omega, damping_ratio}, true};
+}
+
+std::vector<LargeMode> modes_of_large(const Machine &machine, const Eigen::VectorXd &q)
+{
+  std::vector<LargeMode> result;
+  int                    number = 0;
+  double                 least  = 1.;
+  for (const SpectrumLine &line : machine.spectrum())
+  {
+    ++number;
+    if (line.omega <= 0.)
+      continue;
+    result.push_back({ModeOrigin::base, number, line});
+    least = std::min(least, line.zeta);
+  }
+  if (number < machine.size())
+    result.push_back(highest_mode(machine, q, std::max(0., least)));
+  return result;
+}
+
+} // namespace
+
+bool is_large(const Machine &machine)
+{
+  Eigen::MatrixXd M, B, C;
+  return machine.full_frame() || !machine.dense_matrices(M, B, C);
+}
+
+LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start)
+{
+  if (is_large(machine))
+    return {{}, modes_of_large(machine, start.q)};
+  LocalState            local;
+  const Eigen::MatrixXd geometric = geometric_at_rest(machine, start, local);
+  const bool            jointed   = machine.n_constraints() > 0;
+  const Eigen::MatrixXd Z         = jointed ? free_motions(machine, local) : Eigen::MatrixXd();
+  const auto free = [&](const Eigen::MatrixXd &A) { return jointed ? Eigen::MatrixXd(Z.transpose() * A * Z) : A; };
+  const Eigen::MatrixXd M = free(dense_mass(machine)), B = free(dense_damping(machine)),
+                        C = free(dense_stiffness(machine) + geometric);
+  Eigen::MatrixXd K, D, stiffest_K, stiffest_D;
+  open_matrices(machine, start.q, K, D);
+  stiffest_matrices(machine, start.q, stiffest_K, stiffest_D);
+
+  LinearSpectrum result;
+  result.machines.push_back(in_modes(ModeOrigin::base, M, B, C, free(symmetric(K)), free(symmetric(D))));
+  if (stiffest_K != K || stiffest_D != D)
+    result.machines.push_back(
+        in_modes(ModeOrigin::closed, M, B, C, free(symmetric(stiffest_K)), free(symmetric(stiffest_D))));
+  return result;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "coupling/equilibrium/steady_start.h"
+#include "coupling/machine/machine.h"
+#include "coupling/modes/damped_modes.h"
+
+namespace gestell::coupling
+{
+
+/// Which linear machine a mode belongs to.
+enum class ModeOrigin
+{
+  base,  ///< frame and bodies, with what elements are while they are open
+  closed ///< with every element in the stiffest branch of its law, at the start configuration
+};
+
+/**
+ * The machine linearised at rest in the configuration of the start, in its undamped modes V, V^T M V = E:
+ *
+ *     y'' + B y' + diag(omega^2) y = 0,     q = Z V y,     B = V^T Z^T B Z V [p x p]
+ *
+ * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.
+ */
+struct LinearMachine
+{
+  ModeOrigin      origin;
+  DenseModes      modes;
+  Eigen::MatrixXd B;
+  Eigen::VectorXd contact_omega; ///< [p] rad/s, sqrt(v^T K v): what the elements alone contribute
+};
+
+/// A mode of a machine that is too large for dense matrices.
+struct LargeMode
+{
+  ModeOrigin   origin;
+  int          number; ///< from 1, by frequency, those that do not vibrate counted as well
+  SpectrumLine line;
+  bool         bound = false; ///< stands for all modes up to its frequency, which are not known one by one
+};
+
+/**
+ * What an integrator with a fixed step sees of a machine: base and, where that differs, closed.
+ *
+ * A frame that is too large for dense matrices gives its lowest modes and, as a `bound`, the highest one with closed
+ * contacts, by power iteration.
+ */
+struct LinearSpectrum
+{
+  std::vector<LinearMachine> machines; ///< none of a large machine
+  std::vector<LargeMode>     large;
+};
+
+/// @throws std::invalid_argument as dense_modes()
+LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start);
+
+/// Machines with up to so many coordinates have dense matrices.
+bool is_large(const Machine &machine);
+
+} // namespace gestell::coupling

@@ -1,0 +1,335 @@
+#include "coupling/modes/modes.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/step/consistent_start.h"
+#include "coupling/machine/dense_matrices.h"
+#include "fem/values/two_pi.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double rounding_of_ratio = 1e-12;
+
+/// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.
+Eigen::EigenSolver<Eigen::MatrixXd> solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
+{
+  if (!state.allFinite()) // the solver would leave its arrays
+  {
+    std::ostringstream message;
+    message << "modes: the highest frequency is " << omega.maxCoeff() / two_pi
+            << " Hz, beyond what can be computed with dampers; a mass is far too small for its spring or damper: "
+               "check its unit, or leave it out";
+    throw std::invalid_argument(message.str());
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(state);
+}
+
+/// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes:
+/// (s^2 E + s V^T B V + diag(omega^2)) y = 0; each undamped mode takes the vibrating solution in which it is largest.
+void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<Mode> &result)
+{
+  const int       p = static_cast<int>(modes.omega.size());
+  Eigen::MatrixXd state(2 * p, 2 * p);
+  state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p),
+      Eigen::MatrixXd((-modes.omega.array().square()).matrix().asDiagonal()), -modes.V.transpose() * B * modes.V;
+  const auto             solver  = solve_state(state, modes.omega);
+  const Eigen::VectorXcd s       = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  std::vector<bool>      taken(2 * p, false);
+  for (std::size_t j = 0; j < result.size(); ++j)
+  {
+    int    best  = -1;
+    double share = 0.;
+    for (int k = 0; k < 2 * p && result[j].frequency_hz > 0.; ++k)
+    {
+      if (taken[k] || s[k].imag() <= 1e-9 * std::abs(s[k]))
+        continue;
+      const auto   y   = vectors.col(k).head(p);
+      const double own = std::norm(y[static_cast<Eigen::Index>(j)]) / y.squaredNorm();
+      if (own > share)
+      {
+        share = own;
+        best  = k;
+      }
+    }
+    result[j].damping_ratio = std::numeric_limits<double>::quiet_NaN();
+    if (best < 0 || share < 0.3)
+      continue;
+    taken[best]                   = true;
+    result[j].damped_frequency_hz = s[best].imag() / two_pi;
+    const double ratio            = -s[best].real() / std::abs(s[best]);
+    result[j].damping_ratio       = std::abs(ratio) > rounding_of_ratio ? ratio : 0.;
+  }
+}
+
+/// @param loads     M R [n x 3], the load of a unit acceleration; the effective mass of a mode v is (v . load)^2.
+/// @param n_rigid   see dense_modes()
+std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                           const Eigen::MatrixXd &loads, int n_modes, bool damped = true,
+                           std::optional<int> n_rigid = {})
+{
+  if (M.rows() == 0) // everything is held
+    return {};
+  const DenseModes  modes = n_rigid ? dense_modes(C, M, cancelled_by_reduction, n_rigid) : dense_modes(C, M);
+  std::vector<Mode> result(std::min<Eigen::Index>(n_modes, modes.omega.size()));
+  for (std::size_t j = 0; j < result.size(); ++j)
+  {
+    const Eigen::VectorXd v = modes.V.col(static_cast<Eigen::Index>(j));
+    result[j].frequency_hz  = modes.omega[static_cast<Eigen::Index>(j)] / two_pi;
+    result[j].growth        = modes.growth[static_cast<Eigen::Index>(j)];
+    result[j].shape         = v;
+    for (int d = 0; d < 3; ++d)
+      result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
+  }
+  if (damped && !result.empty())
+    add_damping(modes, B, result);
+  return result;
+}
+
+} // namespace
+
+Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local)
+{
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  Eigen::VectorXd       a    = zero;
+  IntegrationWork       work;
+  ConsistentStart(machine, "modes").solve(q, zero, a, local, work);
+  return local.lambda;
+}
+
+double refined_hz(const ReducedFrame &frame, Eigen::Index j)
+{
+  const bool reduced = frame.modal && frame.n_full > frame.M.rows(), known = j < frame.frequency_error.size();
+  return reduced && known ? frame.frequencies_hz[j] / (1. + frame.frequency_error[j])
+                          : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
+{
+  const ReducedFrame *frame = machine.reduced_frame();
+  if (!frame)
+    return {};
+  std::vector<Mode> modes =
+      modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true, frame->n_rigid());
+  for (std::size_t j = 0; j < modes.size(); ++j)
+    modes[j].refined_hz = refined_hz(*frame, Eigen::Index(j));
+  for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
+  {
+    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding
+    modes[j].damping_ratio                                                 = std::numeric_limits<double>::quiet_NaN();
+  }
+  return modes;
+}
+
+namespace
+{
+
+/// M, B, K [p x p] of the motions Z [n x p] that are left free; with dampers and stiffness engaged.
+struct Linear
+{
+  Eigen::MatrixXd M, B, K, Z;
+};
+
+/// Sums of masses and forces that overflow are no matrices.
+void require_finite(const Machine &machine, const Linear &linear)
+{
+  const auto check = [&](const Eigen::MatrixXd &A, const char *what, const char *reason)
+  {
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+      if (!A.row(i).allFinite())
+        throw std::invalid_argument("modes: the " + std::string(what) + " of coordinate " +
+                                    machine.coordinate_name(int(i)) + " is not finite; " + reason +
+                                    " too large to compute with: check their units");
+  };
+  check(linear.M, "mass", "masses or inertias are");
+  check(linear.B, "damping", "dampers are");
+  check(linear.K, "stiffness", "springs are, or the forces (such as weights) that turn with its motion are,");
+}
+
+Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation)
+{
+  if (machine.full_frame())
+    throw std::invalid_argument("modes: the machine has " + std::to_string(machine.size()) +
+                                " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
+  Linear linear;
+  engaged_matrices(machine, q, linearisation.open, linear.K, linear.B);
+  linear.M = dense_mass(machine);
+  linear.K += dense_stiffness(machine);
+  linear.B += dense_damping(machine);
+
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  LocalState            local;
+  local.resize(machine);
+  machine.gather(0., q, zero, zero, local);
+  const bool jointed = machine.n_constraints() > 0;
+  if (linearisation.geometric == GeometricStiffness::included)
+  {
+    if (jointed)
+      local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
+    linear.K += geometric_stiffness(machine, local, linearisation.acting);
+  }
+  require_finite(machine, linear);
+  linear.Z = free_motions(machine, local, linearisation.fixed);
+  return linear;
+}
+
+} // namespace
+
+std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
+                                   int n_modes)
+{
+  const auto [M, B, K, Z] = linearised(machine, q, linearisation);
+  std::vector<Mode> modes = modes_of(Z.transpose() * M * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
+                                     Z.transpose() * machine.translation_loads(), n_modes, linearisation.damping);
+  for (Mode &mode : modes)
+    mode.shape = Z * mode.shape;
+  return modes;
+}
+
+namespace
+{
+
+/// What drives and controllers add to the structure.
+struct Drives
+{
+  bool             any = false;
+  std::vector<int> lags; ///< virtual coordinates whose elements act; those of others only fade with their own constants
+};
+
+/// Adds -dp/du and -dp/dv [n x n] of the drives, which are no structure, as they are at a motion.
+Drives add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
+{
+  const Eigen::VectorXd structure = acting_measures(machine, local.u, Acting::structure);
+  const auto           &W         = machine.directions();
+  const auto           &lags      = machine.virtual_coordinates(); // ascending
+  Drives                found;
+  int                   first = 0;
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const mechanism::ForceElement &element = *placement.element;
+    const int                      k       = element.n_measures();
+    mechanism::LocalMotion motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
+    std::vector<double>    history(element.n_history() + 1);
+    double                 rate;
+    const bool drives = structure[first] == 0. && placement.joint < 0 && element.work() == mechanism::Work::input;
+    if (drives)
+      element.start(motion, history.data());
+    if (drives && !element.holds(history.data(), rate)) // what sticks gives no way
+    {
+      Eigen::VectorXd p(k);
+      Eigen::MatrixXd du(k, k), dv(k, k);
+      element.derivatives(motion, history.data(), p.data(), du.data(), dv.data());
+      const Eigen::MatrixXd own = W.middleCols(first, k);
+      K -= own * du * own.transpose();
+      B -= own * dv * own.transpose();
+      found.any = found.any || !du.isZero(0.) || !dv.isZero(0.);
+    }
+    const bool acts = drives || !structure.segment(first, k).isZero(0.);
+    for (const Measure &u : placement.measures)
+      for (const auto &term : u)
+        if (acts && std::binary_search(lags.begin(), lags.end(), term.first))
+          found.lags.push_back(term.first);
+    first += k;
+  }
+  return found;
+}
+
+constexpr double slowest = 1.; ///< [rad/s] weight of motions without frequency in the state
+
+/// d/dt (Omega y, y', x) of motions V y and virtual coordinates x.
+Eigen::MatrixXd state_matrix(const Linear &linear, const DenseModes &modes, const Eigen::MatrixXd &V,
+                             const Eigen::MatrixXd &L)
+{
+  const Eigen::Index    p = V.cols(), m = L.cols();
+  const Eigen::VectorXd omega = modes.omega.cwiseMax(slowest);
+  const Eigen::MatrixXd K_y   = V.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd       A     = Eigen::MatrixXd::Zero(2 * p + m, 2 * p + m);
+  A.block(0, p, p, p)         = omega.asDiagonal();
+  A.block(p, 0, p, p)         = -K_y;
+  A.block(p, p, p, p)         = -V.transpose() * linear.B * V;
+  if (m == 0)
+    return A;
+  A.block(p, 2 * p, p, m) = -V.transpose() * linear.K * L;
+  Eigen::MatrixXd x_rate(m, 2 * p + m); // T x' = ...
+  x_rate << -L.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal(), -L.transpose() * linear.B * V,
+      -L.transpose() * linear.K * L;
+  const Eigen::VectorXd T = (L.transpose() * linear.B * L).diagonal();
+  A.bottomRows(m)         = T.cwiseInverse().asDiagonal() * x_rate;
+  return A;
+}
+
+/// The coordinate that a solution (y', x) moves most: by its kinetic energy, or without any the lag.
+std::string moved_most(const Machine &machine, const std::vector<int> &lags, const Eigen::MatrixXd &M,
+                       const Eigen::MatrixXd &V, const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
+{
+  Eigen::Index most = 0;
+  if (y_rate.norm() <= 1e-9 * x.norm())
+  {
+    x.cwiseAbs().maxCoeff(&most);
+    return machine.coordinate_name(lags[most]);
+  }
+  const Eigen::VectorXcd v = V * y_rate;
+  v.conjugate().cwiseProduct(M * v).real().maxCoeff(&most);
+  return machine.coordinate_name(int(most));
+}
+
+} // namespace
+
+double Pole::frequency_hz() const
+{
+  return s.imag() / two_pi;
+}
+
+double Pole::damping_ratio() const
+{
+  const double ratio = -s.real() / std::abs(s);
+  return std::abs(ratio) > rounding_of_ratio ? ratio : 0.;
+}
+
+std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double t,
+                                  const Linearisation &linearisation)
+{
+  Linear            linear = linearised(machine, q, linearisation);
+  std::vector<Pole> poles;
+  LocalState        local;
+  local.resize(machine);
+  machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
+  const auto      &Z = linear.Z;
+  const DenseModes modes =
+      dense_modes(Z.transpose() * linear.K * Z, Z.transpose() * linear.M * Z); // of the structure alone
+  const auto [any, lags] = add_drives(machine, local, linear.K, linear.B);
+  const auto m           = Eigen::Index(lags.size());
+  if (!any && m == 0)
+    return poles;
+  const Eigen::MatrixXd V = Z * modes.V;
+  Eigen::MatrixXd       L = Eigen::MatrixXd::Zero(machine.size(), m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    L(lags[i], i) = 1.;
+  const Eigen::Index p = V.cols();
+  if (p + m == 0) // nothing has mass
+    return poles;
+  const auto             solver  = solve_state(state_matrix(linear, modes, V, L), modes.omega);
+  const Eigen::VectorXcd s       = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const double           largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;
+  // A motion at rest is a double root; rounding parts it by the root of what it leaves in the matrix.
+  const double rest = 10. * std::sqrt(std::numeric_limits<double>::epsilon() * std::max(largest, slowest) * slowest);
+  for (Eigen::Index k = 0; k < s.size(); ++k)
+    if (std::abs(s[k]) > rest && s[k].imag() >= 0.)
+      poles.push_back(
+          {s[k], moved_most(machine, lags, linear.M, V, vectors.col(k).segment(p, p), vectors.col(k).tail(m))});
+  std::sort(poles.begin(), poles.end(), [](const Pole &a, const Pole &b) { return std::abs(a.s) < std::abs(b.s); });
+  return poles;
+}
+
+} // namespace gestell::coupling

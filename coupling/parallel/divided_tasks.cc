@@ -1,0 +1,133 @@
+#include "coupling/parallel/divided_tasks.h"
+
+#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/integration/system/second_order_system.h"
+
+#include <map>
+#include <memory>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+struct Search
+{
+  const DividedFactor          *factor;
+  std::unique_ptr<BlockLanczos> lanczos;
+};
+
+/// What this rank has of factors and searches, by number.  Never destroyed: at the end of the process MPI has ended
+/// before.
+auto &factors()
+{
+  static auto *const kept = new std::map<int, std::unique_ptr<DividedFactor>>;
+  return *kept;
+}
+auto &searches()
+{
+  static auto *const kept = new std::map<int, Search>;
+  return *kept;
+}
+
+} // namespace
+
+void DivideTask::run(const fem::Ranks &ranks)
+{
+  ranks.agree([] { use_one_blas_thread(); });
+  ranks.broadcast(number);
+  factors()[number] = std::make_unique<DividedFactor>(ranks, matrices);
+}
+
+void ForgetFactorTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  factors().erase(number);
+}
+
+void FactoriseTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  DividedFactor &factor = *factors().at(number);
+  failed                = factor.factorise();
+  pivot_ratio           = failed < 0 ? factor.pivot_ratio() : 0.;
+}
+
+void ReleaseFactorTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  factors().at(number)->release();
+}
+
+void SolveDividedTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  Eigen::MatrixXd             none;
+  Eigen::Ref<Eigen::MatrixXd> nothing(none);
+  factors().at(number)->solve_on_first(X ? *X : nothing);
+}
+
+void InertiaTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  ranks.broadcast(sigma);
+  inertia = factors().at(number)->inertia(sigma);
+}
+
+void SearchTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(number);
+  ranks.broadcast(search);
+  ranks.broadcast(options);
+  const DividedFactor &factor = *factors().at(number);
+  int                  count  = known ? int(known->omega.size()) : 0;
+  ranks.broadcast(count);
+  LowestModes rows{Eigen::VectorXd(count), Eigen::MatrixXd(factor.n_rows(), count), Eigen::VectorXd()};
+  if (count > 0)
+  {
+    if (known)
+      rows.omega = known->omega;
+    ranks.broadcast(rows.omega.data(), count);
+    const Eigen::MatrixXd none(0, count);
+    factor.deal_out(known ? known->V : none, rows.V);
+  }
+  searches()[search] = {
+      &factor, std::make_unique<BlockLanczos>(factor.own_M(), std::make_unique<InverseOnRanks>(factor), options, rows)};
+}
+
+/// All ranks find the same, so that all fail alike.
+void FindTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(search);
+  ranks.broadcast(count);
+  BlockLanczos &lanczos = *searches().at(search).lanczos;
+  found                 = &lanczos;
+  try
+  {
+    lanczos.find(count);
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    throw fem::AgreedFailure(fem::AgreedFailure::Kind::method, failure.what());
+  }
+}
+
+void FoundTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(search);
+  ranks.broadcast(count);
+  const auto &[factor, lanczos] = searches().at(search);
+  modes                         = lanczos->modes(count);
+  Eigen::MatrixXd V(ranks.first() ? factor->n() : 0, count);
+  factor->collect(modes.V, V);
+  modes.V = std::move(V);
+}
+
+void EndSearchTask::run(const fem::Ranks &ranks)
+{
+  ranks.broadcast(search);
+  searches().erase(search);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "coupling/parallel/divided_factor.h"
+#include "coupling/parallel/team.h"
+
+namespace gestell::coupling
+{
+
+// The tasks of Team with divided factors.  What rank 0 puts in is not read on other ranks; `number` names a factor.
+
+/// The other ranks load what they need while rank 0 reads and meshes; it does not wait for them.
+struct PrepareTask
+{
+  static constexpr Order order = Order::prepare;
+  void                   run(const fem::Ranks &) {}
+};
+
+struct DivideTask
+{
+  static constexpr Order order  = Order::divide;
+  int                    number = 0;
+  MatricesOnFirst        matrices;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct ForgetFactorTask
+{
+  static constexpr Order order  = Order::forget_factor;
+  int                    number = 0;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct FactoriseTask
+{
+  static constexpr Order order       = Order::factorise;
+  int                    number      = 0;
+  int                    failed      = -1; ///< made by run(), as what follows
+  double                 pivot_ratio = 0.;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct ReleaseFactorTask
+{
+  static constexpr Order order  = Order::release_factor;
+  int                    number = 0;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct SolveDividedTask
+{
+  static constexpr Order       order  = Order::solve_divided;
+  int                          number = 0;
+  Eigen::Ref<Eigen::MatrixXd> *X      = nullptr;
+  void                         run(const fem::Ranks &ranks);
+};
+
+struct InertiaTask
+{
+  static constexpr Order order  = Order::inertia;
+  int                    number = 0;
+  double                 sigma  = 0.;
+  Inertia                inertia; ///< found by run()
+  void                   run(const fem::Ranks &ranks);
+};
+
+/// A new search on all ranks, for a factor.
+struct SearchTask
+{
+  static constexpr Order order  = Order::search;
+  int                    number = 0, search = 0; ///< names the search
+  BlockLanczos::Options  options;
+  const LowestModes     *known = nullptr;
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct FindTask
+{
+  static constexpr Order order  = Order::find;
+  int                    search = 0, count = 0;
+  const ModeSearch      *found = nullptr; ///< rank 0's search, set by run()
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct FoundTask
+{
+  static constexpr Order order  = Order::found;
+  int                    search = 0, count = 0;
+  LowestModes            modes; ///< collected by run()
+  void                   run(const fem::Ranks &ranks);
+};
+
+struct EndSearchTask
+{
+  static constexpr Order order  = Order::end_search;
+  int                    search = 0;
+  void                   run(const fem::Ranks &ranks);
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "fem/parallel/ranks.h"
+
+namespace gestell::coupling
+{
+
+/// Orders of rank 0, see fem::Ranks; 0 dismisses.
+enum class Order
+{
+  prepare = 1,
+  divide,
+  forget_factor,
+  factorise,
+  release_factor,
+  solve_divided,
+  inertia,
+  search,
+  find,
+  found,
+  end_search,
+  hold,
+  release,
+  solve,
+  modes,
+  count
+};
+
+/**
+ * The ranks of this run, as rank 0 employs them.
+ *
+ * A task is a class with `static constexpr Order order` and a collective `void run(const fem::Ranks &)`.  Rank 0 makes
+ * one with what it needs and calls together(); obey() makes an empty one on every other rank and runs it there.
+ */
+class Team
+{
+public:
+  /// nullptr in a run of one process.
+  static const Team *of_this_run();
+  /// From here on of_this_run() is the team, if there are other ranks; they must be in obey(), or wait to be.
+  static void use();
+
+  const fem::Ranks &ranks() const { return ranks_; }
+  /// For the next thing that all ranks keep; from 1 on.
+  static int next_number();
+
+  /// @throws std::invalid_argument, ConvergenceFailure: failures that all ranks agreed on.  Others end the program.
+  template <typename Task>
+  void together(Task &task) const
+  {
+    ranks_.order(int(Task::order));
+    try
+    {
+      carry_out(task, ranks_);
+    }
+    catch (const fem::AgreedFailure &failure)
+    {
+      report(failure);
+    }
+  }
+
+  /// On this rank, as part of what all do; any failure but an agreed one ends all ranks.
+  template <typename Task>
+  static void carry_out(Task &task, const fem::Ranks &ranks)
+  {
+    try
+    {
+      task.run(ranks);
+    }
+    catch (const fem::AgreedFailure &)
+    {
+      throw;
+    }
+    catch (const std::exception &error)
+    {
+      ranks.abort(error.what());
+    }
+  }
+
+private:
+  [[noreturn]] static void report(const fem::AgreedFailure &failure);
+
+  fem::Ranks ranks_;
+};
+
+/// Ranks above 0: the task of this order, with all others.
+void obey(int order);
+
+} // namespace gestell::coupling

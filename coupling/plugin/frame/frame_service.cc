@@ -1,0 +1,46 @@
+#include "coupling/plugin/frame_service.h"
+
+#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/plugin/frame/make_mesh_report.h"
+#include "coupling/plugin/mesh_report.h"
+#include "coupling/reduction/craig_bampton.h"
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+class Service final : public FrameService
+{
+public:
+  MeshReport mesh(const fem::FrameSpecification &frame, const Progress &progress) override
+  {
+    return mesh_report(frame, progress);
+  }
+
+  fem::Part measure(const fem::CadSource &part) override { return fem::measure_part(part); }
+
+  ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                      const Progress &progress) override
+  {
+    use_one_blas_thread();
+    return craig_bampton(frame, options, progress);
+  }
+
+  void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) override
+  {
+    use_one_blas_thread();
+    coupling::add_modal_damping(frame, n_modes, progress);
+  }
+};
+
+} // namespace
+
+} // namespace gestell::coupling
+
+gestell::coupling::FrameService *gestell_frame_service()
+{
+  static gestell::coupling::Service service;
+  return &service;
+}

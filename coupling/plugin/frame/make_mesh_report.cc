@@ -1,0 +1,122 @@
+#include "coupling/plugin/frame/make_mesh_report.h"
+
+#include "fem/mesh/memory_estimate.h"
+#include "fem/mesh/mesh_size.h"
+#include "fem/mesh/mesher.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Names a face bears: in the file, its groups, then those the specification gives it.
+std::string names_of(const fem::Face &face, const std::map<std::string, std::vector<int>> &surfaces)
+{
+  std::string names = face.name;
+  const auto  add   = [&](const std::string &name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const std::string &group : face.groups)
+    add(group);
+  for (const auto &[name, tags] : surfaces)
+    if (std::find(tags.begin(), tags.end(), face.tag) != tags.end())
+      add(name);
+  return names;
+}
+
+/// The face as a selector would find it.
+std::string shape_of(const fem::Face &face)
+{
+  switch (face.kind)
+  {
+  case fem::FaceKind::plane:
+    return "plane, normal " + fem::text(face.direction) + ", through " + fem::text(face.through);
+  case fem::FaceKind::cylinder:
+    return "cylinder, axis " + fem::text(face.direction) + ", through " + fem::text(face.through) + ", radius " +
+           fem::text(face.radius);
+  case fem::FaceKind::other:
+    break;
+  }
+  return face.type;
+}
+
+std::string toml(const fem::Vector3 &v)
+{
+  std::string words = fem::text(v); // "(0 0 0.9)"
+  std::replace(words.begin(), words.end(), ' ', ',');
+  words.front() = '[';
+  words.back()  = ']';
+  for (std::size_t comma = words.find(','); comma != std::string::npos; comma = words.find(',', comma + 1))
+    words.insert(comma + 1, " ");
+  return words;
+}
+
+/// By the surface it lies on and, as others may lie on it too, by its box.
+std::string selector_of(const fem::Face &face, double margin)
+{
+  const fem::Vector3 aside{margin, margin, margin};
+  std::string        words;
+  if (face.kind == fem::FaceKind::plane)
+    words = "plane = { normal = " + toml(face.direction) + ", through = " + toml(face.through) + " }\n";
+  if (face.kind == fem::FaceKind::cylinder)
+    words = "cylinder = { axis = " + toml(face.direction) + ", through = " + toml(face.through) +
+            ", radius = " + fem::text(face.radius) + " }\n";
+  fem::Vector3 low, high;
+  for (int d = 0; d < 3; ++d)
+  {
+    low[d]  = face.min[d] - aside[d];
+    high[d] = face.max[d] + aside[d];
+  }
+  return words + "box = { min = " + toml(low) + ", max = " + toml(high) + " }\n";
+}
+
+std::vector<std::string> features_of(const fem::GeometryReport &geometry)
+{
+  std::vector<std::string> lines;
+  if (!geometry.smallest.empty())
+    lines.push_back(geometry.smallest);
+  if (const fem::WallThickness &walls = geometry.walls; walls.thin_share > 0.)
+    lines.push_back(fem::text(std::round(100. * walls.thin_share)) +
+                    " % of the surface belong to walls thinner than the elements, down to " +
+                    fem::text(1e3 * walls.thinnest) + " mm; there elements are " + fem::text(walls.median_ratio) +
+                    " times as large as the wall is thick (median)" +
+                    (walls.median_ratio > 2. ? ": bending comes out too stiff, see gestell modes --converge" : ""));
+  return lines;
+}
+
+} // namespace
+
+MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &progress)
+{
+  const fem::GeometryReport geometry = fem::report_geometry(frame, progress);
+  MeshReport                report;
+  report.n_points       = geometry.n_points;
+  report.n_cells        = geometry.n_cells;
+  report.n_coordinates  = geometry.n_coordinates;
+  report.cells          = geometry.hexahedra ? "hexahedra" : "tetrahedra";
+  report.size           = geometry.size;
+  report.volume         = geometry.volume;
+  report.mass           = geometry.volume * frame.material.rho;
+  report.worst_quality  = geometry.worst_quality;
+  report.mean_quality   = geometry.mean_quality;
+  report.expected_cells = geometry.expected_cells;
+  report.memory =
+      fem::reduction_memory(geometry.n_coordinates, fem::compactness(geometry.volume, fem::skin_area(geometry.faces)));
+  report.available_memory = fem::available_memory();
+  report.features         = features_of(geometry);
+  report.notes            = geometry.notes;
+  report.statements       = geometry.statements;
+  for (const auto &solid : geometry.solids)
+    report.solids.push_back({solid.name, solid.volume, solid.volume * frame.material.rho, solid.min, solid.max});
+  double diagonal = 0.;
+  for (int d = 0; d < 3; ++d)
+    diagonal = std::hypot(diagonal, geometry.max[d] - geometry.min[d]);
+  for (const auto &face : geometry.faces)
+    report.surfaces.push_back({face.tag, names_of(face, geometry.surfaces), shape_of(face),
+                               selector_of(face, 1e-4 * diagonal), face.area, face.min, face.max, face.centre});
+  return report;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,106 @@
+#include "coupling/plugin/mesh_service.h"
+
+#include "coupling/algebra/rounded.h"
+#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/plugin/frame/converge_mesh.h"
+#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/estimates/mesh_statement.h"
+#include "fem/assembly/attached_masses.h"
+#include "fem/mesh/mesher.h"
+#include "fem/recovery/discretisation.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+std::string counted(std::size_t n, const std::string &thing)
+{
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+/// Of the surfaces of an interface, weighted by area; of one at a node, which may have no surface, nothing.
+std::optional<fem::Vector3> centroid_of(const fem::InterfaceSpecification &interface,
+                                        const fem::GeometryReport         &geometry)
+{
+  fem::Vector3 moment{};
+  double       area = 0.;
+  for (const std::string &surface : interface.surfaces)
+    for (const fem::Face &face : geometry.faces)
+      if (const auto &tags = geometry.surfaces.at(surface); std::count(tags.begin(), tags.end(), face.tag))
+      {
+        area += face.area;
+        for (int d = 0; d < 3; ++d)
+          moment[d] += face.area * face.centre[d];
+      }
+  if (!(area > 0.))
+    return std::nullopt;
+  return fem::Vector3{moment[0] / area, moment[1] / area, moment[2] / area};
+}
+
+class Service final : public MeshService
+{
+public:
+  Inspection inspect(const fem::FrameSpecification &frame) override
+  {
+    fem::require_valid(frame.masses, frame.interfaces);
+    const fem::GeometryReport geometry = fem::inspect_geometry(frame);
+    Inspection result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
+                      geometry.notes,
+                      geometry.statements,
+                      {}};
+    for (const fem::InterfaceSpecification &interface : frame.interfaces)
+      if (const auto centroid = centroid_of(interface, geometry))
+        result.centroids[interface.name] = *centroid;
+    std::string between = "; surfaces: ";
+    for (const auto &[name, faces] : geometry.surfaces)
+    {
+      result.found += between + name + " " + counted(faces.size(), "face");
+      between = ", ";
+    }
+    return result;
+  }
+
+  ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                      const Progress &progress) override
+  {
+    return assemble(frame, options, progress).reduced;
+  }
+
+  Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                     const Progress &progress) override
+  {
+    use_one_blas_thread();
+    const fem::Mesh mesh = fem::make_mesh(frame, progress);
+    if (progress)
+      progress("assembly", -1.);
+    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
+    Reduction           reduced        = craig_bampton_with_basis(discretisation.matrices, options, progress);
+    if (progress)
+      progress("mesh error", -1.);
+    auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);
+    (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
+    return {std::move(discretisation.matrices), std::move(reduced.frame)};
+  }
+
+  MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
+                           const ConvergenceOptions &options, const Progress &progress) override
+  {
+    use_one_blas_thread();
+    return converge_mesh(frame, reduction, options, progress);
+  }
+};
+
+} // namespace
+
+} // namespace gestell::coupling
+
+gestell::coupling::MeshService *gestell_mesh_service()
+{
+  static gestell::coupling::Service service;
+  return &service;
+}

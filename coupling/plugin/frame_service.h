@@ -1,0 +1,58 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+#include "fem/assembly/cad_body.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// The modes that describe the inside of a frame beside the static shapes of its interface.
+enum class InnerModes
+{
+  interface_held, ///< Craig & Bampton
+  interface_free  ///< of the frame as supported: MacNeal, Rubin
+};
+
+struct ReductionOptions
+{
+  int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
+  double      tolerance = 0.01; ///< relative error of the interface's receptance up to `frequency` (automatic number)
+  double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
+  std::string place;            ///< "press.toml:60: reduction", heads messages
+  InnerModes  inner          = InnerModes::interface_held;
+  bool        inertia_relief = false; ///< with the deflections under the inertia of rigid motions beside the modes
+};
+
+/// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
+using Progress = std::function<void(const std::string &phase, double share)>;
+
+struct MeshReport; // coupling/plugin/mesh_report.h
+
+/**
+ * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame
+ * must be made.  Throws std::invalid_argument for wrong input, ConvergenceFailure for failed methods.
+ */
+class FrameService
+{
+public:
+  virtual ~FrameService()                                                                 = default;
+  virtual MeshReport mesh(const fem::FrameSpecification &frame, const Progress &progress) = 0;
+  /// Volume, centre and inertia of a part of the mechanism.
+  virtual fem::Part measure(const fem::CadSource &part) = 0;
+  /// Craig-Bampton (5.5.3/14-23), modal damping included.
+  virtual ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                              const Progress &progress) = 0;
+  /// Fills frame.modal_damping with the lowest n_modes modes of the supported frame with free interface.
+  virtual void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) = 0;
+};
+
+} // namespace gestell::coupling
+
+/// The one symbol of the plugin.
+extern "C" __attribute__((visibility("default"))) gestell::coupling::FrameService *gestell_frame_service();

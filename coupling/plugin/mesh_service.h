@@ -1,0 +1,52 @@
+#pragma once
+
+#include "coupling/frame/mesh_convergence.h"
+#include "coupling/plugin/frame_service.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Frames that come with a statement of the error of their mesh: the other door of the plugin behind FrameService.
+class MeshService
+{
+public:
+  virtual ~MeshService() = default;
+
+  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); what was found, for people.
+  struct Inspection
+  {
+    std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"
+    std::vector<std::string> notes, statements;
+    /// [m] of the surfaces of each interface, as the CAD file tells them: without the rounding of a mesh.
+    std::map<std::string, fem::Vector3> centroids;
+  };
+  virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
+
+  /// Meshes, assembles and reduces; a statement or a note of the frame tells the error of its mesh.
+  virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                              const Progress &progress) = 0;
+
+  /// Meshes and assembles for a frame that is not reduced; the error of its mesh is told by the reduced one beside it.
+  struct Unreduced
+  {
+    fem::FrameMatrices matrices;
+    ReducedFrame       reduced;
+  };
+  virtual Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                             const Progress &progress) = 0;
+
+  /// Refines the mesh until frequencies and compliances are within a tolerance, see converge_mesh().
+  virtual MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
+                                   const ConvergenceOptions &options, const Progress &progress) = 0;
+};
+
+/// Loaded as frame_service() is.
+MeshService &mesh_service();
+
+} // namespace gestell::coupling
+
+extern "C" __attribute__((visibility("default"))) gestell::coupling::MeshService *gestell_mesh_service();

@@ -1,0 +1,54 @@
+#include "coupling/plugin/team_service.h"
+
+#include "fem/parallel/ranks.h"
+
+#include <cstdlib>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int dismissal = 0; // all other orders are positive
+
+class Service final : public TeamService
+{
+public:
+  Service()
+  {
+    MPI_Init(nullptr, nullptr);
+    ranks_ = fem::Ranks();
+  }
+  ~Service() override
+  {
+    int ended = 0;
+    MPI_Finalized(&ended);
+    if (!ended)
+      MPI_Finalize();
+  }
+
+  int rank() const override { return ranks_.rank(); }
+  int size() const override { return ranks_.size(); }
+
+  void serve(const std::function<void(int order)> &obey) override
+  {
+    while (const int order = ranks_.next_order())
+      obey(order);
+  }
+  void dismiss() override { ranks_.order(dismissal); }
+  void abort(const char *message) override { ranks_.abort(message); }
+
+private:
+  fem::Ranks ranks_;
+};
+
+} // namespace
+
+} // namespace gestell::coupling
+
+gestell::coupling::TeamService *gestell_team_service()
+{
+  static gestell::coupling::Service service;
+  return &service;
+}

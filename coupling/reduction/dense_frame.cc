@@ -1,0 +1,122 @@
+#include "coupling/reduction/dense_frame.h"
+
+#include "coupling/algebra/dense_modes.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Coordinates of the frame: those of interfaces, ascending, then the others.
+std::vector<int> interface_first(const fem::FrameMatrices &frame)
+{
+  std::vector<int>  order = frame.interface_coordinates();
+  std::vector<bool> taken(frame.M.rows(), false);
+  for (const int i : order)
+    taken[i] = true;
+  for (int i = 0; i < frame.M.rows(); ++i)
+    if (!taken[i])
+      order.push_back(i);
+  return order;
+}
+
+/// The interfaces where coordinate order[i] is now called i.
+std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, const std::vector<int> &order)
+{
+  std::vector<int> new_index(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    new_index[order[i]] = int(i);
+  for (auto &interface : interfaces)
+    for (int &coordinate : interface.coordinate)
+      coordinate = coordinate < 0 ? -1 : new_index[coordinate];
+  return interfaces;
+}
+
+/// Unit diagonal makes metres and radians comparable; files written with 10 digits pass.
+void require_semidefinite_stiffness(const MatrixXd &C)
+{
+  const VectorXd d =
+      C.diagonal().unaryExpr([](double c) { return c != 0. && std::isfinite(c) ? 1. / std::sqrt(std::abs(c)) : 1.; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
+  if (scaled.eigenvalues().minCoeff() < -1e-8)
+    throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
+}
+
+bool is_diagonal(const MatrixXd &A)
+{
+  return (A - MatrixXd(A.diagonal().asDiagonal())).cwiseAbs().maxCoeff() == 0.;
+}
+
+/// What stands behind the first n_1 coordinates are modes: M_LL = E, C_LL diagonal, C_LN = 0, as reductions write them.
+bool is_modal(const ReducedFrame &frame)
+{
+  const auto n_1 = frame.n_interface, m = int(frame.M.rows()) - n_1;
+  if (m == 0)
+    return false;
+  const MatrixXd M_LL = frame.M.bottomRightCorner(m, m), C_LL = frame.C.bottomRightCorner(m, m);
+  return is_diagonal(M_LL) && (M_LL.diagonal().array() - 1.).abs().maxCoeff() <= 1e-15 && is_diagonal(C_LL) &&
+         (C_LL.diagonal().array() >= 0.).all() &&
+         (n_1 == 0 || frame.C.bottomLeftCorner(m, n_1).cwiseAbs().maxCoeff() == 0.);
+}
+
+} // namespace
+
+ReducedFrame dense_frame(const fem::FrameMatrices &frame)
+{
+  const auto     order = interface_first(frame);
+  const MatrixXd M = frame.M, B = frame.B, C = frame.C;
+  ReducedFrame   dense;
+  dense.M           = M(order, order);
+  dense.B           = B(order, order);
+  dense.C           = C(order, order);
+  dense.n_interface = int(frame.interface_coordinates().size());
+  dense.modal       = is_modal(dense);
+  dense.n_full      = int(M.rows());
+  dense.mass        = frame.mass;
+  dense.statements  = frame.statements;
+  dense.interfaces  = renumbered(frame.interfaces, order);
+  for (const auto &output : frame.outputs)
+    dense.outputs.push_back(
+        {output.name, output.unit, output.on_q(order), output.on_v(order), output.under_acceleration});
+  dense.points    = frame.picture.points;
+  dense.triangles = frame.picture.triangles;
+  if (!dense.points.empty())
+    dense.displacement = MatrixXd(frame.picture.displacement)(Eigen::all, order).cast<float>();
+  dense.translations_load = (M * frame.translations)(order, Eigen::all);
+
+  if (dense.modal)
+  {
+    dense.omega0          = dense.C.diagonal().tail(M.rows() - dense.n_interface).cwiseSqrt();
+    dense.static_residual = std::numeric_limits<double>::quiet_NaN(); // of a reduction nothing is known of
+  }
+
+  require_semidefinite_stiffness(C);
+  const DenseModes modes = dense_modes(C, M);
+  const MatrixXd   Z     = (M * modes.V)(order, Eigen::all);
+  dense.B += Z * frame.modal_damping_ratio.modal_dampers(modes.omega).asDiagonal() * Z.transpose();
+  dense.frequencies_hz  = modes.omega / (2. * M_PI);
+  dense.frequency_error = VectorXd::Zero(modes.omega.size());
+  return dense;
+}
+
+MatrixXd unit_translations(const ReducedFrame &frame)
+{
+  const Eigen::LLT<MatrixXd> factor(frame.M);
+  if (factor.info() == Eigen::Success)
+    return factor.solve(frame.translations_load);
+  return frame.M.completeOrthogonalDecomposition().solve(frame.translations_load);
+}
+
+} // namespace gestell::coupling

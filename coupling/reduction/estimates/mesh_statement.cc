@@ -1,0 +1,146 @@
+#include "coupling/reduction/estimates/mesh_statement.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/algebra/rounded.h"
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "coupling/modes/modes.h"
+#include "coupling/reduction/estimates/raised_modes.h"
+#include "fem/mesh/memory_estimate.h"
+#include "fem/mesh/wall_thickness.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    most_modes       = 6;    // whose stresses are looked at: each costs as much as a static solution
+constexpr int    most_raised      = 24;   // that are compared with degree three
+constexpr int    guard_modes      = 4;    // beyond them, which keep the last ones of a projection good
+constexpr double coarse           = 0.02; // error from which it is a warning, with a way out
+constexpr double long_beside_wall = 2.; // elements over thickness, above which stresses miss much of what bending errs
+constexpr double thin             = 0.05; // share of the skin on walls thinner than the elements from which they count
+/// Coordinates of degree three up to which a comparison is worth what it costs, two to three and a half times the
+/// reduction (docs/theory/mesh_error.md): some 15 CPU s where stresses do not see how walls bend, and 3 s of bodies,
+/// which they judge well.
+constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
+constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
+
+struct Modes
+{
+  int        n_rigid;
+  DenseModes ritz;
+  int        within; // elastic ones up to the limit
+};
+
+Modes modes_of(const Reduction &reduced)
+{
+  const int    n_rigid = reduced.frame.n_rigid();
+  DenseModes   ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled_by_reduction, n_rigid);
+  const double limit   = (1. + 1e-6) * two_pi * reduced.frame.frequency_limit_hz;
+  const auto   within  = static_cast<int>((ritz.omega.array() <= limit).count() - n_rigid);
+  return {n_rigid, std::move(ritz), within};
+}
+
+/// By the stresses of the first mode, the last and some between.
+Eigen::VectorXd by_stresses(const Modes &modes, const Reduction &reduced, const fem::MeshError &mesh_error)
+{
+  std::vector<int> looked_at;
+  for (int j = 0, count = std::min(modes.within, most_modes); j < count; ++j)
+    looked_at.push_back(modes.n_rigid + (count > 1 ? j * (modes.within - 1) / (count - 1) : 0));
+  Eigen::VectorXd share = mesh_error.of_cells(reduced.basis.T * modes.ritz.V(Eigen::all, looked_at)).colwise().sum();
+  share.array() /= modes.ritz.omega(looked_at).array().square();
+  return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
+}
+
+/// By elements of degree three; empty where these cost too much.
+Eigen::VectorXd by_degree(const Modes &modes, const Reduction &reduced, const fem::FrameMatrices &frame,
+                          const fem::MeshError &mesh_error, bool thin_walls)
+{
+  const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
+               available = fem::available_memory();
+  if (n > (thin_walls ? most_of_walls : most_of_bodies) ||
+      2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
+    return {};
+  const int count         = std::min(modes.within, most_raised),
+            taken         = std::min<int>(count + guard_modes, int(modes.ritz.omega.size()) - modes.n_rigid);
+  const Eigen::MatrixXd X = reduced.basis.T * modes.ritz.V.middleCols(modes.n_rigid, taken);
+  Eigen::VectorXd       raised;
+  try
+  {
+    raised = raised_frequencies(mesh_error.raised(frame), X, modes.ritz.omega.segment(modes.n_rigid, taken),
+                                modes.n_rigid > 0, available);
+  }
+  catch (const NotEnoughMemory &)
+  {
+    return {};
+  }
+  catch (const ConvergenceFailure &) // the same, of a rank
+  {
+    return {};
+  }
+  Eigen::VectorXd error(count);
+  for (int j = 0; j < count; ++j)
+  {
+    const double refined = two_pi * refined_hz(reduced.frame, modes.n_rigid + j); // without the error of the reduction
+    error[j] = error_by_raising(std::isnan(refined) ? modes.ritz.omega[modes.n_rigid + j] : refined, raised[j]);
+  }
+  return error;
+}
+
+} // namespace
+
+MeshErrorEstimate modal_mesh_error(const Reduction &reduced, const fem::FrameMatrices &frame,
+                                   const fem::MeshError &mesh_error, bool thin_walls)
+{
+  const Modes modes = modes_of(reduced);
+  if (modes.within <= 0)
+    return {};
+  const double limit = reduced.frame.frequency_limit_hz;
+  if (Eigen::VectorXd error = by_degree(modes, reduced, frame, mesh_error, thin_walls); error.size() > 0)
+  {
+    const double last = reduced.frame.frequencies_hz[modes.n_rigid + error.size() - 1];
+    const bool   all  = error.size() == modes.within;
+    return {std::move(error), all ? limit : last, true};
+  }
+  return {by_stresses(modes, reduced, mesh_error), limit, false};
+}
+
+MeshStatement mesh_statement(const Reduction &reduced, const fem::FrameMatrices &frame,
+                             const fem::MeshError &mesh_error, const fem::Mesh &mesh)
+{
+  const fem::WallThickness walls      = fem::wall_thickness(mesh);
+  const bool               thin_walls = walls.thin_share > thin;
+  const auto [error, highest, raised] = modal_mesh_error(reduced, frame, mesh_error, thin_walls);
+  bool        warns                   = false;
+  std::string text                    = "mesh: " + std::to_string(reduced.frame.n_full) + " coordinates";
+  if (error.size() > 0)
+  {
+    const double low = error.minCoeff(), high = error.maxCoeff();
+    text += std::string("; judged by ") + (raised ? "elements of degree three" : "the stresses of the modes") +
+            ", frequencies up to " + rounded(highest, 3) + " Hz are ";
+    if (!raised && thin_walls)
+      text += "at least ";
+    text += std::isfinite(high) ? percent(low, 2) + (low < high ? " to " + percent(high, 2) : "") +
+                                      " too high, the first by " + percent(error[0], 2)
+                                : "of no use: errors take up the whole energy";
+    if (thin_walls)
+      text += "; " + percent(walls.thin_share, 2) + " of the surface belongs to walls thinner than the elements, " +
+              rounded(walls.median_ratio, 3) + " times on the average (thinnest wall " +
+              rounded(1000. * walls.thinnest, 3) + " mm)" +
+              (raised ? "" : ", of which stresses do not tell how much too stiff they bend");
+    warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
+    if (warns)
+      text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls need "
+              "far fewer coordinates";
+  }
+  return {std::move(text), warns};
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,240 @@
+#include "coupling/reduction/estimates/mode_selection.h"
+
+#include "coupling/algebra/rounded.h"
+#include "coupling/reduction/shapes/damper_attachment_modes.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int    first_modes     = 30;
+constexpr int    most_modes      = 200;
+constexpr double growth          = 1.5;
+constexpr double reach           = 1.5; // highest fixed-interface mode over the limit, at least
+constexpr double rule            = 3.5; // the book's
+constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
+constexpr double allowed_doubt   = 0.1; // of the receptance of the full frame, as a share of the tolerance
+
+} // namespace
+
+double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined)
+{
+  if (options.frequency > 0. || refined.omega.size() == 0)
+    return two_pi * options.frequency;
+  return refined.omega(std::min<int>(default_elastic, refined.omega.size()) - 1);
+}
+
+namespace
+{
+
+/// Largest error of the model's frequencies whose refined value lies within the limit.
+double largest_error(const FrequencyEstimate &estimate, const SupportedModes &refined, double limit)
+{
+  double largest = 0.;
+  for (int j = 0; j < refined.omega.size() && refined.omega(j) <= limit; ++j)
+  {
+    if (j + refined.n_rigid >= estimate.error.size())
+      return INFINITY; // the model has no such mode at all
+    largest = std::max(largest, estimate.error(j + refined.n_rigid));
+  }
+  return largest;
+}
+
+/// Fewest modes m whose model stays within the tolerance; the error falls with m.
+int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &refined, double tolerance, double limit)
+{
+  int low = -1, high = int(star.M.rows()) - n1; // high is good, low is not
+  while (high - low > 1)
+  {
+    const int  middle                 = (low + high) / 2;
+    const auto error                  = largest_error(frequency_estimate(star, n1, middle, refined), refined, limit);
+    (error <= tolerance ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Whether the modes in the basis hold those that are needed, and how many these are.
+struct Judgement
+{
+  bool        good = false;
+  InsideCount fewest;
+  std::string shortcoming; // if not good
+};
+
+Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &star, const SupportedModes &refined,
+                            double tolerance, double limit)
+{
+  const double error = largest_error(frequency_estimate(star, basis.n1(), basis.m(), refined), refined, limit);
+  if (error > tolerance)
+    return {false, {}, "a frequency error of " + percent(error)};
+  return {true, {smallest_number(star, basis.n1(), refined, tolerance, limit)}, "a frequency that may be missing"};
+}
+
+/// @param more there are than the m known: modes alone may yet be fewer than with shapes.
+Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool more, double tolerance)
+{
+  Judgement    judgement;
+  const double doubt = receptance.uncertainty();
+  judgement.shortcoming =
+      "an error of the interface's receptance of " + percent(receptance.error(m, Inside::modes) + doubt);
+  if (doubt >= allowed_doubt * tolerance)
+    return judgement;
+  const InsideCount modes  = receptance.fewest(tolerance - doubt, Inside::modes),
+                    shapes = receptance.fewest(tolerance - doubt, Inside::modes_and_shapes);
+  const bool by_shapes =
+      shapes.enough() && (modes.enough() ? shapes.total() < modes.total() : shapes.total() <= m || !more);
+  judgement.fewest = by_shapes ? shapes : modes;
+  judgement.good   = judgement.fewest.enough();
+  return judgement;
+}
+
+} // namespace
+
+namespace
+{
+
+/// Coordinates of each interface in q1.
+Groups groups_of(const std::vector<fem::Interface> &interfaces, const std::vector<int> &q1)
+{
+  Groups groups;
+  for (const fem::Interface &interface : interfaces)
+  {
+    groups.emplace_back();
+    for (const int i : interface.coordinate)
+      if (i >= 0)
+        groups.back().push_back(int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin()));
+  }
+  return groups;
+}
+
+/// " ('table' by itself 1.2 %)", the worst of several.
+std::string worst_interface(const std::vector<fem::Interface> &interfaces, const std::vector<double> &errors,
+                            double uncertainty)
+{
+  if (interfaces.size() < 2)
+    return "";
+  const auto worst = std::max_element(errors.begin(), errors.end()) - errors.begin();
+  return " ('" + interfaces[worst].name + "' by itself " + percent(errors[worst] + uncertainty) + ")";
+}
+
+} // namespace
+
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
+                                 const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
+                                 double frequency_hz, const DamperShapes *dampers)
+{
+  const auto   within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
+  const auto   known       = within_rule < basis.m() || basis.m() == 0;
+  const auto   of_dampers  = dampers ? dampers->W.cols() : 0;
+  const Inside which       = inside.shapes > 0 ? Inside::modes_and_shapes : Inside::modes;
+  const double doubt       = dampers ? 0. : receptance.uncertainty();
+  const double error       = dampers ? dampers->left : receptance.error(inside.modes, which) + doubt;
+  const auto   each =
+      dampers ? dampers->of_groups : receptance.errors_of(groups_of(interfaces, basis.q1), inside.modes, which);
+  return "reduction: " + std::to_string(inside.modes) + " fixed-interface modes " +
+         (inside.shapes > 0 ? "and " + std::to_string(inside.shapes) + " static shapes of the inertia " : "") +
+         (of_dampers > 0 ? "and " + std::to_string(of_dampers) + " of dampers inside the frame " : "") +
+         "keep the receptance of the interface up to " + rounded(frequency_hz) + " Hz within " + percent(error) +
+         " of the full frame's" + worst_interface(interfaces, each, doubt) + "; the rule of " + rounded(rule) +
+         " times the highest frequency would take " + (known ? "" : "at least ") + std::to_string(within_rule);
+}
+
+namespace
+{
+
+/// Number of coordinates inside that have mass, if M is not negative: there are no more modes.
+int with_mass(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  Eigen::VectorXd mass = frame.M.diagonal();
+  mass(q1).setZero();
+  return int((mass.array() > 0.).count());
+}
+
+MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
+{
+  MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
+} // namespace
+
+EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
+                         const InteriorResponse &response, const fem::FrameMatrices &frame,
+                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+{
+  const int  n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
+  const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
+  for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
+  {
+    if (progress)
+      progress("fixed-interface modes", double(m) / most);
+    fixed.find(m);
+    const LowestModes modes = fixed.lowest(m);
+    basis.set_modes(modes.V, modes.omega);
+    if (progress)
+      progress("error estimate", -1.);
+    const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+    EnoughModes           found{supported_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
+    const SupportedModes &refined = found.refined;
+    const double          within  = highest_of_interest(options, refined);
+    const double          highest = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
+    const bool            reaches = highest >= reach * within;
+
+    std::optional<InterfaceReceptance> receptance;
+    if (by_receptance && highest > within)
+      receptance.emplace(basis, star, response, refined, frame.modal_damping_ratio, within);
+    Judgement judgement{false, {}, "modes below that frequency out"};
+    if (receptance)
+      judgement = judge_receptance(*receptance, m, m < most, options.tolerance);
+    else if (!by_receptance)
+      judgement = judge_frequencies(basis, star, refined, options.tolerance, within);
+    const bool good = judgement.good && reaches;
+    if (!good && m < most && (by_receptance || highest < rule * within))
+      continue;
+    if (!good)
+      notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave " + judgement.shortcoming +
+                      " up to " + rounded(within / two_pi) + " Hz, above the tolerance of " +
+                      percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
+    else
+    {
+      if (judgement.fewest.shapes > 0)
+        found.shapes = inertia_shapes(held, basis);
+      std::optional<DamperShapes> dampers;
+      if (receptance && has_inner_dampers(basis, frame.B))
+      {
+        if (progress)
+          progress("dampers inside the frame", -1.);
+        dampers      = damper_shapes(held, basis, highest, judgement.fewest.modes, found.shapes, frame,
+                                     receptance_frequencies(refined, frame.modal_damping_ratio, within),
+                                     groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
+        found.shapes = beside(found.shapes, dampers->W);
+      }
+      if (receptance)
+        found.statement = receptance_statement(*receptance, basis, frame.interfaces, judgement.fewest,
+                                               options.frequency, dampers ? &*dampers : nullptr);
+      if (dampers && dampers->left > options.tolerance)
+        notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
+                        percent(options.tolerance) +
+                        (dampers->exhausted ? ", for dampers act where the frame has no mass"
+                                            : ", for the dampers inside the frame are strong"));
+      basis.truncate(judgement.fewest.modes);
+      fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
+    }
+    fixed.finish();
+    return found;
+  }
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "coupling/plugin/frame_service.h"
+#include "coupling/reduction/estimates/interface_receptance.h"
+#include "coupling/reduction/estimates/refined_modes.h"
+#include "coupling/reduction/shapes/damper_attachment_modes.h"
+#include "coupling/reduction/shapes/fixed_interface_modes.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Highest frequency of interest [rad/s]: options.frequency, or that of the twelfth elastic mode of the supported
+/// frame.
+double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
+
+/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", which
+/// interface is worst by itself, and what the book's rule, modes up to 3.5 times the highest frequency, would take.
+/// @param dampers inside the frame, if there are any and their effect is known.
+std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
+                                 const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
+                                 double frequency_hz, const DamperShapes *dampers = nullptr);
+
+/// What enough_modes() found.
+struct EnoughModes
+{
+  SupportedModes  refined;     // the choice rests on them
+  Eigen::MatrixXd shapes;      // [n x k] to be appended to the modes
+  std::string     statement{}; // within which error the receptance is, where that is what was asked
+};
+
+/**
+ * Brings the basis to the smallest number m of modes that will do.
+ *
+ * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
+ * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
+ * are fewer together; where dampers act inside the frame their static shapes join them (damper_shapes()).  Without, or
+ * without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
+ *
+ * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
+ * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is
+ * then looked for among the modes there are.  At 200 modes growth
+ * stops, for frequencies at the book's rule, modes up to 3.5 times the highest; then a note tells what was reached.
+ *
+ * @param held with its factor, unless `fixed` makes it anew.
+ */
+EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
+                         const InteriorResponse &response, const fem::FrameMatrices &frame,
+                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
+
+} // namespace gestell::coupling

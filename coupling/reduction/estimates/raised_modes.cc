@@ -1,0 +1,66 @@
+#include "coupling/reduction/estimates/raised_modes.h"
+
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/parallel/team_factor.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Of the lowest omega^2, added where rigid motions are free: far from it, and far above rounding.
+constexpr double shift_share = 0.1;
+
+/// What elements of degree three leave of the error of quadratic ones lies between nothing, in smooth fields, and
+/// (2 / 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
+constexpr double left_over = 1.25;
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Y <- A^-1 Y, by all ranks there are, which empty A.
+void solve(SparseMatrix &A, double available, Eigen::MatrixXd &Y)
+{
+  const Team *const team = Team::of_this_run();
+  if (!team)
+    return SparseCholesky(A, {}, available).solve_in_place(Y);
+  TeamFactor factor(*team, {nullptr, nullptr, {}, &A});
+  if (!factor.factorise())
+    throw NotPositiveDefinite(factor.failed());
+  factor.solve_in_place(Y);
+}
+
+} // namespace
+
+Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd &X, const Eigen::VectorXd &omega,
+                                   bool floats, double available)
+{
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(frame.C.rows(), X.cols());
+  for (Eigen::Index i = 0; i < X.rows(); ++i)
+    Y.row(frame.place[i]) = X.row(i);
+  Y                       = symmetric_product(frame.M, Y);
+  const Eigen::MatrixXd F = Y;
+  const double          s = floats ? shift_share * omega[0] * omega[0] : 0.;
+  if (floats)
+    frame.C += s * frame.M;
+  frame.C.makeCompressed();
+  solve(frame.C, available, Y);
+
+  const Eigen::MatrixXd MY = symmetric_product(frame.M, Y), M = Y.transpose() * MY;
+  const Eigen::MatrixXd C = Y.transpose() * F - s * M; // C3 Y = M3 X - s M3 Y
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
+      0.5 * (C + C.transpose()), 0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly);
+  return ritz.eigenvalues().cwiseMax(0.).cwiseSqrt();
+}
+
+double error_by_raising(double omega, double raised)
+{
+  return left_over * std::max(0., omega / raised - 1.);
+}
+
+} // namespace gestell::coupling

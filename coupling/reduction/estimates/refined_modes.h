@@ -1,0 +1,48 @@
+#pragma once
+
+#include "coupling/reduction/shapes/reduction_basis.h"
+#include "coupling/reduction/shapes/residual_flexibility.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/**
+ * Modes of the supported frame with its interface free, better than the reduced model gives them.
+ *
+ * All Ritz vectors T Phi* of the reduced model are improved together by one step of inverse iteration and a
+ * Rayleigh-Ritz projection onto the result Y (one round of simultaneous iteration):
+ *
+ *     C Y = M T Phi*,     Y^T C Y g = omega^2 Y^T M Y g,     Phi = Y g.
+ *
+ * The inverse of the full C follows from the factor of C22 by block elimination with the constraint modes Psi,
+ *
+ *     C^-1 f = (0; C22^-1 f2) + Psi S^-1 Psi^T f,     S = C*_11 = C11 - C12 C22^-1 C21  [n1 x n1].
+ *
+ * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of InteriorResponse: all of it takes
+ * place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
+ *
+ * If the frame floats, S has its rigid motions as null space (motions_without_stiffness()); they are exact in the
+ * reduced model and left out here.
+ */
+struct SupportedModes
+{
+  int             n_rigid = 0;
+  Eigen::VectorXd omega;   // [p] elastic modes, refined, ascending [rad/s]
+  Eigen::MatrixXd P;       // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
+  Eigen::MatrixXd rigid{}; // [n1 x n_rigid] the rigid motions on q1; none where they are known by number only
+};
+
+SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
+                               const InteriorResponse &response, const fem::FrameMatrices &frame);
+
+/// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
+struct FrequencyEstimate
+{
+  Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)
+  Eigen::VectorXd error; // (omega - refined) / refined, >= 0; NaN where nothing is refined
+};
+FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined);
+
+} // namespace gestell::coupling

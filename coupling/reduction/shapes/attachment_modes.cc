@@ -1,0 +1,76 @@
+#include "coupling/reduction/shapes/attachment_modes.h"
+
+#include "coupling/algebra/dense_modes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double rounding = 1e-6; // size of a shape beside what it was made from
+
+VectorXd mass_of(const MatrixXd &W, const MatrixXd &MW)
+{
+  return (W.array() * MW.array()).colwise().sum();
+}
+
+} // namespace
+
+int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, MatrixXd W)
+{
+  if (W.cols() == 0)
+    return 0;
+  const VectorXd size = mass_of(W, symmetric_product(frame.M, W)).cwiseSqrt();
+  W *= size.unaryExpr([](double s) { return s > 0. ? 1. / s : 0.; }).asDiagonal();
+  const MatrixXd M_modes = symmetric_product(frame.M, basis.fixed_modes());
+  for (int again = 0; again < 2; ++again)
+    W -= basis.fixed_modes() * (M_modes.transpose() * W);
+
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(W.transpose() * symmetric_product(frame.M, W));
+  const auto                                    dropped = (mass.eigenvalues().array() <= rounding * rounding).count();
+  const auto                                    kept    = W.cols() - dropped;
+  if (kept == 0)
+    return 0;
+  W = W * mass.eigenvectors().rightCols(kept) * mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> stiffness(W.transpose() * symmetric_product(frame.C, W));
+  MatrixXd                                      V(W.rows(), basis.m() + kept);
+  VectorXd                                      omega(basis.m() + kept);
+  V << basis.fixed_modes(), W * stiffness.eigenvectors();
+  omega << basis.omega0, stiffness.eigenvalues().cwiseSqrt();
+  basis.set_modes(V, omega);
+  return int(kept);
+}
+
+MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  MatrixXd load(frame.M.rows(), 0);
+  if (frame.rigid_motions.cols() == 6)
+    load = symmetric_product(frame.M, frame.rigid_motions);
+  else if (frame.translations.rows() > 0)
+    load = symmetric_product(frame.M, frame.translations);
+  if (frame.acceleration_load.rows() > 0 && load.cols() >= 3)
+    load.leftCols(3) = frame.acceleration_load; // weight, exactly so at clamped supports too
+  held.solve_in_place(load);
+  for (const int i : q1)
+    load.row(i).setZero();
+  return load;
+}
+
+SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
+{
+  const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
+  const auto       elastic = ritz.omega.size() - n_rigid;
+  return {n_rigid, ritz.omega.tail(elastic), star.M * ritz.V.rightCols(elastic)};
+}
+
+} // namespace gestell::coupling

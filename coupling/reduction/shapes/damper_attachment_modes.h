@@ -1,0 +1,56 @@
+#pragma once
+
+#include "coupling/reduction/estimates/interface_receptance.h"
+#include "coupling/reduction/shapes/fixed_interface_frame.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Static shapes of the inside under its own dampers.
+struct DamperShapes
+{
+  Eigen::MatrixXd W;         ///< [n x k], zero on q1
+  double          left = 0.; ///< estimated relative error of the damped receptance with them, modes left out included
+  std::vector<double> of_groups{}; ///< the same of each interface by itself
+  bool exhausted = false; ///< no shape is left that has mass: what remains no coordinate of the model could carry
+};
+
+/// Whether B acts on anything but q1.
+bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B);
+
+/**
+ * Completes a model by what it lacks of the deflection under the dampers inside the frame, such as those of its
+ * foundation.
+ *
+ * At the frequency omega let U = T p be the displacements of the model, the interface moved by E.  With
+ * Z = (1 + 2 i zeta) C - omega^2 M + i omega B they leave the forces  r = (Z U)_2  unbalanced, and the dynamic
+ * stiffness of the full frame is less than the model's by
+ *
+ *     r^T Z22^-1 r,    Z22^-1 ~ sum_j v_j v_j^T / ((1 + 2 i zeta) omega_0j^2 - omega^2)
+ *                               + (C22^-1 - sum_j v_j v_j^T / omega_0j^2) / ((1 + 2 i zeta) (1 - omega^2 / omega_0^2))
+ *
+ * with the modes j that are known and omega_0 what no other lies below: from above for what inertia does beyond, and
+ * without the dampers in Z22, which would lower it.  It is the error of modes left out and of dampers alike.
+ * At the frequency where it makes the largest error of the receptance, principal directions of C22^-1 r become shapes,
+ * and again, until the error is within the tolerance or `most` shapes are made.  Thus dampers of any strength are met:
+ * shapes of second order, C22^-1 B C22^-1 B Psi, come with the second round.
+ *
+ * @param held         with its factor.
+ * @param basis        of all modes known; the model has the first m.
+ * @param highest      omega_0 [rad/s], above all frequencies; INFINITY where all modes are known.
+ * @param X            other shapes of the model [n x k], zero on q1, or [n x 0].
+ * @param frequencies  to look at, as for InterfaceReceptance.
+ * @param groups       of q1, whose own errors are told.
+ * Source: docs/theory/reduction.md (16e).
+ */
+DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, double highest, int m,
+                           const Eigen::MatrixXd &X, const fem::FrameMatrices &frame,
+                           const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups, double tolerance,
+                           int most);
+
+} // namespace gestell::coupling

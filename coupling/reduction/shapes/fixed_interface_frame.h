@@ -1,0 +1,63 @@
+#pragma once
+
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/eigensolvers/block_lanczos.h"
+#include "fem/values/frame_matrices.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+class HeldByRanks;
+class Team;
+
+/**
+ * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
+ * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
+ *
+ * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
+ *
+ * Where mpirun started several ranks the factor lies on all of them, and they find the modes together: see
+ * DividedFactor; with GESTELL_FACTOR=mumps in the environment by MUMPS, and the modes by SLEPc.
+ */
+class HeldFrame
+{
+public:
+  /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
+  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  ~HeldFrame();
+
+  /// X <- C22^-1 X on the rows of q2, zero on those of q1.
+  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
+
+  /// [n x n1]: E on the rows of q1, -C22^-1 C21 on those of q2.
+  Eigen::MatrixXd constraint_modes() const;
+
+  /// Gives the memory of the factor back; restore() makes it anew where it is not there.
+  void release();
+  void restore();
+
+  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
+  Inertia below(double omega) const;
+
+  /// The same of the frame with nothing held, rigid motions among them; makes a pattern of its own at first.
+  Inertia below_if_free(double omega);
+
+  /// For fixed-interface modes; the frame must outlive it.  @param options where one process searches.
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
+
+private:
+  std::unique_ptr<HeldByRanks> held_by(const Team &team, const std::vector<int> &q1) const;
+  void                         factorise();
+
+  const fem::FrameMatrices       &frame_;
+  std::vector<int>                q1_;
+  std::unique_ptr<HeldByRanks>    team_, free_team_;     // either these
+  std::unique_ptr<SparseCholesky> factor_, free_factor_; // or those
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,49 @@
+#include "coupling/reduction/shapes/fixed_interface_modes.h"
+
+#include "coupling/algebra/dense_modes.h"
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+
+constexpr int dense_limit = 600; // internal coordinates that are solved densely
+
+} // namespace
+
+FixedModes::FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                       const BlockLanczos::Options &options)
+    : CountedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options, frame.C),
+      held_(held), frame_(frame)
+{
+  for (int i = 0; i < int(frame.M.rows()); ++i)
+    if (!std::binary_search(q1.begin(), q1.end(), i))
+      q2_.push_back(i);
+}
+
+int FixedModes::n() const
+{
+  return int(frame_.M.rows());
+}
+
+/// For few coordinates, where Krylov spaces run out of room.
+LowestModes FixedModes::all() const
+{
+  const MatrixXd M = frame_.M, C = frame_.C;
+  const auto     modes = dense_modes(C(q2_, q2_), M(q2_, q2_));
+  LowestModes all{modes.omega, MatrixXd::Zero(M.rows(), modes.omega.size()), Eigen::VectorXd::Zero(modes.omega.size())};
+  all.V(q2_, Eigen::all) = modes.V;
+  return all;
+}
+
+std::unique_ptr<ModeSearch> FixedModes::search(const BlockLanczos::Options &options, const LowestModes &known) const
+{
+  return held_.search(options, known);
+}
+
+} // namespace gestell::coupling

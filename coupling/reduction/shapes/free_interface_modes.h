@@ -1,0 +1,86 @@
+#pragma once
+
+#include "coupling/eigensolvers/sturm_check.h"
+#include "coupling/plugin/frame_service.h"
+#include "coupling/reduction/shapes/fixed_interface_frame.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * C^+ of the frame with its interface free, on loads in balance, from the factor of C22 by block elimination
+ * (reduction.md (15)):
+ *
+ *     x = (0; C22^-1 f2) + Psi S^+ Psi^T f,     x^T M R = 0,     S = C*_11.
+ */
+class FreeInverse
+{
+public:
+  /// @param basis  constraint modes only.  It and the held frame must outlive this.
+  FreeInverse(const HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame);
+
+  const Eigen::MatrixXd &rigid() const { return R_; } ///< motions R [n x k], R^T M R = E
+
+  /// X <- C^+ X.
+  void operator()(Eigen::Ref<Eigen::MatrixXd> X) const;
+
+private:
+  const HeldFrame       &held_;
+  const Eigen::MatrixXd &Psi_;
+  Eigen::MatrixXd        S_inverse_, R_, MR_;
+};
+
+/// The elastic modes of a frame as it is supported, its interface free; those of a floating one are M-orthogonal to its
+/// rigid motions.
+class FreeInterfaceModes final : public CountedModes
+{
+public:
+  /// @param basis  constraint modes only.  All three must outlive this.
+  FreeInterfaceModes(HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
+                     const BlockLanczos::Options &options = {});
+
+  int n_rigid() const { return int(inverse_.rigid().cols()); }
+
+private:
+  int                         n() const override;
+  LowestModes                 all() const override;
+  void                        restore() override { held_.restore(); }
+  void                        release() override { held_.release(); }
+  Inertia                     below(double omega) override;
+  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const override;
+
+  HeldFrame                &held_;
+  const fem::FrameMatrices &frame_;
+  FreeInverse               inverse_;
+};
+
+/// Modes of the frame as supported, its interface free.
+struct FreeModes
+{
+  Eigen::VectorXd omega;     // [k] elastic, ascending [rad/s]
+  Eigen::MatrixXd W;         // [n x k] modes less their static part, phi - Psi phi_1: zero on q1
+  std::string     statement; // that none is missing; empty where nothing had to be proved
+  int             n_rigid = 0;
+};
+
+/**
+ * The lowest elastic modes with the interface free, counted by inertia like those with the interface held.
+ *
+ * Together with the constraint modes their shapes span all of MacNeal's and Rubin's space: rigid motions, residual
+ * flexibility of every interface coordinate, and the modes themselves, whose frequencies the reduced model has exactly.
+ *
+ * @param held     its factor is released: restore() it to solve again.
+ * @param basis    constraint modes only.
+ * @param options  n_modes; < 0: all up to 1.5 times the highest frequency of interest.
+ * @throws ConvergenceFailure (eigenvalue solver, or modes that are missing and not found).
+ */
+FreeModes free_modes(const ReductionBasis &basis, HeldFrame &held, const fem::FrameMatrices &frame,
+                     const ReductionOptions &options);
+
+} // namespace gestell::coupling

@@ -1,0 +1,61 @@
+#include "coupling/reduction/shapes/interface_flexibility.h"
+
+#include "fem/assembly/rigid_body_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// eigenvalues of S scaled to unit diagonal
+constexpr double singular   = 1e-11; // of motions without stiffness
+constexpr double suspicious = 1e-6;  // of motions that may be; above it none is, which saves a search through C
+
+VectorXd to_unit_diagonal(const MatrixXd &S)
+{
+  return S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
+}
+
+} // namespace
+
+MatrixXd motions_without_stiffness(const MatrixXd &S, const ReductionBasis &basis, const fem::FrameMatrices &frame)
+{
+  if (S.rows() == 0)
+    return MatrixXd(basis.T.rows(), 0);
+  const VectorXd                                d = to_unit_diagonal(S);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
+  if (scaled.eigenvalues()(0) > suspicious)
+    return MatrixXd(basis.T.rows(), 0);
+  if (frame.rigid_motions.cols() == 6)
+    return fem::free_displacements(frame);
+  const auto count = (scaled.eigenvalues().array() <= singular).count();
+  return basis.constraint_modes() * (d.asDiagonal() * scaled.eigenvectors().leftCols(count));
+}
+
+MatrixXd inverse_beside(const MatrixXd &S, const MatrixXd &Z)
+{
+  if (S.rows() == 0)
+    return S;
+  const VectorXd d = to_unit_diagonal(S);
+  MatrixXd       Q(S.rows(), Z.cols());
+  if (Z.cols() > 0)
+    Q = Eigen::HouseholderQR<MatrixXd>(d.cwiseInverse().asDiagonal() * Z).householderQ() *
+        MatrixXd::Identity(S.rows(), Z.cols());
+  const MatrixXd                                P = MatrixXd::Identity(S.rows(), S.rows()) - Q * Q.transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> beside(P * (d.asDiagonal() * S * d.asDiagonal()) * P +
+                                                       Q * Q.transpose());
+  const VectorXd inverse = beside.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
+  const MatrixXd U       = d.asDiagonal() * P * beside.eigenvectors();
+  return U * inverse.asDiagonal() * U.transpose();
+}
+
+} // namespace gestell::coupling

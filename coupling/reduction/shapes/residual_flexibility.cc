@@ -1,0 +1,29 @@
+#include "coupling/reduction/shapes/residual_flexibility.h"
+
+namespace gestell::coupling
+{
+
+InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &basis,
+                                   const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads)
+{
+  const auto      symmetric = [](const Eigen::MatrixXd &A) -> Eigen::MatrixXd { return 0.5 * (A + A.transpose()); };
+  Eigen::MatrixXd both(M.rows(), basis.n1() + loads.cols());
+  both << basis.M_Psi, loads;
+  held.solve_in_place(both);
+  const auto            X     = both.leftCols(basis.n1());
+  const Eigen::MatrixXd M_X   = symmetric_product(M, X);
+  const Eigen::MatrixXd first = symmetric(basis.M_Psi.transpose() * X), second = symmetric(X.transpose() * M_X),
+                        under_loads = both.rightCols(loads.cols());
+  both                              = M_X; // where X was: the factor leaves little room
+  held.solve_in_place(both);
+  return {first, second, symmetric(M_X.transpose() * both), under_loads};
+}
+
+Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis)
+{
+  Eigen::MatrixXd X = basis.M_Psi;
+  held.solve_in_place(X);
+  return X;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "coupling/reduction/shapes/fixed_interface_frame.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/**
+ * Deflection of the inside, the interface held, under what does not depend on the modes kept: the inertia forces of the
+ * constraint modes and given loads.  Of the first,
+ *
+ *     X = C22^-1 (M Psi)_2     [n x n1], zero on q1,
+ *
+ * some products tell all that is asked: with V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)] and V22^T M X =
+ * diag(1 / omega0^2) M*_21.  Thus a round of inverse iteration for all Ritz vectors of the reduced model costs no
+ * solution but these n1.  A third product, with X2 = C22^-1 (M X)_2, serves InterfaceReceptance.
+ */
+struct InteriorResponse
+{
+  Eigen::MatrixXd Psi_M_X; // Psi^T M X [n1 x n1]
+  Eigen::MatrixXd X_M_X;   // X^T M X [n1 x n1]
+  Eigen::MatrixXd X_M_X2;  // X^T M X2 [n1 x n1]
+  Eigen::MatrixXd loads;   // C22^-1 f2 [n x k]
+};
+
+/// @param loads f [n x k]; its part on q1 has no meaning here.
+InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &basis,
+                                   const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
+
+/// X itself: the shapes that complete few modes (reduction.md (16d)).
+Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis);
+
+} // namespace gestell::coupling

@@ -1,0 +1,67 @@
+#include "coupling/simulation/checks/gyroscopic_moments.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double considerable = 0.02; // kappa
+
+/// w [n] of the rotation about e.
+Eigen::VectorXd rotation_about(const Machine &machine, const Marker &marker, const Vector3 &e)
+{
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(machine.size());
+  for (int d = 0; d < 3; ++d)
+    for (const auto &[coordinate, weight] : marker.rotation[d])
+      w[coordinate] += e[d] * weight;
+  return w;
+}
+
+} // namespace
+
+std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v)
+{
+  std::vector<std::string> warnings;
+  if (machine.full_frame())
+    return warnings; // to factorise that would take longer than many a run
+  for (const Body &body : machine.bodies())
+  {
+    const double speed = body.kind == BodyKind::rotor ? std::abs(v[body.coordinate]) : 0.;
+    const auto [a, b]  = plane_across(body.axis);
+    Eigen::VectorXd w_a, w_b;
+    if (speed > 0.)
+    {
+      w_a = rotation_about(machine, body.marker, a);
+      w_b = rotation_about(machine, body.marker, b);
+    }
+    if (!(speed > 0.) || w_a.isZero() || w_b.isZero())
+      continue;
+    const auto      solver = machine.factorise(speed * speed, 0., 1.);
+    Eigen::VectorXd unit   = Eigen::VectorXd::Unit(machine.size(), body.coordinate), column(machine.size());
+    machine.mass_times(unit, column);
+    const auto flexibility = [&](const Eigen::VectorXd &w)
+    {
+      Eigen::VectorXd x(machine.size());
+      solver->solve(w, x);
+      return w.dot(x);
+    };
+    const double kappa =
+        column[body.coordinate] * speed * speed * std::sqrt(std::max(0., flexibility(w_a) * flexibility(w_b)));
+    if (!(kappa > considerable))
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "the rotor " << body.name << " is carried by what tilts, and has no gyroscopic moments: at its speed they "
+         << "would be " << 100. * kappa
+         << " % of the moments that hold its axis. Where it matters, make it a body of type \"rigid\" in revolute "
+            "joints";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+} // namespace gestell::coupling

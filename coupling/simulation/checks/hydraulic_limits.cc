@@ -1,0 +1,86 @@
+#include "coupling/simulation/checks/hydraulic_limits.h"
+
+#include "coupling/machine/element_law.h"
+#include "mechanism/elements/hydraulic_cylinder.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double last_part = 0.01; // of both oil columns together: as near to an end as a piston gets
+} // namespace
+
+CylinderWatch::CylinderWatch(const Machine &machine, const TimeIntegrator &integrator)
+    : machine_(machine), integrator_(integrator)
+{
+  for (const ElementPlacement &placement : machine.elements())
+  {
+    const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
+    if (!cylinder)
+      continue;
+    const auto add =
+        [&](const std::string &quantity, double sign, double offset, const std::string &what, const std::string &advice)
+    {
+      Limit limit;
+      limit.signal = machine.signal(quantity, placement.name + "." + quantity);
+      limit.sign   = sign;
+      limit.offset = offset;
+      limit.object = placement.name;
+      limit.what   = what;
+      limit.advice = advice;
+      limits_.push_back(limit);
+    };
+    const double a = cylinder->lower_end(), b = cylinder->upper_end(), near = last_part * (b - a);
+    for (const std::string chamber : {"a", "b"})
+      add("pressure_" + chamber, 1., 0.,
+          "the pressure in chamber " + std::string(chamber == "a" ? "A" : "B") + " falls below zero",
+          "oil cavitates there, but its column is taken to pull: raise the pressure, or hold the load");
+    const std::string stop = "its law knows no end: put a \"stop\" there, or feed less oil";
+    add("stroke", 1., -a - near, "the piston comes to the end of its stroke on the side of chamber A", stop);
+    add("stroke", -1., b - near, "the piston comes to the end of its stroke on the side of chamber B", stop);
+  }
+}
+
+void CylinderWatch::step()
+{
+  if (limits_.empty())
+    return;
+  const double t = integrator_.time();
+  for (Limit &limit : limits_)
+  {
+    const double value = limit.sign * machine_.evaluate(limit.signal, none_, none_, integrator_.local()) + limit.offset;
+    if (value < 0. && !limit.passed)
+    {
+      const double part = limit.known && limit.value > 0. ? limit.value / (limit.value - value) : 1.;
+      limit.first       = limit.known ? limit.t + part * (t - limit.t) : t;
+      limit.passed      = true;
+    }
+    limit.lowest = std::min(limit.lowest, value);
+    limit.t      = t;
+    limit.value  = value;
+    limit.known  = true;
+  }
+}
+
+std::vector<std::string> CylinderWatch::warnings() const
+{
+  std::vector<std::string> warnings;
+  for (const Limit &limit : limits_)
+  {
+    if (!limit.passed)
+      continue;
+    std::ostringstream text;
+    text << limit.object << ": " << limit.what << " at t = " << limit.first << " s";
+    if (limit.signal.unit == "Pa")
+      text << ", to " << limit.lowest << " Pa at the lowest";
+    text << "; " << limit.advice;
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "coupling/integration/system/time_integrator.h"
+#include "coupling/machine/machine.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Looks at the hydraulic cylinders of a machine after every step: for pressures below zero, at which oil cavitates,
+/// and pistons at the end of their stroke, none of which their law knows.
+class CylinderWatch
+{
+public:
+  CylinderWatch(const Machine &machine, const TimeIntegrator &integrator);
+
+  void begin() { step(); }
+  void step();
+
+  /// For each limit that was passed: when it was for the first time, and how far at most.
+  std::vector<std::string> warnings() const;
+
+private:
+  /// A signal that should not fall below zero after `offset` was added and `sign` taken.
+  struct Limit
+  {
+    Signal      signal;
+    double      sign = 1., offset = 0.;
+    std::string object, what, advice;
+    double      t = 0., value = 0.; ///< of the step before
+    bool        known = false, passed = false;
+    double      first = 0., lowest = 0.;
+  };
+
+  const Machine        &machine_;
+  const TimeIntegrator &integrator_;
+  std::vector<Limit>    limits_;
+  Eigen::VectorXd       none_; ///< the signals are those of elements and read no coordinates
+};
+
+} // namespace gestell::coupling

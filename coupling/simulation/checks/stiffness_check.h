@@ -1,0 +1,55 @@
+#pragma once
+
+#include "coupling/integration/method.h"
+#include "coupling/modes/linear_spectrum.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * Elements whose stiffness grows with the motion (a contact after Hertz, a cubic spring) against the stiffness that a
+ * method with fixed step and a limit stands: the guard before the run knows them at the start only.
+ *
+ * With the weights m, b, c < 0 of the motion x (-1)^k (step_weights()) and the stiffness K(u) of these elements the
+ * balance A + c h^2 W K(u) W^T, A = m M + b h B + c h^2 C with all others in the stiffest branch of their laws, must
+ * stay positive definite:
+ *
+ *     largest eigenvalue of  -c h^2 K(u) F  below 1,     F = W^T A^-1 W.
+ *
+ * Its trace is a bound, which in most steps is all that is looked at.  Source: docs/stability.md.
+ */
+class StiffnessWatch
+{
+public:
+  /// Looks at nothing under other methods, and on machines too large for dense matrices.
+  StiffnessWatch(const Machine &machine, const InitialState &start, const MethodOptions &options);
+
+  /// After every step.
+  /// @throws ConvergenceFailure naming the element, its stiffness and a step that stands what it will come to
+  void step(const LocalState &state);
+
+private:
+  struct Watched
+  {
+    const ElementPlacement *placement;
+    int                     first, size; ///< of its measures among all
+    int                     row;         ///< and in F
+  };
+
+  Eigen::MatrixXd   stiffness(const Watched &watched, const Eigen::VectorXd &u) const;
+  double            largest(const Eigen::VectorXd &u, std::size_t &most) const;
+  double            frequency_at_peak(const Watched &watched, const Eigen::VectorXd &now) const;
+  [[noreturn]] void fail(const LocalState &state, double share, const Watched &watched) const;
+
+  const Machine       &machine_;
+  MethodOptions        options_;
+  std::vector<Watched> watched_;
+  Eigen::MatrixXd      F_;         ///< -c h^2 W^T A^-1 W of the watched measures
+  Eigen::MatrixXd      lightness_; ///< W^T M^-1 W of these
+  LocalState           last_;      ///< after the step before
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,66 @@
+#include "coupling/simulation/energy_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double little = 0.01, nowhere = 0.5; ///< shares of E: an error to speak of; energy that came from nowhere
+constexpr double all      = 1.5; ///< more than the motion has can only be lost where it never was; E is known to a half
+constexpr double of_begin = 1e-6; ///< what iterations leave of the energy at the start
+} // namespace
+
+void EnergyGuard::step(const EnergyState &state, double size)
+{
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  if (!std::isfinite(state.input + state.stored + state.dissipated + state.kinetic + state.forces + size))
+    throw ConvergenceFailure("the motion grew beyond all numbers: its energy is none");
+  ++steps_;
+  input_.add(state.input);
+  dissipated_.add(state.dissipated);
+  largest_  = std::max({largest_, state.kinetic, std::abs(state.stored)});
+  rounding_ = std::max(rounding_, epsilon * state.forces * std::max(size, 1.));
+  loss_     = std::max(loss_, state.residual());
+  gain_     = std::max(gain_, -state.residual());
+}
+
+double EnergyGuard::exchanged() const
+{
+  return std::max(largest_, input_.length() + dissipated_.length());
+}
+
+double EnergyGuard::residual() const
+{
+  return std::max(gain_, loss_);
+}
+
+EnergyGuard::Verdict EnergyGuard::verdict() const
+{
+  const double E = exchanged(), negligible = std::max(double(steps_) * rounding_, of_begin * std::abs(at_begin_));
+  if (residual() <= std::max(little * E, negligible))
+    return Verdict::closed;
+  return gain_ > std::max(nowhere * E, negligible) || loss_ > std::max(all * E, negligible) ? Verdict::no_motion
+                                                                                            : Verdict::open;
+}
+
+std::string EnergyGuard::words(const std::string &method) const
+{
+  const Verdict verdict = this->verdict();
+  if (verdict == Verdict::closed)
+    return "";
+  std::ostringstream text;
+  text << std::setprecision(3) << "the energy balance is open by " << residual() << " J, ";
+  if (exchanged() > 0.)
+    text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J that the motion exchanges, ";
+  text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ") << method;
+  text << (verdict == Verdict::open ? " is too coarse for this motion" : " does not give a motion of the machine");
+  return text.str();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,51 @@
+#include "coupling/simulation/extreme_states.h"
+
+#include "coupling/simulation/simulation.h"
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+StateKeeper::StateKeeper(const TimeIntegrator &integrator, const StateRequest &request, double begin,
+                         const std::vector<SignalSummary> &signals, KeptStates &kept)
+    : integrator_(integrator), request_(request), signals_(signals), kept_(kept), idle_(request.empty()), begin_(begin)
+{
+  kept_.at.resize(request.at.size());
+  kept_.extremes.resize(request.extremes.size());
+  for (std::size_t i = 0; i < request.at.size(); ++i)
+    kept_.at[i].t = request.at[i];
+}
+
+Eigen::VectorXd StateKeeper::state(double t)
+{
+  if (t >= integrator_.time())
+    return integrator_.instant().q;
+  q_.resize(integrator_.instant().q.size());
+  v_.resize(q_.size());
+  integrator_.interpolate(std::max(t, integrator_.step_begin()), q_, v_);
+  return q_;
+}
+
+void StateKeeper::follow()
+{
+  if (idle_)
+    return;
+  const double end = integrator_.time() + 1e-12 * (integrator_.time() - begin_); // instants are exact to rounding
+  if (request_.step > 0.)
+    for (double t; (t = begin_ + double(kept_.grid.size()) * request_.step) <= end;)
+      kept_.grid.push_back({t, state(t)});
+  for (; next_at_ < request_.at.size() && request_.at[next_at_] <= end; ++next_at_)
+    kept_.at[next_at_].q = state(request_.at[next_at_]);
+  for (std::size_t i = 0; i < request_.extremes.size(); ++i)
+  {
+    const SignalSummary &signal = signals_[request_.extremes[i].signal];
+    const double         t      = request_.extremes[i].largest ? signal.t_max : signal.t_min;
+    KeptState           &kept   = kept_.extremes[i];
+    // What changed since the last call lies within the last step.
+    if (kept.q.size() == 0 || kept.t != t)
+      kept = {t, state(t)};
+  }
+}
+
+} // namespace gestell::coupling

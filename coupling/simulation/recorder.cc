@@ -1,0 +1,275 @@
+#include "coupling/simulation/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double brief   = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
+constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
+
+std::string method_and_step(const MethodOptions &method)
+{
+  std::ostringstream text;
+  text << method_name(method) << " with a ";
+  if (method.tolerance > 0.)
+    text << "tolerance of " << method.tolerance;
+  else
+    text << "step of " << method.step << " s";
+  return text.str();
+}
+
+/// What keeps more of the energy than the method does.
+std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
+{
+  if (method.tolerance > 0.)
+    return "; take a smaller tolerance";
+  if (verdict == EnergyGuard::Verdict::no_motion)
+    return "; take a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
+  return method.method == Method::bdf && method.order < 4
+             ? "; take a smaller step. Where bodies spin or swing many times, order = 4 with 60 steps or more per turn "
+               "loses far less"
+             : "; take a smaller step";
+}
+
+/// The balance must not err more than the integrator.
+PowerRule power_rule(const MethodOptions &method, const Sampling &sampling)
+{
+  // Of a sine four points integrate the square to 1e-5 of it over half a period.
+  constexpr double samples = 8.;
+  const bool       high_order =
+      method.tolerance > 0. || (method.method == Method::exact && method.force == ForceRule::collocation);
+  return {high_order, samples * sampling.shortest};
+}
+
+} // namespace
+
+std::vector<int> coordinates_of(const std::vector<Signal> &signals)
+{
+  std::set<int> coordinates;
+  for (const Signal &signal : signals)
+    for (const Measure *measure : {&signal.on_q, &signal.on_v})
+      for (const auto &term : *measure) // a weight of zero: the signal reads the coordinate otherwise
+        coordinates.insert(term.first);
+  return {coordinates.begin(), coordinates.end()};
+}
+
+std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system)
+{
+  for (const Signal &signal : signals)
+    if (signal.reads_acceleration())
+      return Accelerations(system);
+  return {};
+}
+
+Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
+                   const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result)
+    : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
+      keeper_(integrator, options.states, options.begin, result.signals, result.states), energy_(machine),
+      power_rule_(power_rule(options.method, sampling)), coordinates_(coordinates_of(signals)),
+      accelerations_(accelerations_for(signals, machine)), extremes_(*this, sampling, signals, result.signals),
+      row_step_(output_step(options)), picture_step_(options.picture_step)
+{
+  between_.q.setZero(machine.size());
+  between_.v.setZero(machine.size());
+  between_.local.resize(machine);
+  probe_ = {0., std::vector<double>(signals.size())};
+
+  result.columns = {"t"};
+  result.units   = {"s"};
+  for (const Signal &signal : signals)
+  {
+    result.signals.push_back({signal.name, signal.unit});
+    result.columns.push_back(signal.name);
+    result.units.push_back(signal.unit);
+  }
+  if (options.energy)
+    for (const char *name : {"energy input", "energy stored", "energy dissipated"})
+    {
+      result.columns.push_back(name);
+      result.units.push_back("J");
+    }
+  const double length = options.end - options.begin;
+  result.rows.reserve(static_cast<std::size_t>(length / row_step_ + 3.) * result.columns.size());
+  if (picture_step_ > 0.)
+    result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
+}
+
+void Recorder::evaluate(double t, SignalSample &sample)
+{
+  const bool at_end = t == integrator_.time();
+  if (!at_end)
+    integrator_.interpolate(t, between_.local);
+  tell(t, at_end ? integrator_.local() : between_.local, sample);
+}
+
+/// @param local  the motion of the measures at t
+void Recorder::tell(double t, const LocalState &local, SignalSample &sample)
+{
+  if (accelerations_)
+    a_ = accelerations_->at(t, integrator_, local, between_.q, between_.v);
+  else if (!coordinates_.empty())
+    integrator_.motion_at(t, coordinates_, between_.q, between_.v);
+  sample.t = t;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, a_, local);
+}
+
+void Recorder::begin()
+{
+  if (options_.energy)
+  {
+    energy_.begin(integrator_.instant());
+    guard_ = EnergyGuard(energy_.at_begin());
+  }
+  behind_  = integrator_.local();
+  pending_ = true;
+  pictures();
+  keeper_.follow();
+}
+
+/// The motion behind the last event, at which the last step began or where there is none yet.
+void Recorder::settle()
+{
+  pending_ = false;
+  tell(behind_.t, behind_, probe_);
+  extremes_.restart(probe_);
+  if (next_row_ == 0)
+  {
+    row(behind_.t, probe_, result_.energy);
+    next_row_ = 1;
+  }
+}
+
+void Recorder::step()
+{
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  if (!(end > begin))
+    return;
+  if (pending_ && end - begin < brief * length_)
+  {
+    follow_briefly();
+    return;
+  }
+  length_ = end - begin;
+  if (pending_)
+    settle();
+  extremes_.step(end);
+  if (options_.energy)
+    balance();
+  rows();
+  pictures();
+  keeper_.follow();
+}
+
+/// A step between two events at one instant.
+void Recorder::follow_briefly()
+{
+  behind_ = integrator_.local();
+  if (options_.energy)
+    balance();
+}
+
+void Recorder::jump(const std::string &event)
+{
+  extremes_.happened(event);
+  if (options_.energy)
+    energy_.jump(integrator_.instant());
+  behind_  = integrator_.local();
+  pending_ = true;
+}
+
+void Recorder::rows()
+{
+  const double end = integrator_.time();
+  for (double t; (t = options_.begin + double(next_row_) * row_step_) <= end + on_grid * row_step_; ++next_row_)
+  {
+    if (t >= end - on_grid * row_step_)
+    {
+      row(t, extremes_.last(), result_.energy);
+      continue;
+    }
+    evaluate(std::max(t, integrator_.step_begin()), probe_);
+    extremes_.see(probe_);
+    row(t, probe_, options_.energy ? energy_inside(probe_.t) : result_.energy);
+  }
+}
+
+/// At t in the last step, where evaluate() was last.
+EnergySummary Recorder::energy_inside(double t)
+{
+  between_.t = t;
+  integrator_.interpolate(t, between_.q, between_.v);
+  const EnergyState energy = energy_.state(integrator_, between_);
+  return {energy.input, energy.stored, energy.dissipated};
+}
+
+void Recorder::row(double t, const SignalSample &sample, const EnergySummary &energy)
+{
+  result_.rows.push_back(t);
+  result_.rows.insert(result_.rows.end(), sample.values.begin(), sample.values.end());
+  if (options_.energy)
+    result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
+}
+
+void Recorder::pictures()
+{
+  if (!(picture_step_ > 0.))
+    return;
+  const double end = integrator_.time();
+  for (double t; (t = options_.begin + double(next_picture_) * picture_step_) <= end + on_grid * picture_step_;
+       ++next_picture_)
+  {
+    result_.picture_times.push_back(t);
+    if (t >= end - on_grid * picture_step_)
+    {
+      result_.picture_states.push_back(integrator_.instant().q);
+      continue;
+    }
+    integrator_.interpolate(std::max(t, integrator_.step_begin()), between_.q, between_.v);
+    result_.picture_states.push_back(between_.q);
+  }
+}
+
+void Recorder::balance()
+{
+  energy_.step(integrator_, power_rule_, guard_.exchanged());
+  const Instant    &now    = integrator_.instant();
+  const EnergyState energy = energy_.state(now);
+  guard_.step(energy, now.q.size() > 0 ? now.q.cwiseAbs().maxCoeff() : 0.);
+  result_.energy = {energy.input, energy.stored, energy.dissipated, guard_.residual(), guard_.exchanged()};
+}
+
+void Recorder::finish()
+{
+  if (pending_)
+    settle();
+  const SignalSample &last = extremes_.last();
+  if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
+    row(integrator_.time(), last, result_.energy);
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+  {
+    result_.signals[i].final = last.values[i];
+    if (extremes_.watched(i))
+      continue;
+    result_.warnings.push_back("signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
+                               "\" on, which did not happen: its extremes are those of the end");
+    extremes_.look_anew(i);
+  }
+  const EnergyGuard::Verdict verdict = guard_.verdict();
+  if (verdict == EnergyGuard::Verdict::closed)
+    return;
+  const std::string words = guard_.words(method_and_step(options_.method)) + remedy(options_.method, verdict);
+  if (verdict == EnergyGuard::Verdict::open || options_.force_unstable || !result_.failure.empty())
+    result_.warnings.push_back(words);
+  else
+    result_.failure = words;
+}
+
+} // namespace gestell::coupling

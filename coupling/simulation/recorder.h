@@ -1,0 +1,76 @@
+#pragma once
+
+#include "coupling/machine/accelerations.h"
+#include "coupling/simulation/energy_guard.h"
+#include "coupling/simulation/signal_extremes.h"
+#include "coupling/simulation/simulation.h"
+
+#include <optional>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Coordinates that signals read by their positions or rates, ascending.
+std::vector<int> coordinates_of(const std::vector<Signal> &signals);
+
+/// What tells the accelerations that signals read; nothing if none does.
+/// @throws std::invalid_argument as Accelerations
+std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system);
+
+/**
+ * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
+ *
+ * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes count at every row besides
+ * where SignalExtremes looks.
+ *
+ * An instant with events has two motions that count: the one just before the first event, and the one behind the last,
+ * which is told with the step that goes on from there.  What lies between them lasts for no time: a rod without play is
+ * slack between thrust and pull, and what sticks under more than its limit slips at once.
+ */
+class Recorder : private SampledRun
+{
+public:
+  Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
+           const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result);
+
+  void begin(); ///< at the start, after the integrator began
+  void step();  ///< a step was made; its dense output and the history that holds on it are there
+  /// An event of that object has changed the history at the present instant, and the integration goes on from there.
+  void jump(const std::string &event);
+  void finish(); ///< the last instant always has a row
+
+private:
+  void          evaluate(double t, SignalSample &sample) override;
+  void          tell(double t, const LocalState &local, SignalSample &sample);
+  void          settle();
+  void          follow_briefly();
+  void          rows();
+  void          row(double t, const SignalSample &sample, const EnergySummary &energy);
+  EnergySummary energy_inside(double t);
+  void          pictures();
+  void          balance();
+
+  const Machine               &machine_;
+  const TimeIntegrator        &integrator_;
+  const RunOptions            &options_;
+  const std::vector<Signal>   &signals_;
+  RunResult                   &result_;
+  StateKeeper                  keeper_;
+  EnergyBalance                energy_;
+  PowerRule                    power_rule_;
+  EnergyGuard                  guard_;
+  std::vector<int>             coordinates_; ///< that signals read
+  Instant                      between_;
+  Eigen::VectorXd              a_;
+  std::optional<Accelerations> accelerations_; ///< if a signal reads any
+  SignalExtremes               extremes_;
+  SignalSample                 probe_;            ///< scratch
+  LocalState                   behind_;           ///< the motion behind the last event
+  bool                         pending_  = false; ///< and it has not been told yet
+  double                       length_   = 0.;    ///< of the last step that was told
+  double                       row_step_ = 0., picture_step_ = 0.;
+  long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,265 @@
+#include "coupling/simulation/signal_extremes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int    window   = 5;     ///< samples of a fourth difference
+constexpr double missed   = 5e-5;  ///< epsilon
+constexpr double at_rest  = 1e-6;  ///< of what others of its unit range over: a signal that moves less does not move
+constexpr double rounding = 1e-11; ///< of a value: fourth differences of its rounding are epsilon times that
+constexpr double nearby   = 0.25;  ///< a parabola errs by about that share of its length about a peak at its end
+constexpr int    deepest  = 16;    ///< pieces of a step, where `shortest` allows no more
+constexpr int    most     = 4096;  ///< samples in a step
+
+/// Not evenly spaced: a motion whose period is a quarter of the step would not be seen.
+constexpr double pieces[] = {0.23, 0.52, 0.74};
+
+struct Point
+{
+  double t, f;
+};
+
+/// Vertex of the parabola through three points of ascending t, if it is a maximum in (a, c) or nearby outside.
+bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
+{
+  const double rise = (b.f - a.f) / (b.t - a.t), curvature = ((c.f - b.f) / (c.t - b.t) - rise) / (c.t - a.t);
+  if (!(curvature < 0.))
+    return false;
+  top.t               = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+  top.f               = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
+  const double margin = nearby * (c.t - a.t);
+  return top.t > a.t - margin && top.t < c.t + margin;
+}
+
+} // namespace
+
+SignalExtremes::SignalExtremes(SampledRun &run, const Sampling &sampling, const std::vector<Signal> &signals,
+                               std::vector<SignalSummary> &summaries)
+    : run_(run), sampling_(sampling), signals_(signals), summaries_(summaries), probe_{0., {}},
+      anew_(signals.size(), true)
+{
+  probe_.values.resize(signals.size());
+  samples_.assign(2 * deepest, probe_);
+  for (const Signal &signal : signals)
+  {
+    watched_.push_back(signal.from.empty());
+    const auto alike = [&](const Signal &other) { return other.unit == signal.unit; };
+    like_.push_back(int(std::find_if(signals.begin(), signals.end(), alike) - signals.begin()));
+  }
+}
+
+void SignalExtremes::happened(const std::string &event)
+{
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    if (!watched_[i] && signals_[i].from == event)
+      watched_[i] = anew_[i] = true;
+}
+
+void SignalExtremes::restart(const SignalSample &at)
+{
+  samples_[0] = at;
+  n_          = 1;
+  begin_      = 0;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    if (anew_[i])
+    {
+      look_anew(i);
+      anew_[i] = false;
+    }
+  see(at);
+}
+
+void SignalExtremes::look_anew(std::size_t signal)
+{
+  SignalSummary &summary = summaries_[signal];
+  summary.min = summary.max = last().values[signal];
+  summary.t_min = summary.t_max = last().t;
+}
+
+void SignalExtremes::step(double end)
+{
+  const double begin = samples_[begin_].t, length = end - begin;
+  if (sampling_.inside || begin_ == 0)
+    divide(begin, end);
+  append(end);
+  if (!sampling_.inside && begin_ > 0 && rough(n_ - window))
+  {
+    --n_;
+    divide(begin, end);
+    append(end);
+  }
+  refine(std::min(length / deepest, sampling_.shortest));
+  for (int middle = std::max(begin_, 1); middle < n_ - 1; ++middle)
+    turn(middle);
+  keep_the_last();
+}
+
+void SignalExtremes::append(double t)
+{
+  if (n_ == int(samples_.size()))
+    samples_.resize(2 * n_, probe_);
+  SignalSample &sample = samples_[n_++];
+  run_.evaluate(t, sample);
+  see(sample);
+}
+
+void SignalExtremes::divide(double begin, double end)
+{
+  for (const double piece : pieces)
+    append(begin + piece * (end - begin));
+}
+
+/// Windows of five samples of the step, whose pieces are halved until they are smooth or `shortest` long.
+void SignalExtremes::refine(double shortest)
+{
+  for (int first = begin_; first + window <= n_;)
+  {
+    const double piece = 0.25 * (samples_[first + window - 1].t - samples_[first].t);
+    if (piece > shortest && n_ < begin_ + most && rough(first))
+      halve(first);
+    else
+      first += window - 1;
+  }
+}
+
+/// Of the window that begins there.
+void SignalExtremes::halve(int first)
+{
+  constexpr int added = window - 1;
+  if (n_ + added > int(samples_.size()))
+    samples_.resize(2 * samples_.size(), probe_);
+  std::rotate(samples_.begin() + first + window, samples_.begin() + n_, samples_.begin() + n_ + added);
+  n_ += added;
+  for (int piece = added; piece > 0; --piece)
+    std::swap(samples_[first + piece], samples_[first + 2 * piece]);
+  for (int k = first + 1; k < first + 2 * added; k += 2)
+  {
+    run_.evaluate(0.5 * (samples_[k - 1].t + samples_[k + 1].t), samples_[k]);
+    see(samples_[k]);
+  }
+}
+
+void SignalExtremes::keep_the_last()
+{
+  const int kept = std::min(n_, window - 1);
+  std::rotate(samples_.begin(), samples_.begin() + (n_ - kept), samples_.begin() + n_);
+  n_     = kept;
+  begin_ = kept - 1;
+}
+
+/// What a signal ranges over, so far: not below rounding, and a share of what others of its unit do.
+double SignalExtremes::range(std::size_t signal) const
+{
+  const auto   own    = [&](std::size_t i) { return summaries_[i].max - summaries_[i].min; };
+  const double value  = std::max(std::abs(summaries_[signal].max), std::abs(summaries_[signal].min));
+  double       widest = 0.;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    if (like_[i] == like_[signal])
+      widest = std::max(widest, own(i));
+  return std::max({own(signal), at_rest * widest, rounding * value});
+}
+
+bool SignalExtremes::rough(int first) const
+{
+  if (first < 0)
+    return true;
+  const SignalSample *s = &samples_[first];
+  double              weight[window], longest = 0.;
+  for (int j = 1; j < window; ++j)
+    longest = std::max(longest, s[j].t - s[j - 1].t);
+  for (int j = 0; j < window; ++j)
+  {
+    weight[j] = 1.;
+    for (int k = 0; k < window; ++k)
+      if (k != j)
+        weight[j] *= longest / (s[j].t - s[k].t);
+  }
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+  {
+    double difference = 0.;
+    for (int j = 0; j < window; ++j)
+      difference += weight[j] * s[j].values[i];
+    const double missing = std::abs(difference) / missed;
+    if (watched_[i] && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
+      return true;
+  }
+  return false;
+}
+
+void SignalExtremes::see(const SignalSample &sample)
+{
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    see(i, sample.t, sample.values[i]);
+}
+
+void SignalExtremes::see(std::size_t signal, double t, double value)
+{
+  SignalSummary &summary = summaries_[signal];
+  if (!watched_[signal])
+    return;
+  if (value < summary.min)
+  {
+    summary.min   = value;
+    summary.t_min = t;
+  }
+  if (value > summary.max)
+  {
+    summary.max   = value;
+    summary.t_max = t;
+  }
+}
+
+/// Looks for extremes beyond those seen about three successive samples, inside the last step.
+void SignalExtremes::turn(int middle)
+{
+  const SignalSample &a = samples_[middle - 1], &b = samples_[middle], &c = samples_[middle + 1];
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    for (const double sign : {-1., 1.})
+    {
+      const SignalSummary &summary = summaries_[i];
+      Point                top;
+      if (!watched_[i])
+        continue;
+      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
+      if (turns && top.f > (sign > 0. ? summary.max : -summary.min))
+        search(i, sign, middle);
+    }
+}
+
+/// The maximum of sign * signal on the dense output, by parabolas that close in on it.
+void SignalExtremes::search(std::size_t signal, double sign, int middle)
+{
+  std::array<Point, 3> p;
+  for (int k = 0; k < 3; ++k)
+    p[k] = {samples_[middle - 1 + k].t, sign * samples_[middle - 1 + k].values[signal]};
+  const double close = 1e-6 * (p[2].t - p[0].t);
+  Point        top;
+  for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
+  {
+    if (top.t < samples_[begin_].t)
+      return; // in the step before, where it was looked for
+    // A peak that seems to lie outside is looked for at the end, from inside.
+    if (top.t >= p[2].t)
+      top.t = 0.25 * p[1].t + 0.75 * p[2].t;
+    else if (top.t <= p[0].t)
+      top.t = 0.25 * p[1].t + 0.75 * p[0].t;
+    const bool found = std::any_of(p.begin(), p.end(), [&](const Point &x) { return std::abs(x.t - top.t) < close; });
+    if (found)
+      return;
+    run_.evaluate(top.t, probe_);
+    top.f = sign * probe_.values[signal];
+    see(probe_);
+    // The end that is farther away gives place.
+    p[top.t - p[0].t > p[2].t - top.t ? 0 : 2] = top;
+    std::sort(p.begin(), p.end(), [](const Point &x, const Point &y) { return x.t < y.t; });
+  }
+}
+
+} // namespace gestell::coupling

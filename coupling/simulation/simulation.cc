@@ -1,0 +1,431 @@
+#include "coupling/simulation/simulation.h"
+
+#include "coupling/integration/events/event_driver.h"
+#include "coupling/machine/constraint_rank.h"
+#include "coupling/machine/element_law.h"
+#include "coupling/simulation/checks/fast_forces.h"
+#include "coupling/simulation/checks/gyroscopic_moments.h"
+#include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/simulation/recorder.h"
+#include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/journal_bearing.h"
+#include "mechanism/elements/point_contact.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double most_steps = 1e10, most_bytes = 1e9;
+constexpr double seldom            = 1e-4; ///< share of a run whose events need not be located
+constexpr double often             = 0.1;  ///< share of controlled steps that go over events
+constexpr double samples_of_period = 32.;
+
+/// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
+/// plane, die away to such numbers, on which a processor is seven times slower.
+class NoTinyNumbers
+{
+public:
+#ifdef __SSE2__
+  NoTinyNumbers() : before_(_mm_getcsr())
+  {
+    _mm_setcsr(before_ | flush_to_zero | denormals_are_zero);
+  }
+  ~NoTinyNumbers()
+  {
+    _mm_setcsr(before_);
+  }
+#else
+  NoTinyNumbers() = default;
+#endif
+  NoTinyNumbers(const NoTinyNumbers &)            = delete;
+  NoTinyNumbers &operator=(const NoTinyNumbers &) = delete;
+
+private:
+#ifdef __SSE2__
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  unsigned                  before_;
+#endif
+};
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts &...parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+bool controlled(const MethodOptions &method)
+{
+  return method.tolerance > 0.;
+}
+
+/// Highest frequency [rad/s] among the loads; 0 if they are constant.
+double fastest_load(const Machine &machine)
+{
+  double omega = 0.;
+  for (const Excitation::Harmonic &harmonic : machine.excitation().harmonics())
+    omega = std::max(omega, harmonic.omega);
+  return omega;
+}
+
+void check_load_period(const Machine &machine, const RunOptions &options)
+{
+  const double omega = fastest_load(machine), h = options.method.step;
+  if (!(omega > 0.) || h * omega < 2. * M_PI)
+    return;
+  const double period = 2. * M_PI / omega;
+  refuse("run.step is ", h, " s, longer than a period of the load of ", 1. / period, " Hz, ", period,
+         " s, so that it would be missed; take at most a twentieth of it, ", period / 20., " s");
+}
+
+void check_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
+{
+  constexpr double most_pictures = 2e4;
+  const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
+  if (!options.allow_large && count > most_pictures)
+    refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
+           options.picture_step, " s, or say output.allow_large = true if that is what you want");
+  const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.);
+  const double history      = 8. * columns * (length / output_step(options) + 1.),
+               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
+               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.,
+               pictures     = 8. * machine.size() * (length * picture_rate + 1.),
+               states       = 8. * machine.size() * (length * state_rate + 1.);
+  if (!options.allow_large && states > most_bytes)
+    refuse("the run would keep ", states / 1e9,
+           " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
+           options.states.step, " s, or say output.allow_large = true");
+  if (options.allow_large || history + pictures <= most_bytes)
+    return;
+  refuse("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,
+         " GB of states for pictures; give output.step", history > pictures ? "" : " or output.picture_step",
+         " a larger value than ", history > pictures ? output_step(options) : options.picture_step,
+         " s, or say output.allow_large = true if that is what you want");
+}
+
+/// The largest step of a controlled one: small enough that no load goes by between two steps.
+MethodOptions with_largest_step(const Machine &machine, const RunOptions &options)
+{
+  MethodOptions method = options.method;
+  if (!controlled(method) || method.step > 0.)
+    return method;
+  method.step        = (options.end - options.begin) / 50.;
+  const double omega = fastest_load(machine);
+  if (omega > 0.)
+    method.step = std::min(method.step, 0.25 * M_PI / omega);
+  return method;
+}
+
+/// Fixed steps of implicit methods are short against what they show; controlled ones are as long as their order allows.
+/// Exact propagation shows modes far above its step: 32 samples in a period show them.
+Sampling sampling(const Machine &machine, const MethodOptions &method)
+{
+  Sampling sampling;
+  sampling.inside = controlled(method);
+  if (method.method != Method::exact)
+    return sampling;
+  for (const SpectrumLine &mode : machine.spectrum())
+    if (mode.omega > 0.)
+      sampling.shortest = std::min(sampling.shortest, 2. * M_PI / (samples_of_period * mode.omega));
+  // Up to 0.8 rad a step is as short against all modes as those of implicit methods.
+  sampling.inside = sampling.inside || method.step > 4. * sampling.shortest;
+  return sampling;
+}
+
+void take_work(const IntegrationWork &work, const EventDriver &driver, const RunOptions &options, RunResult &result)
+{
+  static_cast<IntegrationWork &>(result.work) = work;
+  result.work.chatter                         = driver.chattering_steps();
+  const double share                          = driver.chattering_time() / (options.end - options.begin);
+  if (work.rejected > 0 && !controlled(options.method))
+    result.warnings.push_back("Newton failed in " + std::to_string(work.rejected) + " steps; they were divided");
+  if (result.work.chatter == 0)
+    return;
+  // Controlled steps that go over events still keep their tolerance.
+  if (controlled(options.method) ? result.work.chatter < often * double(work.steps) : share < seldom)
+    return;
+  std::ostringstream text;
+  text << "chatter: " << result.work.chatter << " steps, " << 100. * share
+       << " % of the run, had more events than are located; they were gone over";
+  result.warnings.push_back(text.str());
+}
+
+/// Refuses an unstable method, or tells of it if it was forced.
+void guard(const Machine &machine, const InitialState &initial, const RunOptions &options, const MethodOptions &method,
+           RunResult &result)
+{
+  const LinearSpectrum spectrum = spectrum_for(machine, initial, method);
+  const StabilityGuard guard(spectrum, method);
+  result.accuracy = guard.modes();
+  result.warnings = guard.warnings();
+  try
+  {
+    guard.check();
+  }
+  catch (const std::invalid_argument &unstable)
+  {
+    if (!options.force_unstable)
+      throw;
+    result.warnings.push_back(std::string("run.force_unstable: ") + unstable.what());
+  }
+}
+
+bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
+{
+  return std::any_of(events.begin(), events.end(),
+                     [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
+}
+
+/// The time from which the run begins tells a switch to act at the start, as meant.
+bool at_the_start(const Switch &own, double begin)
+{
+  return own.signal == "t" && own.level == begin;
+}
+
+/// Switches that never act, or act before anything has moved, are seldom meant.
+void warn_of_switches(const Machine &machine, double begin, RunResult &result)
+{
+  for (const Event &event : result.events)
+    if (event.kind == "switch" && event.t == begin &&
+        std::none_of(machine.switches().begin(), machine.switches().end(),
+                     [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
+      result.warnings.push_back("switch " + event.name +
+                                " was thrown at the start: its signal lay at the value or beyond it already");
+  if (!result.failure.empty() || result.interrupted)
+    return;
+  for (int i = 0; i < machine.n_guards(); ++i)
+    if (const ActiveGuard guard = machine.guard(i); guard.kind == "switch" && !happened(result.events, guard))
+      result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
+}
+
+/// Positions that are given may lie inside a stop, which then throws the body out.
+void warn_of_closed_contacts(const Machine &machine, const InitialState &initial, RunResult &result)
+{
+  LocalState local;
+  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
+  for (const std::string &contact : machine.closed_contacts(local))
+    result.warnings.push_back("the start lies inside the contact of " + contact +
+                              "; it pushes from the first instant on. If that is not meant, change the position or the "
+                              "play, or start with rule = \"static\"");
+}
+
+/// Taken step by step, the sign of a friction is that of the last step: it may hold what it cannot.
+void warn_of_friction(const Machine &machine, const RunOptions &options, RunResult &result)
+{
+  if (options.events)
+    return;
+  for (const ElementPlacement &placement : machine.elements())
+    if (law_of<mechanism::CoulombFriction>(placement))
+    {
+      result.warnings.push_back("run.events = false, but the dry friction of \"" + placement.name +
+                                "\" is made for located events: without them it may hold more than its limit, or "
+                                "chatter; leave run.events true, or take the type \"friction\"");
+      return;
+    }
+}
+
+/// Ends a run whose controlled steps have become so short that it would never end.
+class CrawlWatch
+{
+public:
+  explicit CrawlWatch(const RunOptions &options) : options_(options), from_(options.begin) {}
+
+  /// @throws ConvergenceFailure if the rest of the run would need more than `most_steps` at the pace of the last ones.
+  void look(double t)
+  {
+    const double steps = window * (options_.end - t) / std::max(t - from_, 1e-300);
+    if (steps > most_steps)
+    {
+      std::ostringstream text;
+      text << "controlled steps have become too short to reach the end: " << window << " steps from t = " << from_
+           << " s took " << t - from_ << " s, and at this pace the rest would need " << steps
+           << "; take a larger run.tolerance";
+      throw ConvergenceFailure(text.str());
+    }
+    from_ = t;
+  }
+
+  static constexpr long window = 1L << 15;
+
+private:
+  const RunOptions &options_;
+  double            from_;
+};
+
+EventDriver event_driver(Machine &machine, TimeIntegrator &integrator, const RunOptions &options)
+{
+  EventOptions events;
+  events.locate = options.events;
+  events.end    = options.end;
+  return {machine, integrator, events};
+}
+
+/// Of a run that did not get to its first instant nothing is known.
+void fail_at_start(const ConvergenceFailure &failure, RunResult &result)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  result.failure        = std::string("the machine does not start: ") + failure.what();
+  for (SignalSummary &signal : result.signals)
+    signal.min = signal.t_min = signal.max = signal.t_max = signal.final = none;
+}
+
+/// What may lie behind a step that was not solved.
+std::string advice(const Machine &machine, const MethodOptions &method, const Instant &last)
+{
+  std::string text;
+  if (const std::string joint = JointRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
+    text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
+            " is about to follow from the other joints; keep it off there, or make a joint compliant";
+  bool rubs = false;
+  for (const ElementPlacement &placement : machine.elements())
+    rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
+  if (rubs && controlled(method))
+    text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
+            "develops, or take a fixed step";
+  return text;
+}
+
+void warn_of_fast_loads(const Machine &machine, RunResult &result)
+{
+  const ReducedFrame *frame = machine.reduced_frame();
+  if (!frame || !(frame->frequency_limit_hz > 0.))
+    return;
+  const double fastest = fastest_load(machine) / (2. * M_PI);
+  if (fastest <= frame->frequency_limit_hz)
+    return;
+  std::ostringstream text;
+  text << "a load has " << fastest << " Hz, but the reduced frame is meant to hold up to " << frame->frequency_limit_hz
+       << " Hz only: give reduction.frequency a larger value, or the model does not contain what this load excites";
+  result.warnings.push_back(text.str());
+}
+
+} // namespace
+
+double output_step(const RunOptions &options)
+{
+  if (options.output_step > 0.)
+    return options.output_step;
+  return controlled(options.method) ? (options.end - options.begin) / 2000. : options.method.step;
+}
+
+void check_run(const Machine &machine, const RunOptions &options, std::size_t n_signals)
+{
+  check_method(options.method);
+  if (!(options.end > options.begin))
+    refuse("run.end is ", options.end, " s; it must lie after the start at ", options.begin, " s");
+  if (!controlled(options.method) && !((options.end - options.begin) / options.method.step <= most_steps))
+    refuse("run.step is ", options.method.step, " s; that makes more than 1e10 steps; take a longer one");
+  check_load_period(machine, options);
+  check_size(machine, options, n_signals);
+}
+
+void try_start(Machine &machine, const InitialState &initial, const RunOptions &options)
+{
+  const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, with_largest_step(machine, options));
+  event_driver(machine, *integrator, options).begin(options.begin, initial.q, initial.v);
+}
+
+RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
+                   const std::vector<Signal> &signals, const std::function<void(double)> &progress,
+                   const std::atomic<bool> *stop)
+{
+  const NoTinyNumbers while_it_runs;
+  check_run(machine, options, signals.size());
+  machine.will_read(signals);
+  const MethodOptions method = with_largest_step(machine, options);
+  RunResult           result;
+  guard(machine, initial, options, method, result);
+  const auto wall_start = std::chrono::steady_clock::now();
+  result.method         = method_name(method);
+  warn_of_fast_loads(machine, result);
+  result.warnings.insert(result.warnings.end(), initial.notes.begin(), initial.notes.end());
+  if (!initial.settled)
+    warn_of_closed_contacts(machine, initial, result);
+  warn_of_friction(machine, options, result);
+
+  const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
+  EventDriver                           driver     = event_driver(machine, *integrator, options);
+  Recorder recorder(machine, *integrator, options, signals, sampling(machine, method), result);
+  try
+  {
+    driver.begin(options.begin, initial.q, initial.v);
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    fail_at_start(failure, result);
+    return result;
+  }
+  CylinderWatch  cylinders(machine, *integrator);
+  StiffnessWatch stiffness(machine, initial, method);
+  FastForces     fast_forces(machine, *integrator);
+  driver.on_step(
+      [&]
+      {
+        recorder.step();
+        cylinders.step();
+        if (!options.force_unstable)
+          stiffness.step(integrator->local());
+        fast_forces.step();
+      });
+  driver.on_event(
+      [&](const Event &event)
+      {
+        recorder.jump(event.name);
+        fast_forces.jump();
+      });
+  recorder.begin();
+  cylinders.begin();
+  fast_forces.begin();
+
+  const long   progress_every = machine.size() > 1000 ? 4 : 1024;
+  CrawlWatch   crawl(options);
+  const double finish = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
+  try
+  {
+    for (long k = 1; integrator->time() < finish; ++k)
+    {
+      driver.advance();
+      if (stop && stop->load(std::memory_order_relaxed))
+      {
+        result.interrupted = true;
+        break;
+      }
+      if (progress && k % progress_every == 0)
+        progress(integrator->time());
+      if (k % CrawlWatch::window == 0 && controlled(method))
+        crawl.look(integrator->time());
+    }
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    result.failure = failure.what() + advice(machine, method, integrator->instant());
+  }
+  recorder.finish();
+  result.events = driver.events();
+  warn_of_switches(machine, options.begin, result);
+  take_work(integrator->work(), driver, options, result);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  for (const std::string &warning : cylinders.warnings())
+    result.warnings.push_back(warning);
+  if (std::string warning = fast_forces.warning(); !warning.empty())
+    result.warnings.push_back(std::move(warning));
+  const Eigen::VectorXd &v = integrator->instant().v;
+  for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
+    result.warnings.push_back(warning);
+  return result;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,100 @@
+#include "fem/assembly/block_matrix.h"
+
+#include "fem/parallel/petsc_session.h"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+void check(PetscErrorCode code)
+{
+  if (code != 0)
+    throw std::runtime_error("BlockMatrix: PETSc reports error " + std::to_string(code) + "; memory may be short.");
+}
+
+/// Number of different partners of each node, itself included.
+std::vector<int> partners(int n_nodes, const int *elements, std::size_t n_elements, std::size_t n)
+{
+  std::vector<int> first(n_nodes + 1, 0); // elements at a node, as compressed lists
+  for (std::size_t i = 0; i < n_elements * n; ++i)
+    ++first[elements[i] + 1];
+  for (int i = 0; i < n_nodes; ++i)
+    first[i + 1] += first[i];
+  std::vector<int> at(n_elements * n), next(first.begin(), first.end() - 1);
+  for (std::size_t i = 0; i < n_elements * n; ++i)
+    at[next[elements[i]]++] = static_cast<int>(i / n);
+
+  std::vector<int> count(n_nodes, 0), seen(n_nodes, -1);
+  for (int node = 0; node < n_nodes; ++node)
+    for (int k = first[node]; k < first[node + 1]; ++k)
+      for (std::size_t j = 0; j < n; ++j)
+        if (const int other = elements[at[k] * n + j]; seen[other] != node)
+        {
+          seen[other] = node;
+          ++count[node];
+        }
+  return count;
+}
+
+} // namespace
+
+BlockMatrix::BlockMatrix(int block_size, int n_nodes, const int *elements, std::size_t n_elements, std::size_t n)
+    : block_size_(block_size), n_nodes_(n_nodes)
+{
+  petsc_session();
+  const std::vector<int> count = partners(n_nodes, elements, n_elements, n);
+  const int              size  = block_size * n_nodes;
+  check(MatCreateSeqBAIJ(PETSC_COMM_SELF, block_size, size, size, 0, count.data(), &matrix_));
+  check(MatSetOption(matrix_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+}
+
+BlockMatrix::~BlockMatrix()
+{
+  if (matrix_ != nullptr)
+    MatDestroy(&matrix_);
+}
+
+BlockMatrix::BlockMatrix(BlockMatrix &&other) noexcept
+    : block_size_(other.block_size_), n_nodes_(other.n_nodes_), matrix_(std::exchange(other.matrix_, nullptr))
+{
+}
+
+void BlockMatrix::add(const int *nodes, int n, const double *values)
+{
+  check(MatSetValuesBlocked(matrix_, n, nodes, n, nodes, values, ADD_VALUES));
+}
+
+void BlockMatrix::add_block(int row, int column, const double *values)
+{
+  check(MatSetValuesBlocked(matrix_, 1, &row, 1, &column, values, ADD_VALUES));
+}
+
+void BlockMatrix::finish()
+{
+  check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+}
+
+BlockMatrix::Rows BlockMatrix::rows() const
+{
+  Rows         rows{};
+  PetscInt     n      = 0;
+  PetscBool    done   = PETSC_FALSE;
+  PetscScalar *values = nullptr;
+  check(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &n, &rows.begin, &rows.columns, &done));
+  check(MatSeqBAIJGetArray(matrix_, &values));
+  assert(done == PETSC_TRUE && n == n_nodes_);
+  rows.values = values;
+  check(MatSeqBAIJRestoreArray(matrix_, &values));
+  return rows;
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "fem/geometry/cad_file.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// A body by the integrals over its volume, in the coordinates of its file and of density one.
+struct Part
+{
+  std::vector<std::string> solids;                            ///< names; their integrals are summed
+  double                   volume  = 0.;                      ///< [m^3]
+  Eigen::Vector3d          centre  = Eigen::Vector3d::Zero(); ///< of volume [m]
+  Eigen::Matrix3d          inertia = Eigen::Matrix3d::Zero(); ///< about the centre, int (r.r I - r r^T) dV [m^5]
+
+  /// Skin for pictures; empty where gmsh cannot mesh the surfaces.
+  std::vector<std::array<double, 3>> points;    ///< [m]
+  std::vector<std::array<int, 3>>    triangles; ///< outside counter-clockwise
+};
+
+/**
+ * Volume, centre and inertia of the solids in a .step, .stp, .brep, .geo, .msh or .stl file.
+ *
+ * Of CAD by OpenCASCADE's integrals over the faces, of tetrahedra and of closed triangles by exact sums; the unit is as
+ * in open_cad(), for a .stl it must be given.
+ *
+ * @throws std::invalid_argument as open_cad(), or if a surface of triangles is open or solids overlap.
+ */
+Part measure_part(const CadSource &source);
+
+} // namespace gestell::fem

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "fem/values/frame_specification.h"
+#include "fem/values/mesh.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// The materials of a frame, and which of them each cell is made of.
+struct CellMaterials
+{
+  std::vector<Material> materials; ///< of each solid
+  std::vector<int>      of_cell;   ///< index into materials
+
+  const Material &operator[](std::size_t cell) const { return materials[of_cell[cell]]; }
+};
+
+/**
+ * The material of each solid: the last of specification.materials whose pattern fits its name, else
+ * specification.material.
+ *
+ * @throws std::invalid_argument for impossible materials (require_valid) and for a pattern no solid's name fits, with
+ *         the names there are.
+ */
+CellMaterials cell_materials(const Mesh &mesh, const FrameSpecification &specification);
+
+} // namespace gestell::fem

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "fem/assembly/affine_constraints.h"
+#include "fem/assembly/block_matrix.h"
+#include "fem/assembly/cell_materials.h"
+#include "fem/assembly/quadratic_mesh.h"
+#include "fem/values/frame_matrices.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// What every node has of the mass: the row sums of M, and its first moments.
+struct NodalMasses
+{
+  Eigen::VectorXd  mass;   ///< [n_nodes] int rho N_a dV [kg]
+  Eigen::Matrix3Xd moment; ///< [3 x n_nodes] int rho N_a (x - origin) dV [kg m]
+};
+NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const Eigen::Vector3d &origin);
+
+/// Mass, centre and inertia of all cells: M carries linear fields exactly, so  S = sum_ab M_ab x_a x_b^T  is
+/// int rho x x^T dV and  J = tr(S) I - S.
+/// @param origin of the moments; best near the centre, where no digits are lost.
+MassProperties weigh(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin);
+
+/// Load of a unit acceleration field in x, y, z [n x 3].
+Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinematics &kinematics);
+
+/// Mass and material of every solid.
+std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                           const CellMaterials &materials);
+
+/// Energies u^T C u of the six rigid motions, and |u|^T |C| |u|, whose terms cancel in them.
+struct RigidEnergies
+{
+  Eigen::Matrix<double, 6, 1> energy     = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 1> cancelling = Eigen::Matrix<double, 6, 1>::Zero();
+
+  /// Largest quotient: rounding, unless an element is wrong.
+  double share() const { return (energy.array().abs() / cancelling.array()).maxCoeff(); }
+};
+
+Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh);
+
+/// Of the rigid motions about `middle`: the part of these nodes, all of whose rows of C are whole.
+/// @param C of the free frame, without foundations.
+RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle,
+                             const std::vector<int> &nodes);
+
+} // namespace gestell::fem

@@ -1,0 +1,188 @@
+#include "fem/assembly/interfaces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+Vector3d corner(const QuadraticMesh &mesh, const std::array<int, 6> &face, int k)
+{
+  return Eigen::Map<const Vector3d>(mesh.points[face[k]].data());
+}
+
+Vector3d nearest_on_segment(const Vector3d &x, const Vector3d &a, const Vector3d &b)
+{
+  return a + std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.) * (b - a);
+}
+
+/// The foot of the perpendicular if it lies inside, else the nearest point of the three edges.
+Vector3d nearest_on_triangle(const Vector3d &x, const std::array<Vector3d, 3> &corners)
+{
+  const auto &[a, b, c]    = corners;
+  const Vector3d n         = (b - a).cross(c - a).normalized();
+  const Vector3d foot      = x - n.dot(x - a) * n;
+  const auto     is_inside = [&](const Vector3d &p, const Vector3d &q) { return (q - p).cross(foot - p).dot(n) >= 0.; };
+  if (is_inside(a, b) && is_inside(b, c) && is_inside(c, a))
+    return foot;
+  Vector3d best = nearest_on_segment(x, a, b);
+  for (const Vector3d &other : {nearest_on_segment(x, b, c), nearest_on_segment(x, c, a)})
+    if ((other - x).squaredNorm() < (best - x).squaredNorm())
+      best = other;
+  return best;
+}
+
+struct NearestPoint
+{
+  Vector3d position;
+  int      node; ///< corner of the triangle it lies on that is nearest to it
+};
+
+NearestPoint nearest_point(const SurfacePatch &patch, const QuadraticMesh &mesh, const Vector3d &x)
+{
+  NearestPoint result{Vector3d::Constant(std::numeric_limits<double>::max()), -1};
+  double       least = std::numeric_limits<double>::max();
+  for (const auto &face : patch.faces)
+  {
+    const std::array<Vector3d, 3> corners{corner(mesh, face, 0), corner(mesh, face, 1), corner(mesh, face, 2)};
+    const Vector3d                point = nearest_on_triangle(x, corners);
+    if (!((point - x).squaredNorm() < least))
+      continue;
+    least           = (point - x).squaredNorm();
+    const auto near = std::min_element(corners.begin(), corners.end(),
+                                       [&](const Vector3d &a, const Vector3d &b)
+                                       { return (a - point).squaredNorm() < (b - point).squaredNorm(); });
+    result          = {point, face[near - corners.begin()]};
+  }
+  return result;
+}
+
+using Triangles = std::vector<std::array<int, 6>>;
+
+Triangles triangles_of(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic)
+{
+  if (!interface.surfaces.empty())
+    return surface_patch(mesh, quadratic, interface.surfaces, interface.what + " \"" + interface.name + "\"",
+                         interface.place)
+        .faces;
+  return quadratic.skin;
+}
+
+std::string metres(const Vector3d &x)
+{
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ") m";
+  return text.str();
+}
+
+} // namespace
+
+CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic)
+{
+  if (!interface.position)
+    throw std::invalid_argument((interface.place.empty() ? "" : interface.place + ": ") + interface.what + " \"" +
+                                interface.name +
+                                "\" is a single node, which is found by its position; give one, near a node.");
+  const Eigen::Map<const Vector3d> wanted(interface.position->data());
+  int                              nearest = -1;
+  double                           least   = std::numeric_limits<double>::max();
+  for (const auto &face : triangles_of(interface, mesh, quadratic))
+    for (int k = 0; k < 3; ++k)
+      if (const double squared = (corner(quadratic, face, k) - wanted).squaredNorm(); squared < least)
+      {
+        least   = squared;
+        nearest = face[k];
+      }
+  CoupledPatch coupled{interface, {}, Vector3d(quadratic.points[nearest].data())};
+  coupled.patch.nodes    = {nearest};
+  coupled.patch.centroid = coupled.position;
+  return coupled;
+}
+
+namespace
+{
+
+/// Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge of h
+/// of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
+constexpr double facets_off = 0.25;
+
+} // namespace
+
+std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance)
+{
+  std::vector<std::string> notes;
+  for (const CoupledPatch &coupled : interfaces)
+  {
+    const InterfaceSpecification &own     = coupled.specification;
+    const bool                    is_node = own.coupling == InterfaceCoupling::node;
+    if (!is_node && (own.coupling != InterfaceCoupling::point || !own.position))
+      continue;
+    const Eigen::Map<const Vector3d> wanted(own.position->data());
+    const double                     distance = (coupled.position - wanted).norm();
+    if (distance <= (is_node ? tolerance : std::max(tolerance, facets_off * std::sqrt(coupled.patch.area))))
+      continue;
+    std::ostringstream text;
+    text << own.what << " \"" << own.name << "\" is the " << (is_node ? "node" : "point of its surface") << " at "
+         << metres(coupled.position) << ", " << 1e3 * distance << " mm from its position " << metres(wanted)
+         << (is_node ? ": elsewhere the mesh has none; a vertex of the geometry is always one"
+                     : ": give a position on the surface, or take coupling = \"average\" for a node beside it");
+    notes.push_back(text.str());
+  }
+  return notes;
+}
+
+std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance)
+{
+  std::vector<std::string> notes;
+  for (const CoupledPatch &coupled : interfaces)
+  {
+    const InterfaceSpecification &own = coupled.specification;
+    const double                  off = (coupled.position - coupled.patch.centroid).norm();
+    if (off <= distance)
+      continue;
+    std::ostringstream text;
+    text << own.what << " \"" << own.name << "\" stands at " << metres(coupled.position) << ", " << off
+         << " m from the middle of its surface and farther than the frame is large: the position is in metres where it "
+            "has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres";
+    notes.push_back(text.str());
+  }
+  return notes;
+}
+
+void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh)
+{
+  const InterfaceSpecification &own     = coupled.specification;
+  const NearestPoint            nearest = nearest_point(coupled.patch, mesh, coupled.position);
+
+  std::vector<std::array<int, 6>> faces;
+  for (const auto &face : coupled.patch.faces)
+  {
+    const Vector3d centroid = (corner(mesh, face, 0) + corner(mesh, face, 1) + corner(mesh, face, 2)) / 3.;
+    const bool     belongs  = own.radius > 0. ? (centroid - nearest.position).norm() <= own.radius
+                                              : std::find(face.begin(), face.begin() + 3, nearest.node) != face.begin() + 3;
+    if (belongs)
+      faces.push_back(face);
+  }
+  if (faces.empty())
+  {
+    std::ostringstream message;
+    message << (own.place.empty() ? "" : own.place + ": ") << own.what << " \"" << own.name
+            << "\": no triangle of its surface has its centroid within the radius of " << own.radius << " m about ("
+            << nearest.position.transpose() << ") m; take a larger radius or mesh the surface finer.";
+    throw std::invalid_argument(message.str());
+  }
+  coupled.position = nearest.position;
+  coupled.patch    = surface_patch(mesh, std::move(faces));
+}
+
+} // namespace gestell::fem

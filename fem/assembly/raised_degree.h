@@ -1,0 +1,69 @@
+#pragma once
+
+#include "fem/assembly/affine_constraints.h"
+#include "fem/assembly/cell_materials.h"
+#include "fem/assembly/quadratic_mesh.h"
+#include "fem/values/frame_matrices.h"
+
+#include <array>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/**
+ * Functions of degree three beside the quadratics N of a mesh, each a linear function times one of them:
+ *
+ *     tetrahedra:  (L_a - L_b) N_ab  of every edge,  L_c N_ab  of every face: with them all cubics
+ *     hexahedra:   xi_d N_m  amid every line of nodes along xi_d
+ *
+ * They vanish at the nodes' faces, edges and lines they do not belong to, so that neighbours that share these share
+ * them.
+ */
+class CubicFunctions
+{
+public:
+  explicit CubicFunctions(const QuadraticMesh &mesh);
+
+  /// A function within the reference cell.
+  struct Local
+  {
+    int                amid;        ///< node m whose N it is made of
+    Eigen::Vector4d    line;        ///< l = line[0] + line[1..3] . xi
+    std::array<int, 3> nodes;       ///< whose places it is known by
+    bool               odd;         ///< changes its sign with the order of nodes[0] and nodes[2]
+    std::vector<int>   vanish_with; ///< where all these nodes are held it is
+  };
+
+  int                       size() const { return static_cast<int>(vanish_with_.size()); }
+  const std::vector<Local> &of_cell() const { return local_; }
+  /// Number and sign of every function of a cell.
+  const std::vector<std::pair<int, double>> &numbers(int cell) const { return numbers_[cell]; }
+  const std::vector<int>                    &vanish_with(int function) const { return vanish_with_[function]; }
+
+private:
+  std::vector<Local>                               local_;
+  std::vector<std::vector<std::pair<int, double>>> numbers_;
+  std::vector<std::vector<int>>                    vanish_with_;
+};
+
+/// A frame in elements of degree three on the same mesh: its own coordinates and those of the cubic functions.
+struct RaisedFrame
+{
+  SparseMatrix     C, M;
+  std::vector<int> place; ///< of each coordinate of the frame
+};
+
+/**
+ * Its C and M extended by cubic functions, which vanish on what is clamped or moves with an interface; foundations and
+ * attached masses act on the quadratics alone.
+ *
+ * @param C, M  of the frame.
+ */
+RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
+                         const SparseMatrix &C, const SparseMatrix &M);
+
+/// Coordinates it will have about, of a frame with n: tetrahedra share 3.5 functions each, hexahedra 16 (thin walls).
+double raised_coordinates(const QuadraticMesh &mesh, double n);
+
+} // namespace gestell::fem

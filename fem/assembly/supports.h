@@ -1,0 +1,59 @@
+#pragma once
+
+#include "fem/assembly/affine_constraints.h"
+#include "fem/assembly/block_matrix.h"
+#include "fem/assembly/surface_patch.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// A support with its surfaces found.
+struct SupportedPatch
+{
+  Support      support;
+  SurfacePatch patch;
+};
+
+/**
+ * Finds the surfaces and checks the numbers; what was given per area becomes the total.
+ *
+ * @throws std::invalid_argument for unknown surfaces, negative stiffness or damping, a foundation with none.
+ */
+std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                          const std::vector<Support> &supports);
+
+/// Holds the displacements of clamped supports.
+void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints);
+
+/**
+ * Adds elastic foundations:  sum_d (k_d / A) a_d a_d^T int N N^T dA,  k_d the total stiffness [N/m] along the axis a_d.
+ *
+ * @param totals Support::stiffness (into C) or Support::damping (into B).
+ */
+void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix);
+
+/// Foundations alone: with their damping, B of the free frame.
+BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes);
+
+/**
+ * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
+ *
+ * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
+ * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh;
+ *               less their weight, so that at rest the supports carry all of the frame.  Their inertia M u'', which
+ *               moves only with the elements at the clamp, is not contained, nor alpha M u'.  Damping by modal ratios
+ *               has no force on a support.  A node of several supports counts for the first.
+ *
+ * @param C                   of the free frame, without foundations.
+ * @param nodal_mass          [nodes] sums of the rows of M [kg].
+ * @param rayleigh_stiffness  beta [s] of all cells.
+ */
+std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
+                                        const Kinematics &kinematics, const Eigen::VectorXd &nodal_mass,
+                                        double rayleigh_stiffness);
+
+} // namespace gestell::fem

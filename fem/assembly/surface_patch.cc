@@ -1,0 +1,170 @@
+#include "fem/assembly/surface_patch.h"
+
+#include "fem/assembly/elasticity.h"
+#include "fem/mesh/hexahedron.h"
+#include "fem/values/nearest_name.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+std::string head(const std::string &place, const std::string &owner)
+{
+  return place.empty() ? owner : place + ": " + owner;
+}
+
+std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &surfaces, const std::string &head)
+{
+  if (surfaces.empty())
+    throw std::invalid_argument(head + " names no surface; give at least one.");
+  std::vector<std::string> known;
+  for (const auto &entry : mesh.surfaces)
+    known.push_back(entry.first);
+
+  std::set<int> triangles;
+  for (const std::string &name : surfaces)
+  {
+    const auto surface = mesh.surfaces.find(name);
+    if (surface == mesh.surfaces.end())
+      throw std::invalid_argument(head + " names the surface \"" + name + "\", which the frame does not have; " +
+                                  nearest_names(name, known) + ".");
+    if (surface->second.empty())
+      throw std::invalid_argument(head + ": the surface \"" + name +
+                                  "\" has no triangle; select a face of the skin or mesh finer.");
+    triangles.insert(surface->second.begin(), surface->second.end());
+  }
+  return triangles;
+}
+
+/// Whether a side is off the middle of its ends by more than rounding.
+bool is_curved(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  const auto node = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
+  for (int k = 0; k < 3; ++k)
+    if (const Eigen::Vector3d side = node((k + 1) % 3) - node(k);
+        (node(3 + k) - node(k) - 0.5 * side).norm() > 1e-10 * side.norm())
+      return true;
+  return false;
+}
+
+/// Area, int x dA and int N_a N_b dA of a triangle with curved sides.
+struct CurvedTriangle
+{
+  double                      area   = 0.;
+  Eigen::Vector3d             moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 6, 6> mass   = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+CurvedTriangle curved_triangle(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  Eigen::Matrix<double, 3, 6> X;
+  for (int a = 0; a < 6; ++a)
+    X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[face[a]].data());
+  CurvedTriangle result;
+  for (const auto &point : reference_integrals().triangle)
+  {
+    const Eigen::Matrix<double, 3, 2> tangents = X * point.dN;
+    const double dA = point.weight * Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
+    result.area += dA;
+    result.moment += dA * X * point.N;
+    result.mass += dA * point.N * point.N.transpose();
+  }
+  return result;
+}
+
+double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+{
+  const auto corner = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
+  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+}
+
+/// The quadrilaterals whose halves are given, each once; none in a mesh of tetrahedra.
+std::vector<std::array<int, 9>> quads_of(const QuadraticMesh &mesh, const std::vector<std::array<int, 6>> &halves)
+{
+  std::vector<std::array<int, 9>> quads;
+  if (mesh.skin_quads.empty())
+    return quads;
+  std::set<int> nodes; // the midst of a quadrilateral is the middle of the diagonal of its halves
+  for (const std::array<int, 6> &half : halves)
+    nodes.insert(half.begin() + 3, half.end());
+  for (const std::array<int, 9> &quad : mesh.skin_quads)
+    if (nodes.count(quad[4]) > 0)
+      quads.push_back(quad);
+  return quads;
+}
+
+} // namespace
+
+SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int, 6>> faces)
+{
+  SurfacePatch  patch;
+  std::set<int> nodes;
+  for (const std::array<int, 6> &face : faces)
+    nodes.insert(face.begin(), face.end());
+  patch.quads = quads_of(mesh, faces);
+  for (const std::array<int, 9> &quad : patch.quads)
+    nodes.insert(quad.begin(), quad.end());
+  patch.faces = std::move(faces);
+  patch.nodes.assign(nodes.begin(), nodes.end());
+  const auto local = [&](int node)
+  { return static_cast<int>(std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node) - patch.nodes.begin()); };
+
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto                          add = [&](const auto &face, const auto &mass)
+  {
+    for (std::size_t a = 0; a < face.size(); ++a)
+      for (std::size_t b = 0; b < face.size(); ++b)
+        entries.emplace_back(local(face[a]), local(face[b]), mass(a, b));
+  };
+  for (const std::array<int, 6> &face : patch.faces)
+  {
+    if (!mesh.curved.empty() && is_curved(mesh, face))
+    {
+      const CurvedTriangle triangle = curved_triangle(mesh, face);
+      patch.area += triangle.area;
+      patch.centroid += triangle.moment;
+      add(face, triangle.mass);
+      continue;
+    }
+    const double area = triangle_area(mesh, face);
+    patch.area += area;
+    for (int k = 0; k < 3; ++k)
+      patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
+    if (patch.quads.empty())
+      add(face, (2. * area * reference_integrals().triangle_mass).eval());
+  }
+  for (const std::array<int, 9> &quad : patch.quads)
+  {
+    Eigen::Matrix<double, 3, 9> X;
+    for (int a = 0; a < 9; ++a)
+      X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[quad[a]].data());
+    add(quad, hexahedron::face_mass(X));
+  }
+  patch.centroid /= patch.area;
+  patch.S.resize(patch.nodes.size(), patch.nodes.size());
+  patch.S.setFromTriplets(entries.begin(), entries.end());
+  patch.weight = patch.S * Eigen::VectorXd::Ones(patch.nodes.size());
+  return patch;
+}
+
+SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
+                           const std::string &owner, const std::string &place)
+{
+  std::vector<std::array<int, 6>> faces;
+  for (const int triangle : triangles_of(mesh, surfaces, head(place, owner)))
+    faces.push_back(quadratic.skin.at(triangle));
+  SurfacePatch patch = surface_patch(quadratic, std::move(faces));
+  if (!(patch.area > 0.))
+    throw std::invalid_argument(head(place, owner) + ": the surfaces have no area; select faces of a solid.");
+  return patch;
+}
+
+} // namespace gestell::fem

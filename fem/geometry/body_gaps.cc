@@ -1,0 +1,210 @@
+#include "fem/geometry/body_gaps.h"
+
+#include "fem/geometry/occ_snapshot.h"
+#include "fem/values/vector3.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepGProp.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <queue>
+#include <tuple>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double infinite  = std::numeric_limits<double>::infinity();
+constexpr double same      = 1e-9; // [m]: distances that differ by less are equal
+constexpr int    most_here = 400;  // pairs of faces tried once a distance is found: equal boxes are common in grids
+
+struct ShapeFace
+{
+  TopoDS_Shape shape;
+  Bnd_Box      box;
+  Vector3      centre;
+  double       area;
+};
+
+struct ShapeSolid
+{
+  std::vector<ShapeFace> faces;
+  Bnd_Box                box;
+};
+
+Bnd_Box box_of(const TopoDS_Shape &shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  return box;
+}
+
+Vector3 vector(const gp_Pnt &p)
+{
+  return {p.X(), p.Y(), p.Z()};
+}
+
+/// How unlike a shape and a solid of the model are, 0 for the same.
+double unlike(const Solid &solid, double volume, const Bnd_Box &box, double unit)
+{
+  const Vector3 low = unit * vector(box.CornerMin()), high = unit * vector(box.CornerMax());
+  return std::abs(volume * unit * unit * unit / solid.volume - 1.) +
+         (norm(low - solid.min) + norm(high - solid.max)) / norm(solid.max - solid.min);
+}
+
+/// The shapes of the solids, in the order of the model.
+std::vector<ShapeSolid> shapes_of(const CadModel &model)
+{
+  std::vector<ShapeSolid> result(model.solids.size());
+  std::vector<double>     best(model.solids.size(), infinite);
+  const TopoDS_Shape      all = occ_snapshot();
+  for (TopExp_Explorer solid(all, TopAbs_SOLID); solid.More(); solid.Next())
+  {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(solid.Current(), properties);
+    ShapeSolid  shape{{}, box_of(solid.Current())};
+    std::size_t nearest = 0;
+    double      least   = infinite;
+    for (std::size_t i = 0; i < model.solids.size(); ++i)
+      if (const double u = unlike(model.solids[i], properties.Mass(), shape.box, model.unit); u < least)
+      {
+        least   = u;
+        nearest = i;
+      }
+    if (least >= best[nearest])
+      continue;
+    best[nearest] = least;
+    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next())
+    {
+      GProp_GProps of_face;
+      BRepGProp::SurfaceProperties(face.Current(), of_face);
+      shape.faces.push_back({face.Current(), box_of(face.Current()), model.unit * vector(of_face.CentreOfMass()),
+                             model.unit * model.unit * of_face.Mass()});
+    }
+    result[nearest] = std::move(shape);
+  }
+  return result;
+}
+
+const Face &face_like(const ShapeFace &shape, const std::vector<Face> &faces)
+{
+  const auto unlike = [&](const Face &face)
+  { return norm(face.centre - shape.centre) + std::sqrt(std::abs(face.area - shape.area)); };
+  return *std::min_element(faces.begin(), faces.end(),
+                           [&](const Face &a, const Face &b) { return unlike(a) < unlike(b); });
+}
+
+/// |cosine| between a direction and the normal of a face at a point.
+double facing(const Face &face, const Vector3 &at, const Vector3 &direction)
+{
+  if (face.kind == FaceKind::plane)
+    return std::abs(dot(face.direction, direction));
+  if (face.kind != FaceKind::cylinder)
+    return 0.5;
+  const Vector3 from_axis = at - face.through;
+  const Vector3 radial    = from_axis - dot(from_axis, face.direction) * face.direction;
+  return std::abs(dot(radial, direction)) / norm(radial);
+}
+
+/// The two faces of two solids that come nearest; of several at the same distance those that face each other.
+BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &model)
+{
+  std::vector<std::tuple<double, const ShapeFace *, const ShapeFace *>> pairs;
+  for (const ShapeFace &of_a : a.faces)
+    for (const ShapeFace &of_b : b.faces)
+      pairs.emplace_back(of_a.box.Distance(of_b.box), &of_a, &of_b);
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const auto &x, const auto &y) { return std::get<0>(x) < std::get<0>(y); });
+
+  BodyGap best;
+  best.distance  = infinite;
+  double turned  = -1.;
+  int    n_tried = 0;
+  for (const auto &[apart, of_a, of_b] : pairs)
+  {
+    if (apart * model.unit > best.distance + same || (best.distance < infinite && ++n_tried > most_here))
+      break;
+    BRepExtrema_DistShapeShape extrema(of_a->shape, of_b->shape);
+    if (!extrema.IsDone() || extrema.NbSolution() == 0)
+      continue;
+    const double distance = model.unit * extrema.Value();
+    if (distance > best.distance + same)
+      continue;
+    const Vector3 from  = model.unit * vector(extrema.PointOnShape1(1)),
+                  to    = model.unit * vector(extrema.PointOnShape2(1));
+    const Face  &face_a = face_like(*of_a, model.faces), &face_b = face_like(*of_b, model.faces);
+    const double opposite =
+        distance > same ? facing(face_a, from, unit(to - from)) + facing(face_b, to, unit(to - from)) : 0.;
+    if (distance > best.distance - same && opposite <= turned)
+      continue;
+    turned        = opposite;
+    best.distance = std::min(distance, best.distance);
+    best.at       = 0.5 * (from + to);
+    best.face_a   = describe(face_a);
+    best.face_b   = describe(face_b);
+  }
+  return best;
+}
+
+/// Pairs of solids of different bodies, nearest first: by their boxes until the distance itself is known.
+struct Candidate
+{
+  double  distance;
+  bool    exact;
+  BodyGap gap;
+
+  bool operator<(const Candidate &other) const { return distance > other.distance; } // for the queue: smallest on top
+};
+
+} // namespace
+
+std::vector<BodyGap> nearest_gaps(const CadModel &model, const std::vector<int> &body)
+{
+  const std::vector<ShapeSolid>  shapes = shapes_of(model);
+  std::priority_queue<Candidate> queue;
+  for (std::size_t i = 0; i < model.solids.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (body[i] != body[j] && !shapes[i].faces.empty() && !shapes[j].faces.empty())
+      {
+        Candidate candidate{model.unit * shapes[j].box.Distance(shapes[i].box), false, {}};
+        candidate.gap.solid_a = static_cast<int>(j);
+        candidate.gap.solid_b = static_cast<int>(i);
+        queue.push(candidate);
+      }
+
+  std::vector<int>     joined = body;
+  std::vector<BodyGap> gaps;
+  while (!queue.empty())
+  {
+    Candidate nearest = queue.top();
+    queue.pop();
+    const int a = nearest.gap.solid_a, b = nearest.gap.solid_b;
+    if (joined[a] == joined[b])
+      continue;
+    if (!nearest.exact)
+    {
+      nearest.gap         = gap_between(shapes[a], shapes[b], model);
+      nearest.gap.solid_a = a;
+      nearest.gap.solid_b = b;
+      nearest.distance    = nearest.gap.distance;
+      nearest.exact       = true;
+      queue.push(nearest);
+      continue;
+    }
+    gaps.push_back(nearest.gap);
+    const int into = joined[a], from = joined[b];
+    std::replace(joined.begin(), joined.end(), from, into);
+  }
+  return gaps;
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,178 @@
+#include "fem/geometry/defeature.h"
+
+#include "fem/geometry/gmsh_faces.h"
+#include "fem/geometry/occ_snapshot.h"
+#include "fem/geometry/shells.h"
+#include "fem/geometry/small_features.h"
+#include "fem/values/vector3.h"
+
+#include <gmsh.h>
+
+#include <BRepAlgoAPI_Defeaturing.hxx>
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double largest_change = 0.05; // of the volume
+
+bool same_face(const Face &face, const TopoDS_Shape &shape, double unit)
+{
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties);
+  const gp_Pnt  c = properties.CentreOfMass();
+  const Vector3 centre{unit * c.X(), unit * c.Y(), unit * c.Z()};
+  const double  width = std::sqrt(face.area);
+  return norm(centre - face.centre) < 1e-4 * width &&
+         std::abs(unit * unit * properties.Mass() - face.area) < 1e-4 * face.area;
+}
+
+TopTools_ListOfShape shapes_of(const std::vector<int> &tags, const TopoDS_Shape &whole, const CadModel &model)
+{
+  TopTools_IndexedMapOfShape all;
+  TopExp::MapShapes(whole, TopAbs_FACE, all);
+  TopTools_ListOfShape shapes;
+  for (const Face &face : model.faces)
+    if (std::find(tags.begin(), tags.end(), face.tag) != tags.end())
+      for (int i = 1; i <= all.Extent(); ++i)
+        if (same_face(face, all(i), model.unit))
+        {
+          shapes.Append(all(i));
+          break;
+        }
+  return shapes;
+}
+
+/// The model's place in gmsh is taken by the shape.
+void put_back(const TopoDS_Shape &shape)
+{
+  gmsh::clear();
+  gmsh::vectorpair entities;
+  gmsh::model::occ::importShapesNativePointer(&shape, entities);
+  gmsh::model::occ::synchronize();
+}
+
+void remove_short_edges(double size)
+{
+  gmsh::vectorpair solids, healed;
+  gmsh::model::getEntities(solids, 3);
+  gmsh::model::occ::healShapes(healed, solids, size, /* fixDegenerated */ false, /* fixSmallEdges */ true,
+                               /* fixSmallFaces */ true, /* sewFaces */ false, /* makeSolids */ false);
+  gmsh::model::occ::synchronize();
+}
+
+/// Solids as they are now, with the name and the place in the list of the one they were.
+std::vector<Solid> solids_now(const CadModel &before)
+{
+  gmsh::vectorpair   entities;
+  std::vector<Solid> solids;
+  gmsh::model::getEntities(entities, 3);
+  for (const auto &[dim, tag] : entities)
+  {
+    Solid      solid  = measured_solid(tag, before.unit);
+    const auto unlike = [&](const Solid &old)
+    { return norm(old.min - solid.min) + norm(old.max - solid.max) + std::cbrt(std::abs(old.volume - solid.volume)); };
+    solid.name = std::min_element(before.solids.begin(), before.solids.end(),
+                                  [&](const Solid &a, const Solid &b) { return unlike(a) < unlike(b); })
+                     ->name;
+    solids.push_back(std::move(solid));
+  }
+  return solids;
+}
+
+/// Faces that lie on the same surface and nearly where they lay.
+bool is_rest_of(const Face &now, const Face &before, double size)
+{
+  if (now.kind != before.kind || norm(now.direction - before.direction) > straight ||
+      std::abs(now.radius - before.radius) > 1e-6)
+    return false;
+  const double reach = 3. * size + 1e-6;
+  return norm(now.min - before.min) < reach && norm(now.max - before.max) < reach;
+}
+
+void keep_names(std::vector<Face> &now, const std::vector<Face> &before, double size)
+{
+  for (Face &face : now)
+    for (const Face &old : before)
+      if (is_rest_of(face, old, size))
+      {
+        face.name   = old.name;
+        face.groups = old.groups;
+        break;
+      }
+}
+
+void require_sound(const CadModel &now, const CadModel &before, const FrameSpecification &specification)
+{
+  const auto refuse = [&](const std::string &why)
+  {
+    throw std::invalid_argument(specification.mesh.place + ": defeature = " + text(specification.mesh.defeature) +
+                                " m " + why + "; use a smaller one, or simplify the model in the CAD program.");
+  };
+  if (now.solids.size() != before.solids.size())
+    refuse("leaves " + std::to_string(now.solids.size()) + " of " + std::to_string(before.solids.size()) + " solids");
+  const double change = now.volume() / before.volume() - 1.;
+  if (!(std::abs(change) < largest_change))
+    refuse("changes the volume by " + text(100. * change) + " %");
+}
+
+} // namespace
+
+void defeature(CadModel &model, const FrameSpecification &specification, const GmshSession &session)
+{
+  const double size = specification.mesh.defeature;
+  if (!(size > 0.))
+    return;
+  const CadModel         before = model;
+  const std::vector<int> small  = faces_smaller_than(model, size);
+  const SmallFeatures    edges  = small_features(model, size);
+  if (small.empty() && edges.n_short_edges == 0)
+  {
+    model.notes.push_back("mesh.defeature finds nothing smaller than " + text(1e3 * size) + " mm");
+    return;
+  }
+  std::string failure;
+  session.run(
+      [&]
+      {
+        if (!small.empty())
+        {
+          const TopoDS_Shape      whole = occ_snapshot();
+          BRepAlgoAPI_Defeaturing removal;
+          removal.SetShape(whole);
+          removal.AddFacesToRemove(shapes_of(small, whole, model));
+          removal.Build();
+          if (removal.IsDone() && !removal.HasErrors())
+            put_back(removal.Shape());
+        }
+        model.faces = outer_faces(model.unit, model.diagonal());
+        if (small_features(model, size).n_short_edges > 0)
+          remove_short_edges(size / model.unit);
+      },
+      specification.mesh.place + ": defeature = " + text(size) + " m fails: ",
+      "; use a smaller one, or simplify the model in the CAD program.");
+
+  model.solids = solids_now(before);
+  model.faces  = outer_faces(model.unit, model.diagonal());
+  keep_names(model.faces, before.faces, size);
+  require_sound(model, before, specification);
+  check_shells(model, {specification.cad, specification.unit, specification.place});
+  const std::size_t left = faces_smaller_than(model, size).size();
+  model.notes.push_back("mesh.defeature removed " + std::to_string(before.faces.size() - model.faces.size()) + " of " +
+                        std::to_string(before.faces.size()) + " faces; " + std::to_string(left) +
+                        " small faces remain; the volume changes by " +
+                        text(100. * (model.volume() / before.volume() - 1.)) + " %");
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "fem/values/frame_specification.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Directions that differ by less [rad] are the same; normals from CAD are good to 1e-6.
+constexpr double straight = 1e-3;
+
+/// What a face is, as far as a user can name it.
+enum class FaceKind
+{
+  plane,
+  cylinder,
+  other
+};
+
+/// A face of the CAD model (or a surface of a mesh without geometry), all lengths in metres.
+struct Face
+{
+  struct Sample
+  {
+    Vector3 point;
+    Vector3 normal; ///< outward, unit length
+  };
+
+  int                      tag  = 0;
+  FaceKind                 kind = FaceKind::other;
+  std::string              type;   ///< gmsh's word: "Plane", "Cylinder", "BSpline surface", ...
+  std::string              name;   ///< label in the STEP file, "" if it has none
+  std::vector<std::string> groups; ///< physical groups, layers and colours ("#ff8000") the face belongs to
+  std::vector<int>         edges;  ///< tags of the curves around it: faces that share one are neighbours
+  double                   area = 0.;
+  Vector3                  min{}, max{}, centre{};
+  Vector3                  direction{};     ///< plane: outward normal; cylinder: axis, first component != 0 positive
+  Vector3                  through{};       ///< plane: a point of it; cylinder: of its axis; nearest to centre
+  double                   radius  = 0.;    ///< cylinder
+  bool                     faceted = false; ///< known by triangles only, their normals are approximate
+  std::vector<Sample>      samples;         ///< points of the surface the face is cut from
+};
+
+/**
+ * Finds kind, direction, through and radius from the samples alone, so that a plane that a CAD program wrote as a
+ * spline is known as a plane.  A point is on the surface if it is off by less than the tolerance [m].
+ */
+void recognise(Face &face, double tolerance);
+
+/// Number for messages: five digits, without noise around zero.
+std::string text(double value);
+std::string text(const Vector3 &v); ///< "(0 0 0.9)"
+
+/// One line a selector can be written from: "face 12: plane, normal (0 0 1), through (0 0 0.9), area 0.21 m^2".
+std::string describe(const Face &face);
+
+} // namespace gestell::fem

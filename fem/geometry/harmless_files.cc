@@ -1,0 +1,158 @@
+#include "fem/geometry/harmless_files.h"
+
+#include "fem/geometry/geo_script.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+namespace files = std::filesystem;
+
+constexpr const char *way_out =
+    "; a script that is read with a frame may draw, size and mesh, and read from its own folder. Take the line out, or "
+    "say --trust-scripts if you know all that the script does.";
+
+/// As gmsh decides (Common/OpenFile.cpp); what begins otherwise it runs as a script.
+bool begins_as_mesh(const files::path &file)
+{
+  constexpr std::array<const char *, 6> beginnings = {"$MeshFormat", "$Comments", "$NO", "$ELM", "$PTS", "$PARA"};
+  std::string                           head(16, '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](const char *beginning) { return head.compare(0, std::strlen(beginning), beginning) == 0; });
+}
+
+void require_mesh(const std::string &place, const files::path &file)
+{
+  if (!begins_as_mesh(file))
+    throw std::invalid_argument(
+        place + ": " + file.string() +
+        " is no mesh of gmsh: it does not begin with \"$MeshFormat\", and gmsh would run it as a "
+        "script; save the mesh as .msh, or call a script .geo.");
+}
+
+std::string text_of(const files::path &file)
+{
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+files::path make_folder()
+{
+  std::string name = (files::temp_directory_path() / "gestell_XXXXXX").string();
+  if (!::mkdtemp(name.data()))
+    throw std::runtime_error("no folder can be made for temporary files: " + name + ": " + std::strerror(errno));
+  return name;
+}
+
+bool lies_in(const files::path &file, const files::path &folder)
+{
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end();
+}
+
+} // namespace
+
+HarmlessFiles::HarmlessFiles(const CadSource &source, CadFile kind) : place_(source.place), path_(source.path)
+{
+  if (source.scripts == Scripts::trusted || kind == CadFile::abaqus) // .inp is not read by gmsh
+    return;
+  const files::path file = files::absolute(source.path);
+  home_                  = files::weakly_canonical(file.parent_path());
+  if (kind == CadFile::mesh)
+    require_mesh(place_, file);
+  folder_ = make_folder();
+  try
+  {
+    path_ = kind == CadFile::geo ? copy_script(file) : link(file);
+  }
+  catch (...)
+  {
+    files::remove_all(folder_);
+    throw;
+  }
+}
+
+HarmlessFiles::~HarmlessFiles()
+{
+  std::error_code ignored;
+  if (!folder_.empty())
+    files::remove_all(folder_, ignored);
+}
+
+std::string HarmlessFiles::in_own_names(std::string message) const
+{
+  for (const auto &[original, copy] : copies_)
+    for (std::size_t at = message.find(copy); at != std::string::npos; at = message.find(copy, at + original.size()))
+      message.replace(at, copy.size(), original);
+  return message;
+}
+
+/// Extensions in small letters: gmsh takes "frame.Step" for a script.
+std::string HarmlessFiles::place_for(const files::path &file)
+{
+  const files::path folder    = folder_ / std::to_string(copies_.size());
+  std::string       extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  files::create_directory(folder);
+  return copies_[file.string()] = (folder / (file.stem().string() + extension)).string();
+}
+
+std::string HarmlessFiles::link(const files::path &file)
+{
+  const std::string copy = place_for(file);
+  files::create_symlink(file, copy);
+  return copy;
+}
+
+std::string HarmlessFiles::copy_script(const files::path &script)
+{
+  const RefuseLine refuse = [&](int line, const std::string &what) {
+    throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
+  };
+  const std::string     copy   = place_for(script); // before its own files: they may name it in turn
+  std::vector<GeoToken> tokens = geo_tokens(text_of(script), refuse);
+  for (const std::size_t i : judge_geo(tokens, refuse))
+    tokens[i].text = copy_named(tokens[i].text, tokens[i - 1].is("Include"), script, tokens[i].line);
+  std::ofstream(copy, std::ios::binary) << geo_text(tokens);
+  return copy;
+}
+
+std::string HarmlessFiles::copy_named(const std::string &name, bool included, const files::path &script, int line)
+{
+  const auto refuse = [&](const std::string &what) {
+    throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
+  };
+  const files::path file = files::weakly_canonical(script.parent_path() / name);
+  if (!lies_in(file, home_))
+    refuse("reads \"" + name + "\", which is not in the folder of the script, " + home_.string());
+  if (!files::is_regular_file(file))
+    refuse("reads \"" + name + "\", but there is no such file");
+  if (const auto known = copies_.find(file.string()); known != copies_.end())
+    return known->second;
+  if (included)
+    return copy_script(file);
+  const auto kind = kind_of_file(file.string());
+  if (!kind || *kind == CadFile::abaqus)
+    refuse("reads \"" + name + "\", which is no .step, .brep, .stl, .msh or .geo file");
+  if (*kind == CadFile::mesh)
+    require_mesh(place_ + ": " + script.string() + ":" + std::to_string(line), file);
+  return *kind == CadFile::geo ? copy_script(file) : link(file);
+}
+
+} // namespace gestell::fem

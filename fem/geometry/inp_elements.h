@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// What an element of Abaqus or CalculiX is made into.
+struct InpElementKind
+{
+  enum class Use
+  {
+    solid,
+    surface, ///< names a surface
+    line     ///< left out
+  };
+  std::string      begin; ///< of the name of the type
+  int              n_nodes;
+  Use              use;
+  int              gmsh_type;
+  std::vector<int> order; ///< of the nodes that are taken
+};
+
+/// The kind of elements of a type in capitals, variants (C3D10M, C3D8R, ...) included; null if they are not read.
+/// Prisms and pyramids are known, so that a mesh that holds some is refused with their number.
+const InpElementKind *inp_element_kind(const std::string &type);
+
+/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of prisms and pyramids.
+const std::vector<std::vector<int>> &inp_faces(int gmsh_type);
+
+/// Edges of a cell of quadratic tetrahedra or hexahedra, by its corners, in the order of their middle nodes in the
+/// file; none of others.
+const std::vector<std::array<int, 2>> &inp_edges(int gmsh_type);
+
+} // namespace gestell::fem

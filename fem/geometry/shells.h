@@ -1,0 +1,21 @@
+#pragma once
+
+#include "fem/geometry/cad_model.h"
+
+namespace gestell::fem
+{
+
+/**
+ * Whether the shells of a model are closed: gmsh reads open ones without a word, as faces that bound nothing, or as a
+ * solid whose volume means nothing.
+ *
+ * @throws std::invalid_argument if a solid of the file was lost (fewer solids than the STEP file describes, and faces
+ *         left over), or if an edge of a solid has a face on one side only; tells how many edges are open, and where.
+ *         Faces left over otherwise become a note of the model.
+ */
+void check_shells(CadModel &model, const CadSource &source);
+
+/// " (its shell is open at 4 edges, one of them from (...) to (...))" for faces without a solid; "" if none is open.
+std::string open_edges_of_faces(double unit);
+
+} // namespace gestell::fem

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fem/geometry/cad_model.h"
+
+namespace gestell::fem
+{
+
+/**
+ * Joins the solids of a CAD model in gmsh: where they touch they get one common face (gmsh's fragment, OpenCASCADE's
+ * general fuse), so that their meshes share nodes as if they were welded.
+ *
+ * Faces no further apart than mesh.gap are taken for one.  Solids that overlap are refused by name and volume, or with
+ * mesh.overlaps = once their common part belongs to the first of them.  Solids keep their names; a solid that is cut by
+ * another one becomes several of its name.  So do physical surfaces of a script.
+ *
+ * @throws std::invalid_argument if solids overlap, the gap is a third of the mean thickness 2 V / A of a solid or more,
+ *         one of them is swallowed by it, or OpenCASCADE fails.
+ */
+void join_solids(CadModel &model, const FrameSpecification &specification, const GmshSession &session);
+
+/// For every solid the lowest index of a solid it hangs together with by common faces.
+std::vector<int> bodies_of(const std::vector<Solid> &solids);
+
+/// @throws std::invalid_argument if there are more or fewer bodies than mesh.bodies; tells where they come nearest.
+void check_bodies(const CadModel &model, const FrameSpecification &specification);
+
+} // namespace gestell::fem

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fem/geometry/cad_file.h"
+#include "fem/geometry/face.h"
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Tells OpenCASCADE's reader, which gmsh uses, to keep the names of faces (ADVANCED_FACE) of STEP files read later.
+void name_faces_of_step();
+
+/**
+ * Adds layers (by name) and colours ("#ff8000", red green blue) of single faces to the groups of the faces they lie on.
+ *
+ * gmsh delivers neither; OpenCASCADE's XCAF reader does.  Its faces are told from those of gmsh by a point within: a
+ * face that was cut in pieces hands its attributes to all of them.  Colours of whole solids are no groups of faces.
+ */
+void add_step_attributes(std::vector<Face> &faces, const CadSource &source);
+
+} // namespace gestell::fem

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "fem/mesh/mesh_extraction.h"
+
+#include <string>
+
+namespace gestell::fem
+{
+
+/**
+ * Takes the hexahedra out of gmsh as extract_mesh() does tetrahedra: the skin comes as quadrilaterals and as their
+ * halves, the surface of each half in `skin_surface`.  Of cells of higher order only the corners are kept.
+ *
+ * @throws std::invalid_argument if a solid has no cells, more than two cells share a face, or there is another number
+ *         of bodies than wanted.
+ */
+ExtractedMesh extract_hexahedra(const CadModel &model, const std::string &head, const ExtractionOptions &options);
+
+} // namespace gestell::fem

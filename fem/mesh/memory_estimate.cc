@@ -1,0 +1,78 @@
+#include "fem/mesh/memory_estimate.h"
+
+#include "fem/geometry/face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double gib         = 1024. * 1024. * 1024.;
+constexpr double of_averaged = 5e4;  // bytes for a node
+constexpr double of_sphere   = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
+
+/// The number in a file of a control group; infinite for "max" and for no file.
+double number_in(const char *path)
+{
+  std::ifstream in(path);
+  double        value = 0.;
+  return in >> value ? value : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+double compactness(double volume, double skin_area)
+{
+  return skin_area > 0. ? std::min(2. * std::pow(volume, 2. / 3.) / skin_area, of_sphere) : of_sphere;
+}
+
+double reduction_memory(double n_coordinates, double kappa, double n_averaged)
+{
+  const double n = n_coordinates / 1e5;
+  return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib + of_averaged * n_averaged;
+}
+
+double nodes_on(double area, double size)
+{
+  return 2. * area / (std::sqrt(0.1875) * size * size); // of equilateral triangles
+}
+
+double coordinates_of(double n_tetrahedra)
+{
+  return 4.8 * n_tetrahedra;
+}
+
+double available_memory()
+{
+  double        system = std::numeric_limits<double>::infinity();
+  std::ifstream in("/proc/meminfo");
+  for (std::string key, rest; in >> key; std::getline(in, rest))
+    if (double kib = 0.; key == "MemAvailable:" && in >> kib)
+      system = 1024. * kib;
+  const double allowed = number_in("/sys/fs/cgroup/memory.max");
+  const double used    = number_in("/sys/fs/cgroup/memory.current");
+  return std::isfinite(allowed) && std::isfinite(used) ? std::min(system, std::max(0., allowed - used)) : system;
+}
+
+std::string memory_text(double bytes)
+{
+  return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
+                           : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
+}
+
+void require_memory(const std::string &what, double needed, double available, const std::string &place,
+                    const std::string &advice)
+{
+  if (needed > available)
+    throw std::invalid_argument(place + ": " + what + ", for which mesh and reduction need about " +
+                                memory_text(needed) + "; available are " + memory_text(available) + ". " + advice);
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,305 @@
+#include "fem/mesh/mesh_extraction.h"
+
+#include "fem/mesh/cell_kinds.h"
+#include "fem/mesh/hexahedral_extraction.h"
+#include "fem/mesh/mesh_nodes.h"
+#include "fem/mesh/mesh_quality.h"
+#include "fem/values/vector3.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
+constexpr double same_place    = 1e-8; // of the model: nodes that close lie upon each other
+
+using Triangle = std::array<int, 3>;
+
+/// The four faces of a positively oriented cell, seen from outside.
+constexpr std::array<std::array<int, 3>, 4> outward = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+
+Triangle sorted(Triangle triangle)
+{
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+struct CellFace
+{
+  Triangle key;
+  int      cell, face;
+  bool     operator<(const CellFace &other) const
+  {
+    return std::tie(key, cell, face) < std::tie(other.key, other.cell, other.face);
+  }
+};
+
+/// Corners between which gmsh's further nodes of a quadratic tetrahedron stand.
+constexpr std::array<std::array<int, 2>, 6> quadratic_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
+
+/// Calls visit(tags, their number) for every element of the entity; only simplices of the dimension are let through.
+template <typename Visit>
+void for_each_simplex(int dim, int tag, const std::string &head, const Visit &visit)
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, dim, tag);
+  for (std::size_t i = 0; i < types.size(); ++i)
+  {
+    std::string         name;
+    int                 d, order, n, n_corners;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_corners);
+    if (n_corners != dim + 1)
+      throw std::invalid_argument(
+          head + " holds elements of type \"" + name +
+          "\"; only tetrahedra with triangles on the surfaces are read: mesh it without recombination.");
+    for (std::size_t j = 0; j < nodes[i].size(); j += static_cast<std::size_t>(n))
+      visit(&nodes[i][j], n);
+  }
+}
+
+/// Of a quadratic tetrahedron the middles of edges that are not straight.
+void keep_middles(Mesh &mesh, const std::array<int, 4> &cell, const std::size_t *tags, MeshNodes &nodes,
+                  const std::string &head)
+{
+  for (int e = 0; e < 6; ++e)
+  {
+    const int     a = cell[quadratic_edges[e][0]], b = cell[quadratic_edges[e][1]];
+    const Point3  middle = nodes.position(tags[e], head);
+    const Vector3 side   = mesh.points[b] - mesh.points[a];
+    if (norm(middle - 0.5 * (mesh.points[a] + mesh.points[b])) > straight_edge * norm(side))
+      mesh.middles[{std::min(a, b), std::max(a, b)}] = middle;
+  }
+}
+
+void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes, Mesh &mesh)
+{
+  for (const Solid &solid : model.solids)
+  {
+    const std::size_t before = mesh.cells.size();
+    for_each_simplex(3, solid.tag, head,
+                     [&](const std::size_t *corner, int n)
+                     {
+                       std::array<int, 4> cell;
+                       for (int i = 0; i < 4; ++i)
+                         cell[i] = nodes.index(corner[i], mesh.points, head);
+                       if (n == 10)
+                         keep_middles(mesh, cell, corner + 4, nodes, head);
+                       if (six_volumes(mesh, cell) < 0.)
+                         std::swap(cell[2], cell[3]);
+                       mesh.cells.push_back(cell);
+                     });
+    if (mesh.cells.size() == before)
+      throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has no volume mesh; " +
+                                  (model.meshed
+                                       ? "mesh it in 3D before saving, and save all elements."
+                                       : "its surface may cross itself: choose another mesh.size or repair it."));
+    mesh.cell_solid.resize(mesh.cells.size(), static_cast<int>(mesh.solids.size()));
+    mesh.solids.push_back(solid.name);
+  }
+}
+
+std::vector<CellFace> sorted_faces(const Mesh &mesh)
+{
+  std::vector<CellFace> faces;
+  faces.reserve(4 * mesh.cells.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (int f = 0; f < 4; ++f)
+    {
+      const auto &[i, j, k] = outward[f];
+      const auto &cell      = mesh.cells[c];
+      faces.push_back({sorted({cell[i], cell[j], cell[k]}), static_cast<int>(c), f});
+    }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+int root(std::vector<int> &parent, int i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// The corner of the cell that is not on the face.
+const Point3 &apex(const Mesh &mesh, const CellFace &face)
+{
+  const auto &cell = mesh.cells[face.cell];
+  return mesh.points[cell[6 - outward[face.face][0] - outward[face.face][1] - outward[face.face][2]]];
+}
+
+/// Cells on either side of a face lie apart, however their corners are numbered; flat ones are judged elsewhere.
+bool lie_apart(const Mesh &mesh, const CellFace &first, const CellFace &second)
+{
+  const Point3 &a = mesh.points[first.key[0]], &b = mesh.points[first.key[1]], &c = mesh.points[first.key[2]];
+  const Vector3 normal    = cross(b - a, c - a);
+  const double  in_first  = dot(normal, apex(mesh, first) - a);
+  const double  in_second = dot(normal, apex(mesh, second) - a);
+  const double  flat      = 1e-9 * std::pow(norm(normal), 1.5); // area times a height of 1e-9 sides
+  return in_first * in_second <= 0. || std::abs(in_first) < flat || std::abs(in_second) < flat;
+}
+
+void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, const std::string &head)
+{
+  std::size_t     n_folded = 0;
+  const CellFace *where    = nullptr;
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].key == faces[i + 1].key && !lie_apart(mesh, faces[i], faces[i + 1]))
+    {
+      ++n_folded;
+      where = &faces[i];
+    }
+  if (n_folded > 0)
+    throw std::invalid_argument(head + ": " + std::to_string(n_folded) +
+                                " pairs of neighbouring cells lie on the same side of their common face, one at " +
+                                text(mesh.points[where->key[0]]) +
+                                " m: cells are turned inside out (negative Jacobian); a node may have been moved "
+                                "through its neighbours. Mesh again.");
+}
+
+/// Pairs of equal faces join cells, single faces are the skin.
+std::vector<CellFace> join(const std::vector<CellFace> &faces, std::vector<int> &parent, const std::string &head)
+{
+  std::vector<CellFace> skin;
+  for (std::size_t i = 0; i < faces.size();)
+  {
+    std::size_t end = i + 1;
+    while (end < faces.size() && faces[end].key == faces[i].key)
+      ++end;
+    if (end - i > 2)
+      throw std::invalid_argument(head + ": " + std::to_string(end - i) +
+                                  " cells share one face; the mesh overlaps itself: unite the solids and mesh again.");
+    if (end - i == 2)
+      parent[root(parent, faces[i].cell)] = root(parent, faces[i + 1].cell);
+    else
+      skin.push_back(faces[i]);
+    i = end;
+  }
+  std::sort(skin.begin(), skin.end(),
+            [](auto &a, auto &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
+  return skin;
+}
+
+double extent(const Mesh &mesh)
+{
+  Vector3 low = mesh.points.front(), high = low;
+  for (const Point3 &point : mesh.points)
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d]  = std::min(low[d], point[d]);
+      high[d] = std::max(high[d], point[d]);
+    }
+  return norm(high - low);
+}
+
+void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)
+{
+  std::map<int, std::pair<std::size_t, std::set<int>>> bodies; // root to number of cells, solids
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+  {
+    auto &[n, solids] = bodies[root(parent, static_cast<int>(c))];
+    ++n;
+    solids.insert(mesh.cell_solid[c]);
+  }
+  const int found = static_cast<int>(bodies.size());
+  if (found == wanted || wanted == 0)
+    return;
+  std::string list;
+  std::size_t shown = 0;
+  for (const auto &[cell, body] : bodies)
+    if (++shown <= 10)
+    {
+      list += "\n  " + std::to_string(body.first) + " cells of";
+      for (const int solid : body.second)
+        list += " \"" + mesh.solids[solid] + "\"";
+      list += ", one at " + text(mesh.points[mesh.cells[cell][0]]) + " m";
+    }
+  const std::string touching = found > wanted ? touching_nodes(mesh) : "";
+  throw std::invalid_argument(head + ": the mesh consists of " + std::to_string(found) +
+                              (found == 1 ? " body that hangs" : " bodies that hang") +
+                              " together by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
+                              (touching.empty()
+                                   ? "; set it to that number where that is meant, or unite the solids before meshing:"
+                                   : touching + ":") +
+                              list);
+}
+
+} // namespace
+
+std::string touching_nodes(const Mesh &mesh)
+{
+  const double size  = extent(mesh);
+  const auto   pairs = coincident(mesh.points, same_place * size);
+  if (pairs.empty())
+    return "";
+  return ". " + std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+         text(mesh.points[pairs.front().first]) +
+         " m: solids touch there without being joined. Merge them where they are meant to be one (mesh.gap = \"" +
+         text(1e3 * 10. * same_place * size) + " mm\"), or set mesh.bodies where they are not";
+}
+
+void note_nodes(Mesh &mesh, const MeshNodes &nodes)
+{
+  if (nodes.n_merged() > 0)
+    mesh.statements.push_back(std::to_string(nodes.n_merged()) +
+                              " nodes are taken for one with another, as mesh.gap says");
+  if (const auto n_unused = nodes.n_unused(); n_unused > 0)
+    mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
+  if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())
+    mesh.notes.push_back(std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+                         text(mesh.points[pairs.front().first]) +
+                         " m: the cells there are not joined (a slit); mesh.gap merges them");
+}
+
+ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
+{
+  if (kind_of_cells(model, head) == CellKind::hexahedra)
+    return extract_hexahedra(model, head, options);
+  ExtractedMesh result;
+  Mesh         &mesh = result.mesh;
+  MeshNodes     nodes(model.unit, options.gap, head);
+  read_cells(model, head, nodes, mesh);
+  result.node = nodes.tags();
+
+  std::vector<int> parent(mesh.cells.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const std::vector<CellFace> faces = sorted_faces(mesh);
+  const std::vector<CellFace> skin  = join(faces, parent, head);
+  require_unfolded(mesh, faces, head);
+  check_bodies(mesh, parent, options.bodies, head);
+  if (model.meshed)
+    note_nodes(mesh, nodes);
+
+  std::map<Triangle, int> surface_of; // sorted triangle to tag
+  gmsh::vectorpair        surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto &[dim, tag] : surfaces)
+    for_each_simplex(
+        2, tag, head,
+        [&, tag = tag](const std::size_t *corner, int) {
+          surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
+        });
+  for (const CellFace &face : skin)
+  {
+    const auto &[i, j, k] = outward[face.face];
+    const auto &cell      = mesh.cells[face.cell];
+    const auto  surface   = surface_of.find(face.key);
+    mesh.skin.push_back({cell[i], cell[j], cell[k]});
+    result.skin_surface.push_back(surface == surface_of.end() ? 0 : surface->second);
+  }
+  return result;
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "fem/values/mesh.h"
+
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Pairs of points no further apart than the distance [m], each point with the nearest earlier one.
+std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, double distance);
+
+/// Nodes of gmsh's mesh, numbered as points in the order cells ask for them.
+class MeshNodes
+{
+public:
+  /**
+   * @param unit   length of gmsh's unit [m]
+   * @param gap    nodes no further apart than this [m] are taken for one; 0: none are
+   * @param head   of messages
+   * @throws std::invalid_argument if a coordinate is no number.
+   */
+  MeshNodes(double unit, double gap, const std::string &head);
+
+  /// Index of the point in `points`, which grows by nodes not met before.
+  /// @param head  of the message of the std::invalid_argument for a node that is not in the mesh
+  int index(std::size_t tag, std::vector<Point3> &points, const std::string &head);
+
+  /// Where a node stands that becomes no point, such as the middle of an edge.
+  Point3 position(std::size_t tag, const std::string &head) const;
+
+  /// Index of a node that a cell uses, -1 for others.
+  int index(std::size_t tag) const;
+
+  /// Of each point gmsh's tag.
+  const std::vector<std::size_t> &tags() const { return tags_; }
+
+  std::size_t n_unused() const; ///< nodes of no cell of any order
+  std::size_t n_merged() const { return same_as_.size(); }
+
+private:
+  std::size_t representative(std::size_t tag) const;
+
+  std::unordered_map<std::size_t, Point3>      position_;
+  std::unordered_map<std::size_t, std::size_t> same_as_; // merged nodes
+  std::unordered_map<std::size_t, int>         index_;
+  std::vector<std::size_t>                     tags_;
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fem/geometry/cad_model.h"
+#include "fem/mesh/size_field.h"
+#include "fem/values/frame_specification.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Tags of the faces of each named surface.
+using Selection = std::map<std::string, std::vector<int>>;
+
+/// Elements grow from the size on a named surface to the global size by this much per length.
+constexpr double size_growth = 0.3;
+
+/// Elements around a full circle, at least, whatever the size: its area is then 4.5 % small, of 6 of them 17 %.
+constexpr int elements_around_circle = 12;
+
+/// [m^2]
+double skin_area(const std::vector<Face> &faces);
+
+/**
+ * Number of tetrahedra to be expected, right within a factor of about 1.5:
+ *     max(10 V / h^3, 4.5 A / h^2),
+ * the second where plates are thinner than h, and for a surface of size s and area a another 10 a / (2 growth s^2).
+ *
+ * @param surface_size  [m] per name of `selection`
+ */
+double expected_cells(const CadModel &model, double size, const std::map<std::string, double> &surface_size,
+                      const Selection &selection);
+
+/// The size [m], rounded up to two digits, for which about `n_cells` tetrahedra are expected.
+double size_for_cells(const CadModel &model, double n_cells);
+
+/// Sizes by name of surface, the patterns ("crown bearing *") of options.surface_size resolved; the smallest counts.
+std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, const Selection &selection);
+
+/**
+ * Tells gmsh the sizes.
+ *
+ * @throws std::invalid_argument if the size is <= 0 or larger than the model, a surface is unknown or its size not in
+ *         (0, size], or more than options.max_cells tetrahedra are to be expected; it says which size would do.
+ */
+void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Selection &selection);
+
+/// Tells gmsh the sizes of a refined mesh, which hold where they are smaller than those set before.
+/// @param unit  length of gmsh's unit [m]
+void set_refined_sizes(const SizeField &field, double unit);
+
+/// gmsh's fields of the sizes on named surfaces.
+std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions &options, const Selection &selection);
+
+/// The smallest of gmsh's fields counts everywhere.
+void set_smallest_as_background(const std::vector<double> &fields);
+
+} // namespace gestell::fem

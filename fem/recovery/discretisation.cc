@@ -1,0 +1,230 @@
+#include "fem/recovery/discretisation.h"
+
+#include "fem/assembly/assembled_matrices.h"
+#include "fem/assembly/attached_masses.h"
+#include "fem/assembly/cell_materials.h"
+#include "fem/assembly/cut_force.h"
+#include "fem/assembly/elasticity.h"
+#include "fem/assembly/interfaces.h"
+#include "fem/assembly/mass_integrals.h"
+#include "fem/assembly/rigid_motions.h"
+#include "fem/assembly/sparse_sum.h"
+#include "fem/assembly/supports.h"
+#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/recovery/skin.h"
+#include "fem/recovery/skin_stress.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double node_tolerance = 1e-4; // of the diagonal, as of selectors
+
+double diagonal(const Mesh &mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const Point3 &point : mesh.points)
+    box.extend(Eigen::Map<const Eigen::Vector3d>(point.data()));
+  return box.diagonal().norm();
+}
+
+std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled, const Constraints &constraints,
+                                       const Kinematics &kinematics)
+{
+  std::vector<Interface> result;
+  int                    value = constraints.first_new();
+  for (const CoupledPatch &patch : coupled)
+  {
+    Interface interface;
+    interface.name     = patch.specification.name;
+    interface.position = {patch.position[0], patch.position[1], patch.position[2]};
+    for (int i = 0; i < patch.n_coordinates(); ++i)
+      interface.coordinate[i] = kinematics.coordinate(value++);
+    result.push_back(std::move(interface));
+  }
+  return result;
+}
+
+/// Nodes with coordinates: of masses with surfaces of their own, then of interfaces, which thus stand last in q.
+std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &specification)
+{
+  require_valid(specification.masses, specification.interfaces);
+  std::vector<InterfaceSpecification> nodes = nodes_of_masses(specification.masses);
+  nodes.insert(nodes.end(), specification.interfaces.begin(), specification.interfaces.end());
+  return nodes;
+}
+
+/// What the matrices of a frame are made of.
+struct Ingredients
+{
+  const FrameSpecification          &specification;
+  const QuadraticMesh               &mesh;
+  const CellMaterials               &materials;
+  const std::vector<SupportedPatch> &supports;
+  const Kinematics                  &kinematics;
+  const std::vector<Interface>      &nodes;
+};
+
+/// Mass, centre and the load of a unit acceleration: of the cells, and with all that is attached.
+void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::VectorXd &nodal_mass, FrameMatrices &frame)
+{
+  frame.acceleration_load = acceleration_load(nodal_mass, of.kinematics);
+  frame.facts.whole       = cells;
+  for (const AttachedMass &mass : of.specification.masses)
+  {
+    frame.facts.whole.add(properties_of(mass, node_of(mass, of.nodes)));
+    frame.facts.parts.push_back({mass.name, "", mass.mass});
+  }
+  add_loads(of.specification.masses, of.nodes, frame.acceleration_load);
+  frame.mass                                       = frame.facts.whole.mass;
+  Eigen::Map<Eigen::Vector3d>(frame.centre.data()) = frame.facts.whole.centre;
+}
+
+/// C of the cells at clamped supports, whose rows there are those of the whole.
+BlockMatrix stiffness_at_supports(const Ingredients &of)
+{
+  std::vector<char> clamped(of.mesh.n_nodes(), 0);
+  for (const SupportedPatch &supported : of.supports)
+    if (supported.support.kind == SupportKind::clamped)
+      for (const int node : supported.patch.nodes)
+        clamped[node] = 1;
+  QuadraticMesh near;
+  CellMaterials materials{of.materials.materials, {}};
+  near.points = of.mesh.points;
+  for (int cell = 0; cell < of.mesh.n_cells(); ++cell)
+  {
+    const int *nodes = of.mesh.nodes(cell);
+    if (std::none_of(nodes, nodes + of.mesh.nodes_per_cell(), [&](int node) { return clamped[node]; }))
+      continue;
+    if (!of.mesh.curved.empty())
+      near.curved.push_back(of.mesh.curved[cell]);
+    if (of.mesh.hexahedra.empty())
+      near.cells.push_back(of.mesh.cells[cell]);
+    else
+      near.hexahedra.push_back(of.mesh.hexahedra[cell]);
+    materials.of_cell.push_back(of.materials.of_cell[cell]);
+  }
+  return assemble_stiffness(near, materials);
+}
+
+void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen::VectorXd &nodal_mass,
+                        FrameMatrices &frame)
+{
+  for (FrameOutput &output :
+       support_forces(of.supports, C, of.kinematics, nodal_mass, of.specification.rayleigh_stiffness))
+    frame.outputs.push_back(std::move(output));
+}
+
+/// M, B, C and what is read off them.
+void add_matrices(const Ingredients &of, FrameMatrices &frame)
+{
+  const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
+  const auto foundations                                                    = [&](Vector3 Support::*totals)
+  { return of.kinematics.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
+  const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
+  const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
+
+  CellSums sums            = sum_cells(mesh, materials, kinematics);
+  frame.C                  = std::move(sums.C);
+  frame.M                  = std::move(sums.M);
+  frame.facts.rigid_energy = sums.rigid_energy;
+  add_support_forces(of, stiffness_at_supports(of), sums.nodal_mass, frame);
+  weigh(of, sums.whole, sums.nodal_mass, frame);
+  frame.B = foundations(&Support::damping);
+  if (specification.rayleigh_stiffness > 0.)
+    add(frame.B, specification.rayleigh_stiffness * frame.C);
+  if (specification.rayleigh_mass > 0.)
+    add(frame.B, specification.rayleigh_mass * frame.M);
+  add(frame.C, C_beside);
+  add(frame.M, M_beside);
+}
+
+Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
+                      const std::vector<CoupledPatch> &coupled, Constraints constraints)
+{
+  hold(supports, constraints);
+  tie_interfaces(coupled, mesh, constraints);
+  return constraints;
+}
+
+/// What alpha M does to the motions of the whole frame, where nothing holds these; none if it does nothing.
+std::vector<std::string> rayleigh_at_large(const FrameSpecification &specification)
+{
+  if (!(specification.rayleigh_mass > 0.) || !specification.supports.empty())
+    return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "damping: alpha M of Rayleigh's damping brakes motions of the whole frame, too, which no support holds: "
+          "their speed falls by half in "
+       << std::log(2.) / specification.rayleigh_mass << " s; damping = { ratio = ... } leaves them alone";
+  return {text.str()};
+}
+
+/// Surfaces that cannot deform, and points that take forces.
+RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::vector<CoupledPatch> &coupled)
+{
+  RigidNodes rigid;
+  for (const SupportedPatch &support : supports)
+    if (support.support.kind == SupportKind::clamped)
+      rigid.emplace_back("support " + support.support.name, support.patch.nodes);
+  for (const CoupledPatch &interface : coupled)
+    if (interface.specification.coupling != InterfaceCoupling::average)
+      rigid.emplace_back("interface " + interface.specification.name, interface.patch.nodes);
+  return rigid;
+}
+
+} // namespace
+
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
+{
+  return discretise_with_mesh_error(mesh, specification).matrices;
+}
+
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+{
+  const CellMaterials               materials = cell_materials(mesh, specification);
+  const QuadraticMesh               quadratic = number_nodes(mesh);
+  const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
+  Constraints                       constraints(quadratic.n_nodes());
+  const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);
+  constraints                             = constrain(quadratic, supports, coupled, std::move(constraints));
+  const Kinematics kinematics(constraints);
+
+  FrameMatrices frame;
+  frame.n_cells                      = mesh.n_cells();
+  frame.notes                        = mesh.notes;
+  frame.statements                   = mesh.statements;
+  frame.modal_damping_ratio          = specification.modal_damping_ratio;
+  frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
+  const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
+  frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
+  for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
+    frame.notes.push_back(std::move(note));
+  for (std::string &note : positions_far_off(coupled, diagonal(mesh)))
+    frame.notes.push_back(std::move(note));
+  for (std::string &note : rayleigh_at_large(specification))
+    frame.notes.push_back(std::move(note));
+  for (const CutSpecification &cut : specification.cuts)
+    frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
+
+  add_matrices({specification, quadratic, materials, supports, kinematics, nodes}, frame);
+
+  frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
+  frame.translations  = frame.rigid_motions.leftCols(3);
+  frame.picture       = skin_picture(quadratic, kinematics);
+  if (specification.stress)
+    frame.stress = skin_stress(
+        quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
+        rigid_nodes(supports, coupled));
+  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics)};
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "fem/recovery/mesh_error.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
+#include "fem/values/mesh.h"
+
+#include <memory>
+
+namespace gestell::fem
+{
+
+/**
+ * M, B, C of an elastic frame in quadratic tetrahedra (P2) with straight or curved sides, or hexahedra, with supports,
+ * interfaces, cuts and picture.
+ *
+ *     M q'' + B q' + C q = f,    u = G q,    M = G^T M_full G  and so on
+ *
+ * q holds the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
+ * surfaces, then coordinates (ux uy uz rx ry rz; of a node of the mesh ux uy uz) for each attached mass with surfaces
+ * of its own and for each interface in the order of the specification.  B holds the dampers of the foundations; modal
+ * damping stays a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and cut_force().
+ *
+ * Uses all of the specification but CAD file, mesh options and selectors.  Initialises PETSc
+ * (petsc_session()).
+ *
+ * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
+ */
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
+
+/// The same with what estimates the error the mesh leaves in its fields.
+struct Discretisation
+{
+  FrameMatrices                    matrices;
+  std::shared_ptr<const MeshError> mesh_error;
+};
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
+
+} // namespace gestell::fem

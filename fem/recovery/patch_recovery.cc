@@ -1,0 +1,250 @@
+#include "fem/recovery/patch_recovery.h"
+
+#include "fem/assembly/reference_cell.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Stress = Eigen::Matrix<double, 6, 1>;
+
+constexpr int         monomials = 10;   // 1 x y z xx yy zz xy yz zx
+constexpr std::size_t fewest    = 16;   // samples of a patch; fewer do not carry a quadratic fit
+constexpr double      ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
+
+using Monomials = Eigen::Matrix<double, monomials, 1>;
+
+Monomials monomials_at(const Eigen::Vector3d &x)
+{
+  Monomials p;
+  p << 1., x[0], x[1], x[2], x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[2] * x[0];
+  return p;
+}
+
+Stress stress_of(const Eigen::Matrix3d &gradient, const Material &material)
+{
+  const double lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
+  const double mu     = material.E / (2. * (1. + material.nu));
+  const double volume = lambda * gradient.trace();
+  Stress       s;
+  s << volume + 2. * mu * gradient(0, 0), volume + 2. * mu * gradient(1, 1), volume + 2. * mu * gradient(2, 2),
+      mu * (gradient(0, 1) + gradient(1, 0)), mu * (gradient(1, 2) + gradient(2, 1)),
+      mu * (gradient(2, 0) + gradient(0, 2));
+  return s;
+}
+
+/// Stresses of all fields at points of a cell, one in each column of the result.
+void stresses_at(const ReferenceCell::Points &points, const QuadraticMesh &mesh, const Material &material, int cell,
+                 const NodalFields &u, Eigen::Ref<Stresses> result)
+{
+  const int  *nodes = mesh.nodes(cell);
+  NodalFields of_cell(u.rows(), mesh.nodes_per_cell());
+  for (int a = 0; a < mesh.nodes_per_cell(); ++a)
+    of_cell.col(a) = u.col(nodes[a]);
+  const Eigen::MatrixXd slopes = of_cell * points.dN; // du_i / dxi_d of point k in column 3 k + d
+  const Eigen::MatrixXd J      = positions(mesh, cell) * points.dN;
+  for (int k = 0; k < points.size(); ++k)
+  {
+    const Eigen::Matrix3d inverse = J.block<3, 3>(0, 3 * k).inverse();
+    for (int field = 0; field < u.rows() / 3; ++field)
+      result.col(k).segment<6>(6 * field) = stress_of(slopes.block<3, 3>(3 * field, 3 * k) * inverse, material);
+  }
+}
+
+Eigen::Vector3d point(const QuadraticMesh &mesh, int node)
+{
+  return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
+}
+
+/// Places and stresses of all samples; those of a cell stand together.
+struct Samples
+{
+  int             per_cell = 0;
+  Eigen::MatrixXd x; // [3 x samples]
+  Stresses        stress;
+};
+
+Samples sample(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells, const NodalFields &u)
+{
+  const ReferenceCell &reference = reference_cell(mesh);
+  Samples              result;
+  result.per_cell = reference.samples.size();
+  result.x.resize(3, cells.size() * result.per_cell);
+  result.stress.resize(2 * u.rows(), cells.size() * result.per_cell);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const auto first                            = static_cast<Eigen::Index>(i) * result.per_cell;
+    result.x.middleCols(first, result.per_cell) = positions(mesh, cells[i]) * reference.samples.N;
+    stresses_at(reference.samples, mesh, material, cells[i], u, result.stress.middleCols(first, result.per_cell));
+  }
+  return result;
+}
+
+/// The cells at every corner, compressed, as counted in a list of cells.
+struct CellsAround
+{
+  const std::vector<int> &list;
+  std::vector<int>        begin, cells;
+};
+
+CellsAround cells_around(const QuadraticMesh &mesh, const std::vector<int> &list)
+{
+  const std::vector<int> &corners = reference_cell(mesh).corners;
+  CellsAround             around{list, {}, {}};
+  around.begin.assign(mesh.n_nodes() + 1, 0);
+  for (const int cell : list)
+    for (const int k : corners)
+      ++around.begin[mesh.nodes(cell)[k] + 1];
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    around.begin[i + 1] += around.begin[i];
+  around.cells.resize(around.begin.back());
+  std::vector<int> next(around.begin.begin(), around.begin.end() - 1);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (const int k : corners)
+      around.cells[next[mesh.nodes(list[i])[k]]++] = static_cast<int>(i);
+  return around;
+}
+
+std::vector<int> patch_of(const QuadraticMesh &mesh, const CellsAround &around, int corner, std::size_t samples)
+{
+  const auto       begin = around.cells.begin();
+  std::vector<int> patch(begin + around.begin[corner], begin + around.begin[corner + 1]);
+  if (patch.size() * samples >= fewest)
+    return patch;
+  const std::vector<int> own = patch;
+  for (const int cell : own)
+    for (const int k : reference_cell(mesh).corners)
+    {
+      const int other = mesh.nodes(around.list[cell])[k];
+      patch.insert(patch.end(), begin + around.begin[other], begin + around.begin[other + 1]);
+    }
+  std::sort(patch.begin(), patch.end());
+  patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
+  return patch;
+}
+
+/// Least squares fit of the stresses of a patch.
+class PatchFit
+{
+public:
+  PatchFit(const Samples &samples, const std::vector<int> &patch, const Eigen::Vector3d &centre) : centre_(centre)
+  {
+    const int        n = samples.per_cell;
+    Eigen::Matrix3Xd x(3, n * patch.size());
+    Stresses         stress(samples.stress.rows(), x.cols());
+    for (std::size_t i = 0; i < patch.size(); ++i)
+    {
+      x.middleCols(n * i, n)      = samples.x.middleCols(n * patch[i], n).colwise() - centre_;
+      stress.middleCols(n * i, n) = samples.stress.middleCols(n * patch[i], n);
+    }
+    scale_ = x.array().abs().rowwise().maxCoeff().max(std::numeric_limits<double>::min()).inverse();
+
+    const Columns                               P      = monomials_of(x);
+    Eigen::Matrix<double, monomials, monomials> normal = P * P.transpose();
+    normal.diagonal().tail<6>() *= 1. + ridge; // z^2 is a constant to samples at z = +-a: then it is left out
+    coefficients_ = normal.ldlt().solve(P * stress.transpose()).transpose();
+  }
+
+  /// Fitted stresses at places [3 x k], one in each column.
+  Stresses operator()(const Eigen::Matrix3Xd &x) const { return coefficients_ * monomials_of(x.colwise() - centre_); }
+
+private:
+  using Columns = Eigen::Matrix<double, monomials, Eigen::Dynamic>;
+
+  Columns monomials_of(const Eigen::Matrix3Xd &r) const
+  {
+    Columns P(monomials, r.cols());
+    for (Eigen::Index k = 0; k < r.cols(); ++k)
+      P.col(k) = monomials_at((r.col(k).array() * scale_).matrix());
+    return P;
+  }
+
+  Eigen::Vector3d centre_;
+  Eigen::Array3d  scale_;
+  Eigen::MatrixXd coefficients_; // [6 fields x monomials]
+};
+
+/// The nodes that take a part of their stress from the fit around a corner, and how large a part.
+class NodesOfCorner
+{
+public:
+  explicit NodesOfCorner(const QuadraticMesh &mesh) : mesh_(mesh), seen_(mesh.n_nodes(), -1) {}
+
+  void collect(const CellsAround &around, int corner)
+  {
+    const ReferenceCell &reference = reference_cell(mesh_);
+    nodes.clear();
+    share.clear();
+    for (int k = around.begin[corner]; k < around.begin[corner + 1]; ++k)
+    {
+      const int *of_cell = mesh_.nodes(around.list[around.cells[k]]);
+      for (int a = 0; a < reference.n_nodes; ++a)
+      {
+        const std::vector<int> &amid = reference.between[a];
+        if (seen_[of_cell[a]] == corner ||
+            std::none_of(amid.begin(), amid.end(), [&](int c) { return of_cell[reference.corners[c]] == corner; }))
+          continue;
+        seen_[of_cell[a]] = corner;
+        nodes.push_back(of_cell[a]);
+        share.push_back(1. / static_cast<double>(amid.size()));
+      }
+    }
+  }
+
+  std::vector<int>    nodes;
+  std::vector<double> share;
+
+private:
+  const QuadraticMesh &mesh_;
+  std::vector<int>     seen_; // by which corner
+};
+
+} // namespace
+
+Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u)
+{
+  const auto &nodes = reference_cell(mesh).nodes;
+  Stresses    result(2 * u.rows(), nodes.size());
+  stresses_at(nodes, mesh, material, cell, u, result);
+  return result;
+}
+
+Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,
+                            const NodalFields &u)
+{
+  const Samples     samples = sample(mesh, material, cells, u);
+  const CellsAround around  = cells_around(mesh, cells);
+  Stresses          result  = Stresses::Zero(2 * u.rows(), mesh.n_nodes());
+  NodesOfCorner     takers(mesh);
+  for (int corner = 0; corner < mesh.n_nodes(); ++corner)
+  {
+    if (around.begin[corner] == around.begin[corner + 1])
+      continue; // no corner
+    const PatchFit fit(samples, patch_of(mesh, around, corner, samples.per_cell), point(mesh, corner));
+    takers.collect(around, corner);
+    Eigen::Matrix3Xd x(3, takers.nodes.size());
+    for (std::size_t k = 0; k < takers.nodes.size(); ++k)
+      x.col(k) = point(mesh, takers.nodes[k]);
+    const Stresses fitted = fit(x);
+    for (std::size_t k = 0; k < takers.nodes.size(); ++k)
+      result.col(takers.nodes[k]) += takers.share[k] * fitted.col(k);
+  }
+  return result;
+}
+
+double energy_product(const Eigen::Ref<const Stress> &s, const Eigen::Ref<const Stress> &t, const Material &material)
+{
+  const double normal = s.head<3>().dot(t.head<3>()), shear = s.tail<3>().dot(t.tail<3>());
+  return ((1. + material.nu) * (normal + 2. * shear) - material.nu * s.head<3>().sum() * t.head<3>().sum()) /
+         material.E;
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "fem/assembly/quadratic_mesh.h"
+#include "fem/values/frame_specification.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Stresses xx yy zz xy yz zx [Pa] of several fields: six rows per field, one column per point.
+using Stresses = Eigen::MatrixXd;
+
+/// Displacements [m] of several fields: three rows per field, one column per node of the mesh.
+using NodalFields = Eigen::MatrixXd;
+
+/// Stresses at the nodes of one cell, as the cell alone has them [6 f x nodes].
+Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u);
+
+/**
+ * Continuous stresses sigma* of the cells of one material at their nodes [6 f x n_nodes], 0 at others: superconvergent
+ * patch recovery.
+ *
+ * Around every corner of a cell a quadratic polynomial is fitted by least squares to the stresses at Gauss's points of
+ * the cells there (and of their neighbours, where they are few).  A corner takes the value of its own fit, any other
+ * node the mean of those of the corners it stands amid.
+ *
+ * Source: Zienkiewicz & Zhu, Int. J. Num. Meth. Eng. 33, 1992, 1331-1364.
+ */
+Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,
+                            const NodalFields &u);
+
+/// s : C^-1 : t  [J/m^3] of an isotropic material.
+double energy_product(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>> &s,
+                      const Eigen::Ref<const Eigen::Matrix<double, 6, 1>> &t, const Material &material);
+
+} // namespace gestell::fem

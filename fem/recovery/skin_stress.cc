@@ -1,0 +1,278 @@
+#include "fem/recovery/skin_stress.h"
+
+#include "fem/assembly/elasticity.h"
+#include "fem/assembly/reference_cell.h"
+#include "fem/mesh/hexahedron.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Lame     = std::array<double, 2>;
+using PointKey = std::tuple<int, double, double>; // node of the skin and material
+using Triple   = std::array<int, 3>;
+
+Lame lame(const Material &material)
+{
+  return {material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu)),
+          material.E / (2. * (1. + material.nu))};
+}
+
+Triple sorted(Triple corners)
+{
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Corners of the triangles that may stand for a face of a cell: local nodes, of a quadrilateral along both diagonals.
+std::vector<Triple> face_triangles(const QuadraticMesh &mesh)
+{
+  if (mesh.hexahedra.empty())
+    return {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
+  std::vector<Triple> triangles;
+  for (const auto &face : hexahedron::faces)
+    for (int left_out = 0; left_out < 4; ++left_out)
+    {
+      const auto corner = [&](int k) { return hexahedron::corners[face[(left_out + k) % 4]]; };
+      triangles.push_back({corner(1), corner(2), corner(3)});
+    }
+  return triangles;
+}
+
+/// The triangles of the skin and the cells they belong to.
+std::map<Triple, int> owners(const QuadraticMesh &mesh)
+{
+  std::vector<char>     on_skin(mesh.n_nodes(), 0);
+  std::map<Triple, int> owner;
+  for (const auto &face : mesh.skin)
+  {
+    owner[sorted({face[0], face[1], face[2]})] = -1;
+    for (int k = 0; k < 3; ++k)
+      on_skin[face[k]] = 1;
+  }
+  const std::vector<Triple> triangles = face_triangles(mesh);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    for (const auto &[a, b, c] : triangles)
+    {
+      const int *nodes = mesh.nodes(cell);
+      if (!on_skin[nodes[a]] || !on_skin[nodes[b]] || !on_skin[nodes[c]])
+        continue;
+      if (const auto found = owner.find(sorted({nodes[a], nodes[b], nodes[c]})); found != owner.end())
+        found->second = cell;
+    }
+  std::map<Triple, int> in_order; // as the skin names its corners
+  for (const auto &face : mesh.skin)
+    in_order[{face[0], face[1], face[2]}] = owner.at(sorted({face[0], face[1], face[2]}));
+  return in_order;
+}
+
+/// dN_a/dx at the corners of a cell, as far as stresses are to be trusted there.
+struct CornerGradients
+{
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;
+
+  double               volume = 0.;
+  std::vector<Weights> of_corner; // in the order of ReferenceCell::corners
+};
+
+CornerGradients tetrahedron_gradients(const QuadraticMesh &mesh, int cell)
+{
+  const auto     &nodes = mesh.cells[cell];
+  Eigen::Matrix3d J;
+  for (int k = 0; k < 3; ++k)
+    for (int d = 0; d < 3; ++d)
+      J(d, k) = mesh.points[nodes[k + 1]][d] - mesh.points[nodes[0]][d];
+  const Eigen::Matrix3d inverse = J.inverse();
+  CornerGradients       result;
+  result.volume = std::abs(J.determinant()) / 6.;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const auto           &dN = reference_integrals().corner_gradients[corner];
+    const Eigen::Matrix3d slope =
+        mesh.is_curved(cell) ? Eigen::Matrix3d((positions(mesh, cell) * dN).inverse()) : inverse;
+    result.of_corner.push_back(dN * slope);
+  }
+  return result;
+}
+
+/// Trilinear through the 2 x 2 x 2 points of Gauss, where the stresses of this element are best.
+CornerGradients hexahedron_gradients(const QuadraticMesh &mesh, int cell)
+{
+  const hexahedron::Positions X = positions(mesh, cell);
+  CornerGradients             result;
+  result.of_corner.assign(8, CornerGradients::Weights::Zero(hexahedron::n_nodes, 3));
+  for (const auto &point : hexahedron::quadrature(2))
+  {
+    const Eigen::Matrix3d          J      = hexahedron::jacobian(X, point.dN);
+    const CornerGradients::Weights slopes = point.dN * J.inverse();
+    result.volume += point.weight * J.determinant();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      // xi_g = +-1/sqrt(3), so that xi_c xi_g / xi_g^2 = 3 xi_c xi_g
+      const Eigen::Array3d xi = hexahedron::node_position(hexahedron::corners[corner]).array() * point.xi.array();
+      result.of_corner[corner] += (0.5 * (1. + 3. * xi)).prod() * slopes;
+    }
+  }
+  return result;
+}
+
+/// Gathers the rows of a StressRecovery cell by cell.
+class Gatherer
+{
+public:
+  Gatherer(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of)
+      : mesh_(mesh), material_of_(material_of), column_of_(mesh.n_nodes(), -1)
+  {
+    place_points();
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      add(cell);
+  }
+
+  StressRecovery recovery(const Kinematics &kinematics, const RigidNodes &rigid)
+  {
+    const auto n_points = static_cast<Eigen::Index>(result_.point.size());
+    for (auto &entry : mean_)
+      entry = {entry.row(), entry.col(), entry.value() / volume_[entry.row()]};
+    result_.mean.resize(n_points, 3 * static_cast<Eigen::Index>(nodes_.size()));
+    result_.mean.setFromTriplets(mean_.begin(), mean_.end());
+    result_.of_one.resize(n_points, result_.mean.cols());
+    result_.of_one.setFromTriplets(of_one_.begin(), of_one_.end());
+
+    std::vector<Eigen::Triplet<double>> rows;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      for (int d = 0; d < 3; ++d)
+        for (const auto &[coordinate, weight] : kinematics.row(3 * nodes_[i] + d))
+          rows.emplace_back(3 * i + d, coordinate, weight);
+    result_.u.resize(result_.mean.cols(), kinematics.n_coordinates());
+    result_.u.setFromTriplets(rows.begin(), rows.end());
+    mark(rigid);
+    return std::move(result_);
+  }
+
+private:
+  /// Numbers them in the order of the skin's triangles, as the picture numbers its points.
+  void place_points()
+  {
+    std::vector<int> picture_point(mesh_.n_nodes(), -1);
+    int              n_picture = 0;
+    const auto       owner     = owners(mesh_);
+    for (const auto &face : mesh_.skin)
+    {
+      const int cell = owner.at({face[0], face[1], face[2]});
+      if (cell < 0)
+        throw std::invalid_argument("skin_stress: a triangle of the skin is no part of a face of a cell");
+      const Lame         moduli = lame(material_of_(cell));
+      std::array<int, 3> triangle{};
+      for (int k = 0; k < 3; ++k)
+      {
+        if (picture_point[face[k]] < 0)
+          picture_point[face[k]] = n_picture++;
+        const auto [found, is_new] =
+            point_of_.emplace(PointKey{face[k], moduli[0], moduli[1]}, static_cast<int>(result_.point.size()));
+        triangle[k] = found->second;
+        if (!is_new)
+          continue;
+        result_.point.push_back(picture_point[face[k]]);
+        result_.lame.push_back(moduli);
+        owner_of_.push_back(cell);
+      }
+      result_.triangles.push_back(triangle);
+    }
+    volume_.assign(result_.point.size(), 0.);
+    on_skin_.assign(mesh_.n_nodes(), 0);
+    for (const auto &entry : point_of_)
+      on_skin_[std::get<0>(entry.first)] = 1;
+  }
+
+  void add(int cell)
+  {
+    const int              *nodes   = mesh_.nodes(cell);
+    const std::vector<int> &corners = reference_cell(mesh_).corners;
+    if (std::none_of(corners.begin(), corners.end(), [&](int corner) { return on_skin_[nodes[corner]]; }))
+      return;
+    const CornerGradients gradients =
+        mesh_.hexahedra.empty() ? tetrahedron_gradients(mesh_, cell) : hexahedron_gradients(mesh_, cell);
+    const Lame moduli = lame(material_of_(cell));
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    {
+      const auto point = point_of_.find({nodes[corners[corner]], moduli[0], moduli[1]});
+      if (point == point_of_.end())
+        continue;
+      const int   i       = point->second;
+      const auto &weights = gradients.of_corner[corner];
+      volume_[i] += gradients.volume;
+      for (Eigen::Index a = 0; a < weights.rows(); ++a)
+        for (int l = 0; l < 3; ++l)
+          if (weights(a, l) != 0.)
+          {
+            const int column = 3 * column_of(nodes[a]) + l;
+            mean_.emplace_back(i, column, gradients.volume * weights(a, l));
+            if (owner_of_[i] == cell)
+              of_one_.emplace_back(i, column, weights(a, l));
+          }
+    }
+  }
+
+  int column_of(int node)
+  {
+    if (column_of_[node] < 0)
+    {
+      column_of_[node] = static_cast<int>(nodes_.size());
+      nodes_.push_back(node);
+    }
+    return column_of_[node];
+  }
+
+  void mark(const RigidNodes &rigid)
+  {
+    result_.beside.assign(result_.point.size(), -1);
+    for (std::size_t r = 0; r < rigid.size(); ++r)
+    {
+      result_.rigid.push_back(rigid[r].first);
+      std::vector<char> held(mesh_.n_nodes(), 0);
+      for (const int node : rigid[r].second)
+        held[node] = 1;
+      for (int cell = 0; cell < mesh_.n_cells(); ++cell)
+      {
+        const int *nodes = mesh_.nodes(cell);
+        if (std::none_of(nodes, nodes + mesh_.nodes_per_cell(), [&](int node) { return held[node]; }))
+          continue;
+        const Lame moduli = lame(material_of_(cell));
+        for (const int k : reference_cell(mesh_).corners)
+          if (const auto point = point_of_.find({nodes[k], moduli[0], moduli[1]});
+              point != point_of_.end() && result_.beside[point->second] < 0)
+            result_.beside[point->second] = static_cast<int>(r);
+      }
+    }
+  }
+
+  const QuadraticMesh                        &mesh_;
+  const std::function<const Material &(int)> &material_of_;
+  std::map<PointKey, int>                     point_of_;
+  std::vector<char>                           on_skin_;
+  std::vector<int>                            owner_of_;  // [points] cell of of_one
+  std::vector<int>                            column_of_; // [nodes of the mesh]
+  std::vector<int>                            nodes_;     // near the skin
+  std::vector<double>                         volume_;    // [points] of all cells that are averaged
+  std::vector<Eigen::Triplet<double>>         mean_, of_one_;
+  StressRecovery                              result_;
+};
+
+} // namespace
+
+StressRecovery skin_stress(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of,
+                           const Kinematics &kinematics, const RigidNodes &rigid)
+{
+  return Gatherer(mesh, material_of).recovery(kinematics, rigid);
+}
+
+} // namespace gestell::fem

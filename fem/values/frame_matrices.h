@@ -1,0 +1,115 @@
+#pragma once
+
+#include "fem/values/mass_properties.h"
+#include "fem/values/modal_ratios.h"
+#include "fem/values/sparse_matrix.h"
+#include "fem/values/stress_recovery.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// The six motions of an interface node, in this order.
+enum Motion
+{
+  ux,
+  uy,
+  uz,
+  rx,
+  ry,
+  rz
+};
+
+/// Where the motions of one interface node stand in q: motion i is sign[i] * q[coordinate[i]], or held if -1; a node of
+/// a mesh has no rotations, which are -1 too.
+struct Interface
+{
+  std::string           name;
+  std::array<double, 3> position{}; ///< [m]
+  std::array<int, 6>    coordinate{-1, -1, -1, -1, -1, -1};
+  std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
+};
+
+/// A force read off the frame:  on_q . q + on_v . q' + under_acceleration . g.
+struct FrameOutput
+{
+  std::string     name; ///< "cut.columns", "support.feet"
+  std::string     unit; ///< "N"
+  Eigen::VectorXd on_q; // [n]
+  Eigen::VectorXd on_v; // [n]
+  /// [kg] what a uniform field of acceleration g, such as gravity, adds by itself: weight that a support takes without
+  /// any motion of q, and the static deflection that a reduced frame has no coordinates for.
+  Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
+};
+
+/// Skin of the frame for pictures: displacement of point i, direction d is row 3 i + d of `displacement` times q.
+struct Picture
+{
+  std::vector<std::array<double, 3>>           points;       ///< [m]
+  std::vector<std::array<int, 3>>              triangles;    // into points
+  Eigen::SparseMatrix<double, Eigen::RowMajor> displacement; // [3 points x n]
+};
+
+/// Modal damping as an operator of low rank: B = Z diag(d) Z^T with Z = M Phi [n x p], d = 2 zeta omega [p].
+struct ModalDamping
+{
+  Eigen::MatrixXd Z;
+  Eigen::VectorXd d;
+};
+
+/// What a frame made of cells weighs, and how well its elements keep rigid motions free: for people.
+struct FrameFacts
+{
+  struct Part
+  {
+    std::string name, material; ///< of a solid; an attached mass has no material
+    double      mass = 0.;      ///< [kg]
+  };
+  std::vector<Part> parts;
+  MassProperties    whole;
+  /// Largest strain energy of the six rigid motions of the unsupported frame, as a share of the energies that cancel in
+  /// it: rounding, some 1e-15, if all is well; nan if not known.
+  double rigid_energy = std::numeric_limits<double>::quiet_NaN();
+  /// Motions the supported frame makes without elastic energy, in words; see free_motions().
+  std::vector<std::string> free_motions;
+};
+
+/**
+ * A linear frame M q'' + B q' + C q = f, the one value that fem hands to coupling.
+ *
+ * Held coordinates are already removed and coupled surfaces eliminated: M is positive (semi)definite, B and C are
+ * symmetric and positive semidefinite; both triangles are stored.
+ */
+struct FrameMatrices
+{
+  SparseMatrix           M, B, C;             // [n x n] kg, N s/m, N/m
+  ModalRatios            modal_damping_ratio; ///< zeta of the modes of the supported frame
+  ModalDamping           modal_damping;       ///< empty until computed
+  std::vector<Interface> interfaces;
+  Eigen::MatrixXd        translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
+  /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
+  /// Empty in frames given by matrices: then M * translations.
+  Eigen::MatrixXd acceleration_load;
+  /// [n x 6] q of the rigid motions ux uy uz rx ry rz about `centre`, or empty if not known.
+  Eigen::MatrixXd          rigid_motions;
+  std::array<double, 3>    centre{}; ///< of mass [m]
+  std::vector<FrameOutput> outputs;
+  Picture                  picture;
+  FrameFacts               facts;
+  double                   mass = 0.; ///< of the frame with what is attached [kg]
+  StressRecovery           stress;    ///< empty unless it was asked for
+  int                      n_cells = 0;
+  std::vector<std::string> notes;      ///< what a user should look at in geometry, mesh and assembly
+  std::vector<std::string> statements; ///< what is as it should be
+
+  /// Coordinates q1 of all interfaces, ascending.
+  std::vector<int> interface_coordinates() const;
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,162 @@
+#pragma once
+
+#include "fem/geometry/cad_file.h"
+#include "fem/values/modal_ratios.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::fem
+{
+
+using Vector3 = std::array<double, 3>;
+
+/// Surface of the CAD model, by what a user can see of it.  All given conditions must hold.
+struct SurfaceSelector
+{
+  struct Cylinder
+  {
+    Vector3 axis;    ///< direction, any length
+    Vector3 through; ///< a point on the axis [m]
+    double  radius;  ///< [m]
+  };
+  struct Plane
+  {
+    Vector3 normal;  ///< outward, any length
+    Vector3 through; ///< a point of the plane [m]
+  };
+  struct Box
+  {
+    Vector3 min, max; ///< [m]; the face lies inside
+  };
+  std::optional<Cylinder>    cylinder;
+  std::optional<Plane>       plane;
+  std::optional<Box>         box;
+  std::optional<std::string> group;     ///< physical group or STEP name
+  std::optional<double>      tolerance; ///< [m]; default 1e-4 of the model's diagonal
+  int                        faces = 1; ///< number of CAD faces expected; 0 = any number but none
+  std::string                place;     ///< "press.toml:31: frame.surface.feet", heads messages
+};
+
+struct Material
+{
+  double      E   = 0.; ///< Young's modulus [Pa]
+  double      nu  = 0.; ///< Poisson's ratio
+  double      rho = 0.; ///< density [kg/m^3]
+  std::string place;
+  std::string name{}; ///< "steel", for reports
+};
+
+enum class SupportKind
+{
+  clamped,
+  foundation
+};
+
+/// Stiffness and damping of a foundation are totals over the surface, spread evenly over its area, or given per area;
+/// they act along `axes`.
+struct Support
+{
+  std::string              name;
+  std::vector<std::string> surfaces;
+  SupportKind              kind = SupportKind::clamped;
+  std::array<bool, 3>      held{true, true, true}; ///< clamped: which displacements (x, y, z)
+  Vector3                  stiffness{};            ///< foundation: [N/m], per area [N/m^3]
+  Vector3                  damping{};              ///< foundation: [N s/m], per area [N s/m^3]
+  std::string              place;
+  std::array<bool, 2>      per_area{false, false}; ///< stiffness, damping
+  std::array<Vector3, 3>   axes{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< foundation: orthonormal directions of the three values
+};
+
+enum class InterfaceCoupling
+{
+  rigid,   ///< RBE2: the surface moves as a rigid body with the node
+  average, ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
+  point,   ///< the point of the surface nearest to `position`: average over the triangles around it
+  node     ///< the corner of the mesh nearest to `position`, on the surfaces or, without any, on the whole skin
+};
+
+/// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces; of `node` only three (ux uy uz).
+struct InterfaceSpecification
+{
+  std::string              name;
+  std::vector<std::string> surfaces;
+  InterfaceCoupling        coupling = InterfaceCoupling::rigid;
+  std::optional<Vector3>   position; ///< [m]; default: centroid of the surfaces
+  std::string              place;
+  double                   radius = 0.;          ///< of a point [m]: triangles within it; 0: those that meet there
+  std::string              what   = "interface"; ///< what messages call its owner
+};
+
+/// A rigid body fastened to the frame, such as a motor or a counterweight: to surfaces, or to the node of an interface.
+struct AttachedMass
+{
+  std::string              name;
+  double                   mass    = 0.;                      ///< [kg]
+  Eigen::Matrix3d          inertia = Eigen::Matrix3d::Zero(); ///< about its centre of mass, global axes [kg m^2]
+  std::optional<Vector3>   centre;    ///< of mass [m]; default: the node of the interface, the centroid of the surfaces
+  std::string              interface; ///< that carries it; empty: it has surfaces
+  std::vector<std::string> surfaces;
+  InterfaceCoupling        coupling = InterfaceCoupling::rigid; ///< to the surfaces
+  std::string              place;
+};
+
+/// Plane through the frame; its output is the force across it in direction of `normal`, tension positive.
+struct CutSpecification
+{
+  std::string name;
+  Vector3     through{}; ///< [m]
+  Vector3     normal{0., 0., 1.};
+  std::string place;
+};
+
+/// What becomes of the common part of solids that overlap.
+enum class Overlaps
+{
+  refused,
+  once ///< it belongs to the solid that comes first in the file
+};
+
+struct MeshOptions
+{
+  double                        size = 0.;    ///< [m]
+  std::map<std::string, double> surface_size; ///< [m] on named surfaces, graded outwards
+  double                        max_cells = 2e6;
+  double                        gap       = 0.; ///< [m]: solids at most that far apart are joined
+  int                           bodies    = 1;  ///< expected number of bodies that do not hang together
+  double                        defeature = 0.; ///< [m]: faces and edges smaller than this are removed
+  Overlaps                      overlaps  = Overlaps::refused;
+  bool                          curved    = false; ///< sides follow the geometry
+  std::string                   place;
+};
+
+/// All that defines a frame made from CAD or from a mesh.
+struct FrameSpecification
+{
+  std::string cad;       ///< .step .stp .brep .geo .msh .inp; absolute path
+  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
+  MeshOptions mesh;
+  Material    material; ///< of all solids but those in `materials`
+  /// By the name of a solid or a pattern of names ('*', '?'); of several that fit the last counts.
+  std::vector<std::pair<std::string, Material>> materials;
+  ModalRatios                                   modal_damping_ratio;
+  double                                 rayleigh_mass = 0.; ///< alpha [1/s] of B = alpha M + beta C of the material
+  double                                 rayleigh_stiffness = 0.; ///< beta [s]
+  std::map<std::string, SurfaceSelector> surfaces;
+  std::vector<Support>                   supports;
+  std::vector<InterfaceSpecification>    interfaces;
+  std::vector<AttachedMass>              masses;
+  std::vector<CutSpecification>          cuts;
+  bool                                   stress  = false; ///< to be recovered
+  Scripts                                scripts = Scripts::harmless;
+  std::string                            place; ///< "press.toml:12: frame"
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,113 @@
+#include "fem/values/inp_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+std::string trimmed(const std::string &text)
+{
+  const auto blank = " \t\r\n";
+  const auto from  = text.find_first_not_of(blank);
+  return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(blank) - from + 1);
+}
+
+std::string unquoted(const std::string &text)
+{
+  return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+std::vector<std::string> fields_of(const std::string &line)
+{
+  std::vector<std::string> fields;
+  for (std::size_t from = 0; from <= line.size();)
+  {
+    const std::size_t comma = std::min(line.find(',', from), line.size());
+    fields.push_back(trimmed(line.substr(from, comma - from)));
+    from = comma + 1;
+  }
+  while (!fields.empty() && fields.back().empty()) // a line that ends with a comma goes on in the next
+    fields.pop_back();
+  return fields;
+}
+
+} // namespace
+
+std::string in_capitals(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+std::string InpKeyword::operator[](const std::string &parameter) const
+{
+  const auto found = parameters.find(parameter);
+  return found == parameters.end() ? "" : found->second;
+}
+
+InpLines::InpLines(const std::string &path) : in_(path), opened_(in_ && std::filesystem::is_regular_file(path)) {}
+
+/// The next line into ahead_.
+bool InpLines::take()
+{
+  if (has_ahead_)
+    return true;
+  while (std::getline(in_, ahead_))
+  {
+    ++read_;
+    ahead_     = trimmed(ahead_);
+    has_ahead_ = !ahead_.empty() && ahead_.compare(0, 2, "**") != 0;
+    if (has_ahead_)
+      return true;
+  }
+  return false;
+}
+
+bool InpLines::next()
+{
+  if (!take())
+    return false;
+  text_      = std::move(ahead_);
+  number_    = read_;
+  has_ahead_ = false;
+  while (is_keyword() && text_.back() == ',' && take() && std::isalpha(static_cast<unsigned char>(ahead_[0])))
+  {
+    text_ += ahead_;
+    has_ahead_ = false;
+  }
+  return true;
+}
+
+InpKeyword InpLines::keyword() const
+{
+  InpKeyword                     keyword;
+  const std::vector<std::string> fields = fields_of(text_.substr(1));
+  keyword.name                          = fields.empty() ? "" : in_capitals(fields[0]);
+  for (std::size_t i = 1; i < fields.size(); ++i)
+  {
+    const auto equals = fields[i].find('=');
+    keyword.parameters[in_capitals(trimmed(fields[i].substr(0, equals)))] =
+        equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1)));
+  }
+  return keyword;
+}
+
+std::vector<std::string> InpLines::fields() const
+{
+  return fields_of(text_);
+}
+
+std::string input_of(const InpKeyword &keyword, const std::string &file)
+{
+  for (const char *name : {"INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"})
+    if (keyword.name == name && !keyword["INPUT"].empty())
+      return (std::filesystem::path(file).parent_path() / keyword["INPUT"]).lexically_normal().string();
+  return "";
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "mechanism/measures/placement.h"
+
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/**
+ * A scalar s of the motion of two places x_1, x_2 on two bodies, with d = x_2 - x_1:
+ *
+ *     along          a . d               a fixed in space, or carried by one of the bodies    [m]
+ *     square         a_1 . b_2           cosine between directions carried by the two         [1]
+ *     distance       |d|                                                                      [m]
+ *     inclination    atan2(b . d, a . d) angle of the line about a x b, in (-pi, pi]          [rad]
+ *     angle          atan2(b_1 . a_2, a_1 . a_2)   of body 2 against body 1 about a x b       [rad]
+ *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
+ *     spin           s' = a . (w_2 - w_1), angular velocities; s itself has no meaning, 0     [rad/s]
+ *     mesh           sum c_i u_i - c psi + f (inv(alpha) - inv(alpha_0)), two wheels in mesh  [m]
+ *
+ * of which psi is the inclination, continued over any number of turns, cos(alpha) = |c|/|d| in the plane of a, b and
+ * inv(x) = tan(x) - x the involute function.
+ *
+ * Ideal joints demand a value of it, elements act on it, signals tell it.
+ *
+ * Source: docs/theory/joints.md (2); of spin contact.md (4a), of mesh position_functions.md (2a).
+ */
+struct RelativeMeasure
+{
+  enum class Form
+  {
+    along,
+    square,
+    distance,
+    inclination,
+    angle,
+    ratio,
+    spin,
+    mesh
+  };
+  enum class Carrier
+  {
+    space,
+    first,
+    second
+  };
+
+  /// s jumps by a turn where it passes pi.
+  bool wraps() const { return form == Form::inclination || form == Form::angle; }
+
+  Form                form    = Form::along;
+  Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
+  Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of both angles at right angles to a
+  Carrier             carrier = Carrier::space;   ///< of a in `along`
+  std::vector<double> ratios;                     ///< c_i [k] of `ratio` and `mesh`
+  double              reach          = 0.;        ///< c of `mesh` [m], not zero
+  double              flank          = 0.;        ///< f of `mesh`: c or -c by the flank that carries; 0: alpha_0 = 0
+  double              pressure_angle = 0.;        ///< alpha_0 of `mesh` [rad], 0 <= alpha_0 < pi/2
+
+  /// s, s' = G u' and s'' = G u'' + bias.
+  struct Value
+  {
+    double s, rate, bias;
+  };
+
+  /// @param x_1, x_2  the places at u, v [k]
+  /// @param v         null: s and G alone are wanted, the places know no rates
+  /// @param gradient  G: k numbers, each `stride` behind the one before
+  Value evaluate(const Placement &first, const Placement &second, const Placement::MovedVector &x_1,
+                 const Placement::MovedVector &x_2, const double *u, const double *v, double *gradient,
+                 Eigen::Index stride = 1) const;
+
+private:
+  /// Of `mesh`: what the line of centres adds to the angles of the wheels.
+  Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double turned, Vector3d &of_d) const;
+};
+
+/// Where two bodies are, and a scalar of their motion.
+struct PlacedMeasure
+{
+  Placement       first, second;
+  RelativeMeasure measure;
+
+  static constexpr int max_measures = 2 * Placement::max_measures;
+
+  /// One measure of the machine as it is: s = u.
+  static PlacedMeasure linear();
+
+  int                    n_measures() const { return first.n_measures() + second.n_measures(); }
+  RelativeMeasure::Value evaluate(const double *u, const double *v, double *gradient) const;
+  /// matrix += factor s''(u) [k x k, column major].
+  void add_curvature(const double *u, double factor, double *matrix) const;
+};
+
+/**
+ * matrix [k x k, column major] += factor s''(u), where bias(v) is the quadratic form v^T s''(u) v of a velocity v [k]:
+ * its polarisation gives the entries exactly.
+ *
+ * @param k  at most most_measures
+ */
+template <int most_measures, class Bias>
+void add_polarised(int k, const Bias &bias, double factor, double *matrix)
+{
+  double v[most_measures] = {}, own[most_measures];
+  for (int i = 0; i < k; ++i)
+  {
+    v[i]   = 1.;
+    own[i] = bias(v);
+    v[i]   = 0.;
+  }
+  for (int j = 0; j < k; ++j)
+    for (int i = 0; i <= j; ++i)
+    {
+      v[i] = v[j]       = 1.;
+      const double both = i == j ? own[i] : 0.5 * (bias(v) - own[i] - own[j]);
+      v[i] = v[j] = 0.;
+      matrix[i + k * j] += factor * both;
+      if (i != j)
+        matrix[j + k * i] += factor * both;
+    }
+}
+
+} // namespace gestell::mechanism

@@ -1,0 +1,185 @@
+// A frame that is asked for again, through the program: found, explained, listed, pruned, and without the heavy half.
+
+#include "apps/cli/prepared_machine.h"
+#include "coupling/frame/frame_cache.h"
+#include "tests/support/cached_frame.h"
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+class FrameCacheCommand : public ::testing::Test
+{
+protected:
+  Folder      folder{"frame_cache_command"};
+  std::string scene  = folder.file("chain.toml", test::reduced_chain);
+  std::string cache  = (folder / "cache").string();
+  std::string called = "GESTELL_CACHE='" + cache + "' '" GESTELL_BINARY_DIR "/bin/gestell' ";
+
+  void SetUp() override
+  {
+    setenv("GESTELL_CACHE", cache.c_str(), 1);
+    const auto origin = apps::frame_origin(apps::read_scene((folder / "chain.toml").string()));
+    ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
+  }
+  void TearDown() override { unsetenv("GESTELL_CACHE"); }
+
+  std::string kept() const { return std::filesystem::directory_iterator(cache)->path().string(); }
+};
+
+/// CPU time of all programs called so far [s].
+double cpu_of_children()
+{
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval &t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+TEST_F(FrameCacheCommand, ARunFromItLoadsNoneOfTheHeavyLibrariesAndStartsAtOnce)
+{
+  const double before = cpu_of_children();
+  const Answer answer =
+      shell("LD_DEBUG=files " + called + "run " + scene + folder.option() + "--set run.end='\"20 us\"'");
+  const double cpu = cpu_of_children() - before;
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  ASSERT_TRUE(answer.says("libc.so")) << "the loader tells its files";
+  for (const char *library : {"libgestell_frame", "libdeal", "libpetsc", "libslepc", "libgmsh", "libmpi", "libTK"})
+    EXPECT_FALSE(answer.says(library)) << library;
+  EXPECT_LT(cpu, 0.3); // the whole of it, with its report
+}
+
+TEST_F(FrameCacheCommand, MovesAsTheFrameItIsFrom)
+{
+  const Answer reduced = shell(called + "run " + scene + folder.option());
+  ASSERT_EQ(reduced.exit_code, 0) << reduced.text;
+  const auto final_x = [&]
+  {
+    const std::string summary = read(folder.results() / "summary.json");
+    const auto        at      = summary.find("\"final\"");
+    return std::stod(summary.substr(summary.find(':', at) + 1));
+  };
+  const double x     = final_x();
+  const Answer whole = shell(called + "run " + scene + folder.option() + "--set reduction.method='\"none\"'");
+  ASSERT_EQ(whole.exit_code, 0) << whole.text;
+  EXPECT_NEAR(x, final_x(), 1e-4 * std::abs(x)); // the cached one has a damping of 1e-4/s for 0.1 s
+}
+
+TEST_F(FrameCacheCommand, ExplainsHitAndMiss)
+{
+  const Answer hit = shell(called + "reduce --explain " + scene);
+  EXPECT_EQ(hit.exit_code, 0) << hit.text;
+  EXPECT_TRUE(hit.says("is in the cache and would be used")) << hit.text;
+
+  const Answer miss = shell(called + "reduce --explain " + scene + " --set reduction.modes=1");
+  EXPECT_EQ(miss.exit_code, 0) << miss.text;
+  EXPECT_TRUE(miss.says("is not in the cache")) << miss.text;
+  EXPECT_TRUE(miss.says("reduction.modes: kept 2, asked 1")) << miss.text;
+
+  std::filesystem::resize_file(kept(), 1000);
+  const Answer damaged = shell(called + "reduce --explain " + scene);
+  EXPECT_TRUE(damaged.says("is damaged")) << damaged.text;
+}
+
+TEST_F(FrameCacheCommand, NamesChoicesAsScenesDo)
+{
+  folder.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n");
+  const std::string block  = folder.file("block.toml", R"(name = "block"
+[frame]
+cad  = "block.geo"
+unit = "1 m"
+mesh = { size = "0.5 m" }
+[frame.surface.top]
+plane = { normal = [0, 0, 1], through = [0, 0, 1] }
+[frame.interface.top]
+surface = "top"
+[reduction]
+modes = 2
+)");
+  const auto        origin = apps::frame_origin(apps::read_scene((folder / "block.toml").string()));
+  ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
+  const Answer miss = shell(called + "reduce --explain " + block +
+                            " --set frame.interface.top.coupling='\"average\"' "
+                            "--set reduction.inside='\"free-interface\"' --set frame.mesh.overlaps='\"once\"'");
+  for (const char *part :
+       {"interface.1.coupling: kept rigid, asked average\n", "mesh.overlaps: kept refused, asked once\n",
+        "reduction.inside: kept fixed-interface, asked free-interface\n"})
+    EXPECT_TRUE(miss.says(part)) << miss.text;
+}
+
+TEST_F(FrameCacheCommand, ListsAndPrunesWhatIsAskedForOnly)
+{
+  const Answer list = shell(called + "reduce --list");
+  EXPECT_EQ(list.exit_code, 0) << list.text;
+  EXPECT_TRUE(list.says("1 file")) << list.text;
+  EXPECT_TRUE(list.says("3 -> 1 + 2 modes")) << list.text;
+  EXPECT_TRUE(list.says("chain.toml")) << list.text;
+
+  std::ofstream(cache + "/notes.txt") << "of the user";
+  for (const std::string option : {"", " --older-than '1 d'", " --larger-than '1 GB'"})
+    EXPECT_TRUE(shell(called + "reduce --prune" + option).says("removed 0 files")) << option;
+  EXPECT_TRUE(shell(called + "reduce --prune --larger-than '1 kB'").says("removed 1 file,"));
+  EXPECT_TRUE(std::filesystem::exists(cache + "/notes.txt"));
+  EXPECT_TRUE(shell(called + "reduce --list").says("0 files"));
+}
+
+TEST_F(FrameCacheCommand, TellsFramesOfOneSceneApart)
+{
+  EXPECT_FALSE(shell(called + "reduce --list").says("reduction.modes"));
+  const auto origin = apps::frame_origin(apps::read_scene((folder / "chain.toml").string(), {"reduction.modes=1"}));
+  ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
+  const Answer list = shell(called + "reduce --list");
+  EXPECT_TRUE(list.says("reduction.modes 2\n")) << list.text;
+  EXPECT_TRUE(list.says("reduction.modes 1\n")) << list.text;
+}
+
+TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
+{
+  EXPECT_TRUE(
+      shell(called + "reduce --list --check").says("checked: 1 file read whole, against checksum and key; all"));
+  {
+    std::fstream change(kept(), std::ios::in | std::ios::out | std::ios::binary);
+    change.seekg(-8, std::ios::end);
+    const char last = char(change.peek());
+    change.seekp(-8, std::ios::end);
+    change.put(char(last + 1));
+  }
+  EXPECT_TRUE(shell(called + "reduce --prune").says("removed 0 files"));
+  EXPECT_TRUE(shell(called + "reduce --list --check").says("; 1 cannot be used"));
+  EXPECT_TRUE(shell(called + "reduce --explain " + scene).says("would be made anew"));
+  EXPECT_TRUE(shell(called + "reduce --prune --check").says("removed 1 file,"));
+}
+
+TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
+{
+  const auto says = [&](const std::string &arguments, const std::string &words)
+  {
+    const Answer answer = shell(called + arguments);
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says(words)) << answer.text;
+  };
+  says("reduce", "names no scene");
+  says("reduce --all", "add it");
+  says("reduce --check", "--list or --prune");
+  says("reduce --prune --older-than '3 parsecs'", "one of the units d, h, min, s, w");
+  says("reduce --prune --larger-than many", "one of the units");
+  says("reduce --list " + scene, "leave out");
+  EXPECT_TRUE(std::filesystem::exists(kept()));
+}
+
+TEST_F(FrameCacheCommand, WithoutAFolderIsEmpty)
+{
+  const Answer answer =
+      shell("GESTELL_CACHE='" + cache + "/absent' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --list");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_TRUE(answer.says("0 files")) << answer.text;
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,82 @@
+// A reduced frame written for other programs and taken back as a frame given by matrices.
+
+#include "apps/cli/export_frame.h"
+#include "apps/scene/build/build_machine.h"
+#include "coupling/reduction/dense_frame.h"
+#include "tests/support/scene_text.h"
+#include "tests/support/cached_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace
+{
+
+using namespace gestell;
+
+std::string text_of_file(const std::string &name)
+{
+  std::ifstream in(name);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+coupling::ReducedFrame frame_with_picture()
+{
+  auto frame                        = test::chain_frame();
+  frame.outputs[0].name             = "support.foot.z";
+  frame.interfaces[0].position      = {0.1, 1. / 3., 2.};
+  frame.interfaces[0].sign[fem::uz] = -1.;
+  frame.points                      = {{0., 0., 0.}, {1., 0., 0.}, {0., 1. / 7., 0.}};
+  frame.triangles                   = {{0, 1, 2}};
+  frame.displacement                = Eigen::MatrixXf::Random(9, 3);
+  return frame;
+}
+
+class MatrixExport : public ::testing::TestWithParam<const char *>
+{
+};
+
+TEST_P(MatrixExport, ComesBackAsTheSameFrame)
+{
+  const test::SceneFolder folder;
+  const auto              frame = frame_with_picture();
+  apps::export_frame(folder.path(""), frame, apps::matrix_format(GetParam()), "a test");
+  const auto scene = apps::read_scene(folder.write("back.toml", text_of_file(folder.path("frame.toml"))));
+  const auto back  = coupling::dense_frame(scene.frame.matrices);
+
+  const auto same = [](const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
+  { return (a - b).cwiseAbs().maxCoeff() <= 1e-15 * b.cwiseAbs().maxCoeff(); };
+  EXPECT_TRUE(same(back.M, frame.M));
+  EXPECT_TRUE(same(back.B, frame.B));
+  EXPECT_TRUE(same(back.C, frame.C));
+  EXPECT_TRUE(back.modal);
+  EXPECT_EQ(back.n_interface, 1);
+  EXPECT_TRUE(same(back.omega0, frame.omega0));
+  ASSERT_EQ(back.interfaces.size(), 1u);
+  EXPECT_EQ(back.interfaces[0].name, "top");
+  EXPECT_EQ(back.interfaces[0].coordinate, frame.interfaces[0].coordinate);
+  EXPECT_EQ(back.interfaces[0].sign[fem::uz], -1.);
+  EXPECT_EQ(back.interfaces[0].position, frame.interfaces[0].position);
+  ASSERT_EQ(back.outputs.size(), 1u);
+  EXPECT_EQ(back.outputs[0].name, "support.foot.z");
+  EXPECT_TRUE(same(back.outputs[0].on_q, frame.outputs[0].on_q));
+  EXPECT_TRUE(same(back.outputs[0].under_acceleration, frame.outputs[0].under_acceleration));
+  // M M^-1 f with M of condition 1e2
+  EXPECT_LT((back.translations_load - frame.translations_load).norm(), 1e-13 * frame.translations_load.norm());
+  EXPECT_EQ(back.mass, frame.mass) << "clamped parts included, which M does not show";
+  ASSERT_EQ(back.points.size(), 4u); // the interface comes first
+  EXPECT_EQ(back.points[3], frame.points[2]);
+  EXPECT_EQ(back.triangles[0], (std::array<int, 3>{1, 2, 3}));
+  EXPECT_EQ(back.displacement.bottomRows(9), frame.displacement);
+  EXPECT_EQ(back.displacement(2, 0), -1.F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MatrixExport, ::testing::Values("matrix-market", "petsc"));
+
+TEST(MatrixFormat, OfAnotherNameIsRefused)
+{
+  EXPECT_THROW(apps::matrix_format("nastran"), std::invalid_argument);
+}
+
+} // namespace

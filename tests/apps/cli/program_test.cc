@@ -1,0 +1,379 @@
+// The program as its users meet it: files, exit codes and messages of the contract.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <vector>
+
+namespace gestell::tests
+{
+namespace
+{
+
+TEST(Program, RunLeavesEveryFileOfTheContract)
+{
+  const Folder folder("run");
+  const Answer answer = gestell("run " + scene("press_minimal.toml") + folder.option());
+  ASSERT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("report.html"));
+  for (const char *name : {"summary.json", "history.csv", "modes.csv", "report.html"})
+    EXPECT_GT(read(folder.results() / name).size(), 100u) << name;
+  EXPECT_FALSE(std::filesystem::is_empty(folder.results() / "charts"));
+  EXPECT_EQ(read(folder.results() / "history.csv").substr(0, 14), "t [s],F_P [N],");
+  const std::string summary = read(folder.results() / "summary.json");
+  for (const char *key : {"\"scene\"", "\"version\"", "\"model\"", "\"frequencies_hz\"", "\"signals\"", "\"events\"",
+                          "\"work\"", "\"wall_s\"", "\"energy\"", "\"residual\"", "\"warnings\"", "\"conrod_open\""})
+    EXPECT_NE(summary.find(key), std::string::npos) << key;
+}
+
+TEST(Program, ModesAndCheckWorkWithoutARun)
+{
+  const Folder folder("modes");
+  const Answer modes = gestell("modes " + scene("press_minimal.toml") + folder.option());
+  EXPECT_EQ(modes.exit_code, 0) << modes.text;
+  EXPECT_TRUE(modes.says("84.675765"));
+  EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
+  const Answer check = gestell("check " + scene("press_minimal.toml"));
+  EXPECT_EQ(check.exit_code, 0) << check.text;
+}
+
+TEST(Program, ModesOfAMassOutOfAllProportionAreThoseOfTheRestOrRefused)
+{
+  const Folder folder("masses");
+  const auto   with = [&](const std::string &mass)
+  {
+    return gestell("modes " + scene("press_minimal.toml") + folder.option() + "--set 'parameters.m3=\"" + mass +
+                   " kg\"'");
+  };
+  for (const std::string mass :
+       {"1e-308", "1e-150", "1e-20", "1e-6"}) // a slide without mass; 0.0074 Hz: on its springs
+  {
+    const Answer without = with(mass);
+    EXPECT_EQ(without.exit_code, 0) << without.text;
+    for (const std::string frequency : {"0.0074176979", "11.654848", "21.486765", "122.98025"})
+      EXPECT_TRUE(without.says(frequency)) << mass << without.text;
+  }
+  for (const std::string mass : {"1e100", "1e250"}) // a slide at rest
+  {
+    const Answer held = with(mass);
+    EXPECT_EQ(held.exit_code, 0) << held.text;
+    for (const std::string frequency : {"0.78549522", "12.376443", "38.752354", "128.63746"})
+      EXPECT_TRUE(held.says(frequency)) << mass << held.text;
+  }
+  const Answer infinite = with("1e308");
+  EXPECT_EQ(infinite.exit_code, 2) << infinite.text;
+  EXPECT_TRUE(infinite.says("mass of coordinate slide is not finite")) << infinite.text;
+}
+
+TEST(Program, ModesAlongACoordinateLeaveTablesAndCharts)
+{
+  const Folder folder("along");
+  const Answer answer =
+      gestell("modes " + scene("press_minimal.toml") + folder.option() + "--along crank --positions 5");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  const std::string table = read(folder.results() / "modes_along.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "crank.angle [rad],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration,growth [1/s]");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 5 * 5);
+  EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"along\">"), std::string::npos);
+  EXPECT_NE(read(folder.results() / "summary.json").find("\"order_meetings\""), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "charts" / "modes-along.svg"));
+  const Answer wrong = gestell("modes " + scene("press_minimal.toml") + folder.option() + "--along cranc");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_TRUE(wrong.says("did you mean 'crank'")) << wrong.text;
+}
+
+TEST(Program, EveryCommandHelpsWithAnExample)
+{
+  for (const char *command : {"run", "modes", "reduce", "mesh", "check"})
+  {
+    const Answer answer = gestell(std::string(command) + " --help");
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_TRUE(answer.says(std::string("gestell ") + command + " ")) << answer.text;
+  }
+  EXPECT_TRUE(gestell("--version").says("gestell "));
+}
+
+struct Wrong
+{
+  std::string name, arguments, message;
+};
+
+std::ostream &operator<<(std::ostream &out, const Wrong &wrong)
+{
+  return out << wrong.name;
+}
+
+class WrongInput : public ::testing::TestWithParam<Wrong>
+{
+};
+
+TEST_P(WrongInput, IsToldWithPlaceAndRemedyAndLeavesNothing)
+{
+  const Folder folder("wrong");
+  const Answer answer = gestell("run " + scene("press_minimal.toml") + folder.option() + GetParam().arguments);
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says(GetParam().message)) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongInput,
+    ::testing::Values(Wrong{"unknown_key", "--set element.rod.clearence='\"1 mm\"'", "clearance"},
+                      Wrong{"wrong_type", "--set body.slide.mass=true", "body.slide.mass"},
+                      Wrong{"wrong_dimension", "--set element.rod.clearance='\"3 kg\"'", "element.rod.clearance"},
+                      Wrong{"no_such_body", "--set element.rod.to='\"slied\"'", "slide"},
+                      Wrong{"no_such_interface", "--set element.sheet.to='\"frame.tabel\"'", "'table'"},
+                      Wrong{"no_such_signal", "--set output.signals.F_P='\"rod.forse\"'", "rod.force"},
+                      Wrong{"step_zero", "--set run.step=0", "run.step"},
+                      Wrong{"step_negative", "--set run.step='\"-10 us\"'", "run.step"},
+                      Wrong{"end_before_start", "--set run.end=-1", "run.end"},
+                      Wrong{"end_at_start", "--set run.end='\"-1 us\"'", "got -1e-06 s"},
+                      Wrong{"unstable_order", "--set run.order=4 --set run.step='\"2 ms\"'", "unstable"},
+                      Wrong{"negative_damping", "--set frame.damping='[[-1e6, 0], [0, -1e6]]'", "frame.damping"},
+                      Wrong{"ratio_in_percent", "--set frame.damping='{ ratio = 5 }'", "ratio"},
+                      Wrong{"signal_twice", "--set output.signals='[\"rod.force\", \"rod.force\"]'", "twice"},
+                      Wrong{"endless_steps", "--set run.step=1e-13", "run.step"},
+                      Wrong{"gigabytes", "--set run.step=1e-9", "GB"},
+                      Wrong{"below_rounding", "--set run.tolerance=1e-15", "rounding"},
+                      Wrong{"unstable_newmark", "--set run.method=newmark --set run.beta=0 --set run.step=1e-2",
+                            "unstable"},
+                      Wrong{"theta", "--set run.method=wilson --set run.theta=0.9", "1 or more"},
+                      Wrong{"alpha", "--set run.method=hht --set run.alpha=-0.4", "between -1/3 and 0"},
+                      Wrong{"rho", "--set run.method=generalised-alpha --set run.rho_inf=1.2", "between 0 and 1"},
+                      Wrong{"key_of_another", "--set run.method=newmark --set run.theta=1.4", "is a key of 'wilson'"},
+                      Wrong{"unknown_method", "--set run.method='\"rk4\"'", "run.method"},
+                      Wrong{"rod_too_short", "--set parameters.l='\"50 mm\"'", "length"},
+                      Wrong{"bad_parameter", "--set parameters.c_el='\"1000 kN/mm\"'", "elastic_stiffness"}),
+    [](const auto &information) { return information.param.name; });
+
+TEST(Program, LengthsOnTheCommandLineTakeUnitsAndSayWhatIsWrong)
+{
+  for (const char *wrong : {"3kg", "0", "x", "-1"})
+  {
+    const Answer answer = gestell("mesh no_such.step --size=" + std::string(wrong));
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says("--size: ")) << answer.text;
+  }
+  const Answer right = gestell("mesh no_such.step --size='80 mm'");
+  EXPECT_EQ(right.exit_code, 2);
+  EXPECT_FALSE(right.says("--size")) << right.text;
+}
+
+TEST(Program, MoreMemoryThanThereIsIsToldWithWhatHelps)
+{
+  const Folder folder("memory"); // 20 GB of history
+  const Answer answer =
+      shell("ulimit -v 2000000; '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
+            folder.option() + "--set run.step=1e-9 --set output.allow_large=true");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("out of memory; take a coarser mesh")) << answer.text;
+}
+
+TEST(Program, MissingSceneIsWrongInput)
+{
+  const Answer answer = gestell("run no_such_scene.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.says("no_such_scene.toml")) << answer.text;
+  EXPECT_EQ(gestell("run").exit_code, 2);
+  EXPECT_EQ(gestell("dance").exit_code, 2);
+}
+
+TEST(Program, ASlipOnTheCommandLineIsAnsweredWithTheNearestWord)
+{
+  const auto expect = [](const std::string &arguments, const std::string &message)
+  {
+    const Answer answer = gestell(arguments);
+    EXPECT_EQ(answer.exit_code, 2) << answer.text;
+    EXPECT_TRUE(answer.says(message)) << answer.text;
+  };
+  expect("chekc a.toml", "there is no command 'chekc'; did you mean 'check'?");
+  expect("foo", "there is no command 'foo'; valid: 'run', 'modes'");
+  expect("check --qiuet a.toml", "there is no option --qiuet; did you mean '--quiet'?");
+  expect("check a.toml b.toml", "'b.toml' is one input too many");
+}
+
+/// The text behind "name": in the object that `of` opens.
+std::string member(const std::string &json, const std::string &of, const std::string &name)
+{
+  const auto        object = json.find("\n  \"" + of + "\": {");
+  const std::string key    = "\n    \"" + name + "\": ";
+  const auto        begin  = json.find(key, object) + key.size();
+  return object == std::string::npos ? "no " + of : json.substr(begin, json.find_first_of("\n", begin) - begin);
+}
+
+TEST(Program, SummaryTellsWhatWasAskedAndWhatWasRun)
+{
+  const Folder folder("asked");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() +
+                    "--set run.end=0.25 --set run.step='\"0.25 ms\"'")
+                .exit_code,
+            0);
+  const std::string json = read(folder.results() / "summary.json");
+  EXPECT_NE(member(json, "asked", "file").find("press_minimal.toml\","), std::string::npos);
+  EXPECT_NE(json.find("\"set\": [\n      \"run.end=0.25\",\n      \"run.step=\\\"0.25 ms\\\"\"\n    ]"),
+            std::string::npos);
+  EXPECT_EQ(member(json, "asked", "method"), "\"BDF 2\",");
+  EXPECT_EQ(member(json, "asked", "tolerance"), "null,");
+  EXPECT_EQ(member(json, "asked", "step"), "0.00025,");
+  EXPECT_EQ(member(json, "asked", "end"), "0.25,");
+  EXPECT_EQ(member(json, "asked", "events"), "true");
+  EXPECT_EQ(member(json, "outcome", "end"), "0.25,");
+  EXPECT_EQ(member(json, "outcome", "complete"), "true,");
+  EXPECT_EQ(member(json, "outcome", "failure"), "null");
+  EXPECT_NE(json.find("\n  \"commit\": "), std::string::npos);
+}
+
+TEST(Program, FolderThatCannotBeWrittenIsToldBeforeComputing)
+{
+  const Folder      folder("unwritable");
+  const std::string file   = folder.file("a_file", "not a folder");
+  const Answer      answer = gestell("run " + scene("press_minimal.toml") + " -o " + file);
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says("-o")) << answer.text;
+}
+
+TEST(Program, WrongInputLosesNoEarlierResult)
+{
+  const Folder folder("keep");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.end=0.01").exit_code, 0);
+  const std::string before = read(folder.results() / "summary.json");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.step=0").exit_code, 2);
+  EXPECT_EQ(read(folder.results() / "summary.json"), before);
+}
+
+TEST(Program, ModesBesideARunLeaveTheRun)
+{
+  const Folder folder("beside");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() + "--set run.end=0.01").exit_code, 0);
+  const std::string before = read(folder.results() / "summary.json");
+  ASSERT_EQ(gestell("modes " + scene("press_minimal.toml") + folder.option()).exit_code, 0);
+  EXPECT_EQ(read(folder.results() / "summary.json"), before);
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "history.csv"));
+}
+
+TEST(Program, InterruptedRunSavesWhatItHas)
+{
+  const Folder folder("interrupted");
+  const Answer answer =
+      shell("timeout -s INT 1 '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
+            folder.option() + "--set run.end=100 --set output.step=0.01; echo code $?");
+  // timeout itself answers 124 when it had to send the signal
+  EXPECT_TRUE(answer.says("code 124")) << answer.text;
+  const std::string summary = read(folder.results() / "summary.json");
+  EXPECT_NE(summary.find("\"steps\""), std::string::npos);
+}
+
+TEST(Program, StartOfABodyThatNothingHoldsNamesIt)
+{
+  const Folder      folder("falling");
+  const std::string falling = folder.file("falling.toml", R"(name = "falling"
+gravity = [0, 0, -9.81]
+[body.block]
+type  = "slider"
+axis  = [0, 0, -1]
+guide = "ground"
+mass  = "10 kg"
+[element.rubbing]
+type  = "friction"
+from  = "block"
+to    = "ground"
+force = "200 N"
+speed = "1 mm/s"
+[start]
+rule = "steady"
+[run]
+step = "1 ms"
+end  = "1 s"
+[output.signals]
+x = "block.displacement"
+)");
+  const Answer      answer  = gestell("run " + falling + folder.option());
+  EXPECT_EQ(answer.exit_code, 2) << answer.text;
+  EXPECT_TRUE(answer.says("nothing holds the motion of block")) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+// The friction of the guide makes 1.5 times the force that causes it: none is right.
+TEST(Program, WhatDoesNotStartIsFoundByCheckAndLeavesASummary)
+{
+  const Folder      folder("jammed");
+  const std::string jammed = folder.file("jammed.toml", R"(name = "jammed"
+[body.carriage]
+type     = "planar"
+normal   = [0, 1, 0]
+mass     = "3 kg"
+inertia  = "1 kg m^2"
+position = [0, 0, 0]
+[joint.rail]
+type     = "prismatic"
+from     = "ground"
+to       = "carriage"
+at       = [0, 0, "-0.6 m"]
+axis     = [1, 0, 0]
+friction = { coefficient = 0.25, length = "0.2 m" }
+[element.moment]
+type     = "force"
+from     = "carriage"
+about    = [0, 1, 0]
+constant = "2 N m"
+[start]
+v = { "carriage.ux" = 1 }
+[run]
+step = "1 ms"
+end  = "0.1 s"
+[output.signals]
+v = "carriage.vx"
+)");
+  const Answer      check  = gestell("check " + jammed);
+  EXPECT_EQ(check.exit_code, 2) << check.text;
+  EXPECT_TRUE(check.says("the machine does not start")) << check.text;
+  const Answer run = gestell("run " + jammed + folder.option());
+  EXPECT_EQ(run.exit_code, 3) << run.text;
+  EXPECT_TRUE(run.says("\"rail\"")) << run.text;
+  EXPECT_NE(read(folder.results() / "summary.json").find("the machine does not start"), std::string::npos);
+}
+
+TEST(Program, FailedNewtonKeepsWhatWasComputedAndSaysWhere)
+{
+  // A cubic spring that softens without bound has no solution beyond a displacement: the crown falls through.
+  const Folder      folder("failed");
+  const std::string softening = folder.file("softening.toml", R"(name = "softening"
+gravity = [0, 0, -9.81]
+[frame]
+mass      = [["100 kg"]]
+damping   = [[0]]
+stiffness = [["1 kN/m"]]
+[frame.interface.top]
+rows = { "-uz" = 1 }
+[element.spring]
+type      = "cubic spring"
+from      = "frame.top"
+to        = "ground"
+direction = [0, 0, -1]
+stiffness = "0 N/m"
+cubic     = -1e9
+[run]
+step = "1 ms"
+end  = "1 s"
+[output.signals]
+x = "-frame.top.uz"
+)");
+  const Answer      answer    = gestell("run " + softening + folder.option());
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("t = ")) << answer.text;
+  EXPECT_TRUE(answer.says("residual")) << answer.text;
+  EXPECT_TRUE(answer.says("frame.top.uz")) << answer.text;
+  EXPECT_GT(read(folder.results() / "history.csv").size(), 200u);
+  const std::string summary = read(folder.results() / "summary.json");
+  EXPECT_EQ(member(summary, "outcome", "complete"), "false,");
+  EXPECT_NE(member(summary, "outcome", "failure").find("t = "), std::string::npos);
+  EXPECT_LT(std::stod(member(summary, "outcome", "end")), 1.);
+  EXPECT_EQ(member(summary, "asked", "end"), "1,");
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,41 @@
+// The reduced press against the unreduced one, same integrator, over one cutting shock.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+/// Extremes of F_P over the shock; the crank starts just before the punch touches.
+std::pair<double, double> peaks(const std::string &method)
+{
+  const Folder folder("shock_" + method);
+  const Answer answer =
+      gestell("run " + scene("press.toml") + folder.option() + "--set reduction.method='\"" + method +
+              "\"' --set parameters.phi_start='\"153 deg\"' --set run.end='\"65 ms\"' --set run.step='\"50 us\"' "
+              "--set frame.mesh.size='\"200 mm\"' --set frame.mesh.'\"crown bearing *\"'='\"100 mm\"' ");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  const std::string summary = read(folder.results() / "summary.json");
+  const std::size_t signal  = summary.find("\"F_P\"", summary.find("\"signals\""));
+  const auto        value   = [&](const char *key)
+  {
+    const std::size_t at = summary.find(key, signal);
+    return std::stod(summary.substr(summary.find(':', at) + 1));
+  };
+  return {value("\"min\""), value("\"max\"")};
+}
+
+TEST(ReducedPress, MeetsThePeaksOfTheUnreducedOneWithinOnePercent)
+{
+  const auto reduced = peaks("craig-bampton"), full = peaks("none");
+  EXPECT_NEAR(reduced.first, full.first, 0.01 * std::abs(full.first));
+  EXPECT_NEAR(reduced.second, full.second, 0.01 * full.second);
+}
+
+} // namespace
+} // namespace gestell::tests

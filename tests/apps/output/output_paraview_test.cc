@@ -1,0 +1,128 @@
+#include "apps/output/paraview/paraview.h"
+#include "tests/support/output_example.h"
+
+#include <gtest/gtest.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+using namespace gestell::apps;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+class ParaviewFiles : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    folder = fs::path(GESTELL_BINARY_DIR) / "test-output" /
+             (std::string("paraview-") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  vtkPolyData *read(const std::string &file)
+  {
+    reader->SetFileName((folder / file).c_str());
+    reader->Update();
+    return reader->GetOutput();
+  }
+
+  /// (time, part, file) of each data set of a collection.
+  std::vector<std::tuple<double, int, std::string>> data_sets(const std::string &pvd) const
+  {
+    std::ifstream     file(folder / pvd);
+    std::stringstream content;
+    content << file.rdbuf();
+    const std::string text = content.str();
+    const std::regex  entry("timestep=\"([^\"]*)\" part=\"([^\"]*)\" file=\"([^\"]*)\"");
+
+    std::vector<std::tuple<double, int, std::string>> sets;
+    for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it)
+      sets.emplace_back(std::stod((*it)[1]), std::stoi((*it)[2]), (*it)[3]);
+    return sets;
+  }
+
+  fs::path                     folder;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  std::vector<std::string>     names;
+};
+
+} // namespace
+
+TEST_F(ParaviewFiles, MotionHoldsFrameAndMechanismAtEveryInstantWithTrueDisplacements)
+{
+  const Result result = example_result();
+  EXPECT_TRUE(write_paraview(folder, result, names).empty());
+  const auto sets = data_sets("motion.pvd");
+  ASSERT_EQ(sets.size(), 6u);
+  EXPECT_EQ(std::get<0>(sets[2]), 0.2);
+  EXPECT_EQ(std::get<1>(sets[3]), 1);
+
+  vtkPolyData *frame = read(std::get<2>(sets[2]));
+  ASSERT_EQ(frame->GetNumberOfPoints(), 8);
+  ASSERT_EQ(frame->GetNumberOfPolys(), 12);
+  auto *field = frame->GetPointData()->GetArray("displacement [m]");
+  ASSERT_NE(field, nullptr);
+  EXPECT_FLOAT_EQ(field->GetComponent(4, 0), 1e-4f); // the top sways
+  EXPECT_FLOAT_EQ(field->GetComponent(0, 0), 0.f);
+  EXPECT_FLOAT_EQ(field->GetComponent(0, 2), 2e-4f);
+
+  vtkPolyData *mechanism = read(std::get<2>(sets[3]));
+  EXPECT_GT(mechanism->GetNumberOfPolys(), 36 * 4);
+  EXPECT_NE(mechanism->GetPointData()->GetArray("displacement [m]"), nullptr);
+  for (const std::string &name : names)
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+TEST_F(ParaviewFiles, FrameModesAreScaledToATwentiethOfTheFrame)
+{
+  const Result result = example_result();
+  write_paraview(folder, result, names);
+  const auto sets = data_sets("frame_modes.pvd");
+  ASSERT_EQ(sets.size(), 2u);
+  EXPECT_EQ(std::get<0>(sets[1]), 2.);
+  vtkPolyData *frame    = read(std::get<2>(sets[0]));
+  const double diagonal = std::sqrt(1. + 1. + 4.);
+  EXPECT_NEAR(frame->GetPointData()->GetArray("displacement [m]")->GetRange(-1)[1], 0.05 * diagonal, 1e-6);
+  EXPECT_EQ(frame->GetFieldData()->GetArray("frequency [Hz]")->GetTuple1(0), 20.);
+}
+
+TEST_F(ParaviewFiles, AFrameWithoutSkinShowsItsInterfacesAsPoints)
+{
+  Result result = example_result();
+  result.scenery.points.clear();
+  result.scenery.triangles.clear();
+  write_paraview(folder, result, names);
+  vtkPolyData *frame = read(std::get<2>(data_sets("motion.pvd")[0]));
+  ASSERT_EQ(frame->GetNumberOfPoints(), 1);
+  EXPECT_EQ(frame->GetNumberOfVerts(), 1);
+  EXPECT_FLOAT_EQ(frame->GetPointData()->GetArray("displacement [m]")->GetComponent(0, 0), 1e-4f);
+}
+
+TEST_F(ParaviewFiles, StressHoldsInvariantsAndComponentsAtEveryPoint)
+{
+  write_paraview(folder, with_stress(example_result()), names);
+  const auto sets = data_sets("stress.pvd");
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(std::get<0>(sets[0]), 0.2341);
+  vtkPolyData *skin  = read(std::get<2>(sets[0]));
+  auto        *field = skin->GetPointData();
+  ASSERT_EQ(skin->GetNumberOfPoints(), 8);
+  EXPECT_FLOAT_EQ(field->GetArray("von Mises stress [Pa]")->GetTuple1(7), 80e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("principal stresses [Pa]")->GetComponent(3, 0), 40e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("principal stresses [Pa]")->GetComponent(3, 2), 0.f);
+  EXPECT_FLOAT_EQ(field->GetArray("first principal direction")->GetComponent(3, 2), 1.f);
+  EXPECT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetNumberOfComponents(), 6);
+  EXPECT_FLOAT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetComponent(3, 2), 40e6f);
+  EXPECT_FLOAT_EQ(field->GetArray("displacement [m]")->GetComponent(5, 0), 1e-4f);
+}

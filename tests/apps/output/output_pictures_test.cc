@@ -1,0 +1,223 @@
+#include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/pictures/projection.h"
+#include "apps/output/pictures/skin.h"
+#include "apps/output/pictures/skin_picture.h"
+#include "tests/support/output_example.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gestell;
+using namespace gestell::apps;
+using Eigen::Vector3d;
+
+namespace
+{
+
+/// Volume enclosed by a surface of triangles; positive if their outside is counter-clockwise.
+double volume(const Shape &shape)
+{
+  double v = 0.;
+  for (const auto &t : shape.triangles)
+    v += shape.points[t[0]].dot(shape.points[t[1]].cross(shape.points[t[2]])) / 6.;
+  return v;
+}
+
+/// Faces of a unit cube, each divided into n x n squares.
+Skin cube(int n)
+{
+  Skin skin;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {0., 1.})
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j)
+        {
+          Vector3d x;
+          x[axis]           = side;
+          x[(axis + 1) % 3] = i / static_cast<double>(n);
+          x[(axis + 2) % 3] = j / static_cast<double>(n);
+          if (i < n && j < n)
+          {
+            const int here = static_cast<int>(skin.points.size()), next = here + n + 1;
+            if (side == 1.)
+              skin.triangles.insert(skin.triangles.end(), {{here, next, next + 1}, {here, next + 1, here + 1}});
+            else
+              skin.triangles.insert(skin.triangles.end(), {{here, next + 1, next}, {here, here + 1, next + 1}});
+          }
+          skin.points.push_back(x);
+        }
+  skin.displacement.assign(skin.points.size(), Vector3d::UnitX());
+  return skin;
+}
+
+const Shape &named(const std::vector<Shape> &shapes, const std::string &name)
+{
+  return *std::find_if(shapes.begin(), shapes.end(), [&](const Shape &shape) { return shape.name == name; });
+}
+
+Vector3d centre(const Shape &shape)
+{
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d &x : shape.points)
+    sum += x;
+  return sum / static_cast<double>(shape.points.size());
+}
+
+Eigen::Vector4d state(double sway, double lift, double angle, double way)
+{
+  return {sway, lift, angle, way};
+}
+
+} // namespace
+
+TEST(MechanismShapes, AreClosedAndLookOutwards)
+{
+  const auto shapes = mechanism_shapes(example_result().scenery, state(0., 0., 0.7, 0.02));
+  ASSERT_EQ(shapes.size(), 3u);
+  const double disc = 18. * std::sin(M_PI / 18.) * 0.3 * 0.3 * 0.25 * 0.3; // 36 corners, a quarter of the radius wide
+  const double rib  = 0.3 * (0.18 * 0.3) * (2. * 0.25 * 0.3);
+  EXPECT_NEAR(volume(named(shapes, "crank")), disc + rib, 1e-12);
+  EXPECT_NEAR(volume(named(shapes, "slide")), 0.5 * 0.4 * 0.3, 1e-12);
+  EXPECT_GT(volume(named(shapes, "rod")), 0.);
+}
+
+TEST(MechanismShapes, SlideStandsWhereTheCrankDrivesItAndCarriesTheRestAsDisplacement)
+{
+  const Scenery scenery = example_result().scenery;
+  const double  r = 0.1, l = 0.8, phi = 2.1;
+  const double  u      = -r * std::cos(phi) + std::sqrt(l * l - std::pow(r * std::sin(phi), 2)) - (l - r);
+  const double  play   = 3e-4;
+  const auto    shapes = mechanism_shapes(scenery, state(1e-4, 2e-4, phi, u + play));
+
+  const Shape &slide = named(shapes, "slide");
+  EXPECT_LT((centre(slide) - Vector3d(0.5, 0.5, 1.2 - u)).norm(), 1e-12);
+  for (const Vector3d &d : slide.displacement)
+    EXPECT_LT((d - Vector3d(0., 0., -play)).norm(), 1e-12);
+  for (const Vector3d &d : named(shapes, "crank").displacement)
+    EXPECT_LT((d - Vector3d(1e-4, 0., 2e-4)).norm(), 1e-12);
+}
+
+TEST(MechanismShapes, RodKeepsItsLengthAndItsPinIsOnTopAtDeadCentre)
+{
+  const Scenery scenery = example_result().scenery;
+  for (const double phi : {0., 0.5, M_PI / 2., 2., M_PI, 5.})
+  {
+    const Shape rod    = named(mechanism_shapes(scenery, state(0., 0., phi, 0.)), "rod");
+    const auto  middle = [&](std::vector<int> corners)
+    {
+      Vector3d sum = Vector3d::Zero();
+      for (const int i : corners)
+        sum += 0.25 * rod.points[i];
+      return sum;
+    };
+    const Vector3d pin = middle({0, 3, 4, 7}), small_end = middle({1, 2, 5, 6});
+    EXPECT_NEAR((pin - small_end).norm(), 0.8, 1e-12);
+    // About +y from +z: towards +x.
+    EXPECT_LT((pin - Vector3d(0.5 + 0.1 * std::sin(phi), 0.5, 2. + 0.1 * std::cos(phi))).norm(), 1e-12) << phi;
+    EXPECT_NEAR(small_end[0], 0.5, 1e-12);
+  }
+}
+
+TEST(MechanismShapes, BodiesOfNoSizeAreLeftOut)
+{
+  Scenery scenery          = example_result().scenery;
+  scenery.bodies[0].radius = 0.;
+  scenery.bodies[1].size   = {};
+  scenery.rods.clear();
+  EXPECT_TRUE(mechanism_shapes(scenery, state(0., 0., 0., 0.)).empty());
+}
+
+TEST(CoarseMesh, KeepsPlanesAndIsMuchSmaller)
+{
+  const Skin       fine   = cube(20);
+  const CoarseMesh coarse = coarse_mesh(fine, 0.3);
+  EXPECT_LT(coarse.triangles.size(), fine.triangles.size() / 10);
+  for (const auto &t : coarse.triangles)
+  {
+    // All three corners on one face of the cube.
+    Vector3d low = Vector3d::Ones(), high = Vector3d::Zero();
+    for (const int i : t)
+    {
+      low  = low.cwiseMin(fine.points[coarse.points[i]]);
+      high = high.cwiseMax(fine.points[coarse.points[i]]);
+    }
+    EXPECT_EQ((high - low).minCoeff(), 0.);
+  }
+  EXPECT_TRUE(coarse_mesh(Skin(), 0.3).points.empty());
+}
+
+TEST(Skin, RefinedHasShortEdgesAndTheSameVolume)
+{
+  const Skin fine = refined(cube(1), 0.21);
+  for (const auto &t : fine.triangles)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LE((fine.points[t[i]] - fine.points[t[(i + 1) % 3]]).norm(), 0.21);
+  EXPECT_NEAR(volume({"", fine.points, {}, fine.triangles}), 1., 1e-12);
+  EXPECT_EQ(fine.displacement.size(), fine.points.size());
+}
+
+TEST(Skin, SharpEdgesOfACubeAreItsTwelve)
+{
+  Skin skin;
+  for (const double z : {0., 1.})
+    for (const auto &[x, y] : {std::pair(0., 0.), {1., 0.}, {1., 1.}, {0., 1.}})
+      skin.points.emplace_back(x, y, z);
+  skin.displacement.assign(8, Vector3d::Zero());
+  skin.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  for (int i = 0; i < 4; ++i)
+    skin.triangles.insert(skin.triangles.end(), {{i, (i + 1) % 4, (i + 1) % 4 + 4}, {i, (i + 1) % 4 + 4, i + 4}});
+  EXPECT_EQ(sharp_edges(skin, 35.).size(), 12u);
+  EXPECT_EQ(sharp_edges(skin, 95.).size(), 0u);
+}
+
+TEST(Projection, HidesWhatStandsBehind)
+{
+  const std::vector<Vector3d> seen = {{-1., -1., -1.}, {1., 1., 1.}};
+  const View                  view(seen, 100.);
+  const Vector3d              towards(0.55, -0.75, 0.36);
+  const auto                  facet = [&](double near, double size)
+  {
+    const Vector3d shift = near * towards;
+    return Facet{{view(shift + Vector3d(-size, 0., -size)), view(shift + Vector3d(size, 0., -size)),
+                  view(shift + Vector3d(0., 0., size))},
+                 "#000000"};
+  };
+  const std::vector<Facet> facets = {facet(-0.2, 0.2), facet(0.2, 0.6)};
+  const DepthRaster        raster(facets, view);
+  ASSERT_EQ(raster.visible(facets).size(), 1u);
+  EXPECT_GT(raster.visible(facets)[0].depth(), facets[0].depth());
+  EXPECT_FALSE(raster.sees(view(Vector3d::Zero()), 0.5));
+  EXPECT_TRUE(raster.sees(view(towards), 0.5));
+}
+
+TEST(ModePicture, StaysSmallForAFineSkin)
+{
+  const Skin fine = cube(120); // 172 800 triangles
+  Scenery    scenery;
+  for (const Vector3d &x : fine.points)
+    scenery.points.push_back({x[0], x[1], x[2]});
+  scenery.triangles    = fine.triangles;
+  scenery.displacement = [&](const Eigen::VectorXd &) -> Eigen::VectorXd
+  {
+    Eigen::VectorXd u(3 * static_cast<long>(fine.points.size()));
+    for (std::size_t i = 0; i < fine.points.size(); ++i)
+      u.segment<3>(3 * static_cast<long>(i)) = fine.points[i];
+    return u;
+  };
+  const Scenery light = for_pictures(scenery);
+  const Skin    skin  = skin_of(light, Eigen::VectorXd());
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+    ASSERT_EQ(skin.points[i], skin.displacement[i]);
+  const std::string svg = mode_picture_svg(skin, "fine", "");
+  EXPECT_LT(svg.size(), 300000u);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(ModePicture, DrawsAShapeWithoutDisplacement)
+{
+  Skin skin = cube(3);
+  skin.displacement.assign(skin.points.size(), Vector3d::Zero());
+  EXPECT_EQ(mode_picture_svg(skin, "still", "").find("nan"), std::string::npos);
+}

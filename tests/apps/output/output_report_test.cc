@@ -1,0 +1,109 @@
+#include "apps/output/report/report.h"
+#include "tests/support/output_example.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace gestell::apps;
+
+namespace
+{
+
+/// Name of the first element that is closed wrongly or never; empty if the markup is sound.
+std::string unbalanced(const std::string &markup)
+{
+  static const std::set<std::string> empty_elements = {"meta", "!DOCTYPE"};
+
+  std::vector<std::string> open;
+  for (std::size_t i = markup.find('<'); i != std::string::npos; i = markup.find('<', i))
+  {
+    std::size_t end = i + 1;
+    for (bool quoted = false; end < markup.size() && (quoted || markup[end] != '>'); ++end)
+      quoted = markup[end] == '"' ? !quoted : quoted;
+    const bool        closes = markup[i + 1] == '/';
+    const std::size_t first  = i + (closes ? 2 : 1);
+    const std::string name   = markup.substr(first, markup.find_first_of(" />\n", first) - first);
+    const bool        whole  = markup[end - 1] == '/' || empty_elements.count(name) > 0;
+    i                        = end;
+    if (whole)
+      continue;
+    if (!closes)
+      open.push_back(name);
+    else if (open.empty() || open.back() != name)
+      return name;
+    else
+      open.pop_back();
+  }
+  return open.empty() ? "" : open.back();
+}
+
+std::string without(std::string text, const std::string &part)
+{
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part))
+    text.erase(i, part.size());
+  return text;
+}
+
+std::size_t place(const std::string &html, const std::string &text)
+{
+  return html.find(text);
+}
+
+} // namespace
+
+TEST(Report, IsSoundMarkupAndSoAreItsPictures)
+{
+  const Report report = make_report(example_result());
+  EXPECT_EQ(unbalanced(report.html), "");
+  EXPECT_EQ(unbalanced("<p><b></p></b>"), "p");
+  std::set<std::string> names;
+  for (const auto &[name, svg] : report.charts)
+  {
+    EXPECT_EQ(unbalanced(svg), "") << name;
+    EXPECT_TRUE(names.insert(name).second) << name;
+  }
+  for (const char *name :
+       {"machine", "forces", "forces-shock", "displacements", "energy", "mode-frame-2", "mode-coupled-1"})
+    EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST(Report, NeedsNothingFromOutside)
+{
+  const std::string html = without(make_report(example_result()).html, "xmlns=\"http://www.w3.org/2000/svg\"");
+  for (const char *reference : {"http:", "https:", "src=", "url(", "@import", "<script", "<link"})
+    EXPECT_EQ(html.find(reference), std::string::npos) << reference;
+}
+
+TEST(Report, WarnsFirstThenAnswersThenExplains)
+{
+  const std::string html    = make_report(example_result()).html;
+  std::size_t       reached = 0;
+  for (const char *text : {"press &quot;example&quot; &lt;1&gt;", "The mesh is coarse.", "1056.6", "id=\"forces\"",
+                           "id=\"motion\"", "id=\"events\"", "id=\"energy\"", "id=\"modes\"", "id=\"numerics\""})
+  {
+    ASSERT_NE(place(html, text), std::string::npos) << text;
+    EXPECT_GT(place(html, text), reached) << text;
+    reached = place(html, text);
+  }
+}
+
+TEST(Report, StatesTheEnergyResidualAsShareOfWhatTheMotionExchanges)
+{
+  // 0.5 J of 2200 J
+  EXPECT_NE(make_report(example_result()).html.find("0.5 J</strong>, <strong>0.023 %"), std::string::npos);
+}
+
+TEST(Report, LeavesOutWhatWasNotComputed)
+{
+  Result result = example_result();
+  result.run.reset();
+  result.scenery = Scenery();
+  result.warnings.clear();
+  result.scenery.n_frame = 2;
+  const Report report    = make_report(result);
+  EXPECT_EQ(unbalanced(report.html), "");
+  for (const char *absent : {"Warnings", "id=\"peaks\"", "id=\"forces\"", "id=\"events\"", "id=\"energy\""})
+    EXPECT_EQ(report.html.find(absent), std::string::npos) << absent;
+  EXPECT_NE(report.html.find("id=\"modes\""), std::string::npos);
+}

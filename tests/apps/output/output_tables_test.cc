@@ -1,0 +1,278 @@
+#include "apps/output/result_folder.h"
+#include "apps/output/tables/result_tables.h"
+#include "apps/output/text/json.h"
+#include "apps/output/text/number_text.h"
+#include "tests/support/output_example.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+using namespace gestell::apps;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/// A folder of its own for each test, gone afterwards.
+class ResultFolder : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder           = fs::path(GESTELL_BINARY_DIR) / "test-output" / test->name();
+    fs::remove_all(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string read(const std::string &name) const
+  {
+    std::ifstream     file(folder / name, std::ios::binary);
+    std::stringstream content;
+    content << file.rdbuf();
+    return content.str();
+  }
+
+  fs::path folder;
+};
+
+std::vector<std::string> lines_of(const std::string &text)
+{
+  std::vector<std::string> lines;
+  std::istringstream       stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+std::string refusal(const fs::path &folder)
+{
+  try
+  {
+    prepare_folder(folder);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST(NumberText, ReadsBackExactlyForAnyDouble)
+{
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i)
+  {
+    const std::uint64_t bits = random();
+    double              x;
+    std::memcpy(&x, &bits, sizeof x);
+    if (!std::isfinite(x))
+      continue;
+    ASSERT_EQ(std::strtod(exact_text(x).c_str(), nullptr), x);
+  }
+  EXPECT_EQ(exact_text(0.1), "0.1");
+}
+
+TEST(NumberText, ShowsSIUnitsWithThePrefixThatReadsWell)
+{
+  EXPECT_EQ(display_unit("N", 1.0566e6).unit, "kN");
+  EXPECT_DOUBLE_EQ(display_unit("N", 1.0566e6).factor * 1.0566e6, 1056.6);
+  EXPECT_EQ(display_unit("m", 6e-4).unit, "µm");
+  EXPECT_EQ(display_unit("rad", 6e-4).unit, "rad");
+  EXPECT_EQ(display_unit("N", 0.).factor, 1.);
+  EXPECT_EQ(short_text(1056.632), "1057");
+  EXPECT_EQ(short_text(0.24), "0.24");
+  EXPECT_EQ(short_text(-0.), "0");
+  EXPECT_EQ(short_text(1.5e-9), "1.5e-09");
+}
+
+TEST(Json, EscapesTextAndHasNullForWhatIsNoNumber)
+{
+  JsonWriter json;
+  json.begin_object();
+  json.text("a\"b", "line\n\\tab\t\x01 µ \xff");
+  json.begin_array("x");
+  json.number("", 1. / 3.);
+  json.number("", std::nan(""));
+  json.number("", std::numeric_limits<double>::infinity());
+  json.end_array();
+  json.begin_object("empty");
+  json.end_object();
+  json.end_object();
+  EXPECT_EQ(json.document(), "{\n  \"a\\\"b\": \"line\\n\\\\tab\\t\\u0001 µ \xef\xbf\xbd\",\n"
+                             "  \"x\": [\n    0.3333333333333333,\n    null,\n    null\n  ],\n  \"empty\": {}\n}\n");
+}
+
+TEST(Tables, HistoryKeepsEveryDigitAndNamesUnits)
+{
+  const Result result = example_result(50);
+  const auto   lines  = lines_of(history_csv(*result.run));
+  ASSERT_EQ(lines.size(), 51u);
+  EXPECT_EQ(lines[0].substr(0, 25), "t [s],F_P [N],F_u [N],x1 ");
+
+  std::istringstream row(lines[50]);
+  std::string        field;
+  for (std::size_t j = 0; std::getline(row, field, ','); ++j)
+    EXPECT_EQ(std::strtod(field.c_str(), nullptr), result.run->rows[49 * 8 + j]);
+}
+
+TEST(Tables, ModesOfFrameAndMachineAreNumberedSeparately)
+{
+  Result result                         = example_result();
+  result.coupled_modes[0].damping_ratio = std::nan("");
+  result.frame_modes[1].refined_hz      = 84.5;
+  const auto lines                      = lines_of(modes_csv(result));
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "mode,frequency [Hz],damped frequency [Hz],damping ratio,effective mass x [kg],effective mass y "
+                      "[kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]");
+  EXPECT_EQ(lines[2].substr(0, 5), "2,85,");
+  EXPECT_EQ(lines[3].substr(0, 19), "1,11.58486756566711");
+  EXPECT_EQ(lines[2].substr(lines[2].rfind(',')), ",84.5");
+  EXPECT_EQ(lines[3].substr(lines[3].rfind(',')), ",nan") << "of the coupled machine none is known";
+  EXPECT_NE(lines[3].find(",nan,100,0,0.6666666666666666,coupled"), std::string::npos);
+}
+
+TEST(Tables, SummaryHasEveryMemberOfTheContractEvenWithoutARun)
+{
+  Result result = example_result();
+  result.run.reset();
+  const std::string json = summary_json(result);
+  for (const char *member : {"scene", "version", "commit", "asked", "model", "frequencies_hz", "signals", "events",
+                             "method", "accuracy", "work", "wall_s", "energy", "warnings"})
+    EXPECT_NE(json.find("\n  \"" + std::string(member) + "\": "), std::string::npos) << member;
+}
+
+TEST(Tables, RefinedFrequenciesStandBesideTheReducedOnes)
+{
+  Result result                    = example_result();
+  result.frame_modes[1].refined_hz = 84.5;
+  const std::string json           = summary_json(result);
+  EXPECT_NE(json.find("\"frame_frequencies_hz\": [\n    20,\n    85\n  ]"), std::string::npos);
+  EXPECT_NE(json.find("\"frame_refined_frequencies_hz\": [\n    null,\n    84.5\n  ]"), std::string::npos);
+}
+
+TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)
+{
+  Result result       = example_result();
+  result.run->failure = "Newton did not converge at t = 0.2 s";
+  result.run->warnings.push_back("The mesh is coarse.");
+  const auto warnings = all_warnings(result);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("stopped early: Newton"), std::string::npos);
+}
+
+TEST_F(ResultFolder, IsCreatedWithItsParentsAndClearedOfOwnFilesOnly)
+{
+  fs::create_directories(folder / "charts");
+  for (const char *name :
+       {"summary.json", "mesh_convergence.csv", "charts/1-forces.svg", "notes.txt", "charts/mine.png"})
+    std::ofstream(folder / name) << "old";
+  prepare_folder(folder);
+  EXPECT_FALSE(fs::exists(folder / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder / "mesh_convergence.csv")); // of another mesh than the next summary
+  EXPECT_FALSE(fs::exists(folder / "charts/1-forces.svg"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+  EXPECT_TRUE(fs::exists(folder / "charts/mine.png"));
+
+  prepare_folder(folder / "deep" / "er");
+  EXPECT_TRUE(fs::is_empty(folder / "deep" / "er"));
+}
+
+TEST_F(ResultFolder, ThatCannotBeWrittenIsRefusedWithPathReasonAndRemedy)
+{
+  fs::create_directories(folder);
+  std::ofstream(folder / "file") << "in the way";
+  for (const fs::path &bad : {folder / "file", folder / "file" / "below", fs::path("/proc/gestell"), fs::path()})
+  {
+    const std::string message = refusal(bad);
+    EXPECT_NE(message.find(bad.string()), std::string::npos) << message;
+    EXPECT_NE(message.find("-o DIR"), std::string::npos) << message;
+  }
+}
+
+TEST_F(ResultFolder, IsTestedWithoutLeavingATrace)
+{
+  fs::create_directories(folder);
+  std::ofstream(folder / "summary.json") << "old";
+  require_writable(folder);
+  EXPECT_EQ(read("summary.json"), "old");
+  require_writable(folder / "deep" / "er" / "");
+  EXPECT_FALSE(fs::exists(folder / "deep"));
+  fs::current_path(folder);
+  require_writable("results/press");
+  EXPECT_FALSE(fs::exists(folder / "results"));
+  fs::current_path(GESTELL_BINARY_DIR);
+}
+
+TEST_F(ResultFolder, HoldsEveryFileOfTheContractAfterARun)
+{
+  prepare_folder(folder);
+  const auto names = write_results(folder, example_result());
+  for (const std::string &name : names)
+    EXPECT_GT(fs::file_size(folder / name), 0u) << name;
+  for (const char *name : {"summary.json", "history.csv", "modes.csv", "report.html"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  EXPECT_FALSE(fs::is_empty(folder / "charts"));
+}
+
+/// Wherever the disk becomes full, files are whole or missing, and the folder says that it is incomplete.
+TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndIsIncomplete)
+{
+  const fs::path all = folder / "all", cut = folder / "cut";
+  prepare_folder(all);
+  rlim_t largest = 0;
+  for (const std::string &name : write_results(all, example_result()))
+    largest = std::max<rlim_t>(largest, fs::file_size(all / name));
+  EXPECT_FALSE(incomplete(all));
+
+  for (const rlim_t most : {largest / 100, largest / 10, largest / 3, largest - 1})
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{most, most};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      bool told = false;
+      try
+      {
+        prepare_folder(cut);
+        write_results(cut, example_result());
+      }
+      catch (const std::runtime_error &)
+      {
+        told = true;
+      }
+      _exit(told ? 0 : 1);
+    }
+    int status = 1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << most;
+    EXPECT_FALSE(fs::exists(cut / "summary.json"));
+    for (const auto &entry : fs::recursive_directory_iterator(cut))
+      if (entry.is_regular_file())
+        EXPECT_EQ(entry.file_size(), fs::file_size(all / fs::relative(entry.path(), cut))) << entry.path();
+  }
+  std::ofstream(cut / "history.csv") << "t [s]\n";
+  EXPECT_TRUE(incomplete(cut));
+}
+
+TEST_F(ResultFolder, ReportsAFileThatCannotBeWritten)
+{
+  fs::create_directories(folder / "summary.json");
+  EXPECT_THROW(write_file(folder / "summary.json", "{}"), std::runtime_error);
+}

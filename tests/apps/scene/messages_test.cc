@@ -1,0 +1,162 @@
+// What a scene may say in more than one way, and where a message points to.
+
+#include "tests/support/scene_motion.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using test::complaint;
+
+TEST(Messages, TellAFormulaWhereAValueIsNeeded)
+{
+  const std::string brake = "[element.drive]\ntype = \"speed drive\"\non = \"shaft\"\nproportional_gain = 1\n"
+                            "speed = 1\ninitial_speed = \"10 rad/s*sin(2*pi*1 Hz*t)\"\n";
+  expect_complaint(rotor(2., "1 s") + brake, "It would be a formula of the time t, but this key takes a value");
+  // a wrong unit alone is no formula
+  EXPECT_EQ(complaint(rotor(2., "1 s") + "[element.f]\ntype = \"friction\"\nfrom = \"shaft\"\nforce = \"2 t\"\n")
+                .find("formula"),
+            std::string::npos);
+}
+
+const std::string two_slides = "[body.a]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 1\n"
+                               "[body.b]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 1\n"
+                               "[body.w]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = 1\n";
+
+std::string sum(const std::string &terms)
+{
+  return two_slides + "[measure.s]\ntype = \"sum\"\nterms = " + terms +
+         "\n[start]\nq = { a = 3, b = 5, w = 2 }\n[run]\nstep = \"1 ms\"\nend = \"2 ms\"\n[output.signals]\n"
+         "s = \"s.value\"\n";
+}
+
+// A plain factor is a number where that fits, and else in SI: the radius of a pinion in m.
+TEST(Messages, PlainFactorsOfASumFit)
+{
+  EXPECT_NEAR(run(sum("[{ of = \"b\" }, { of = \"a\", factor = 2 }]")).signal("s").final, 11., 1e-12);
+  EXPECT_NEAR(run(sum("[{ of = \"w\", factor = -0.5 }, { of = \"a\" }]")).signal("s").final, 2., 1e-12);
+  EXPECT_EQ(run(sum("[{ of = \"w\", factor = -0.5 }, { of = \"a\" }]")).signal("s").unit, "m");
+  EXPECT_NEAR(run(sum("[{ of = \"a\", factor = 2 }, { of = \"b\", factor = -1 }]")).signal("s").final, 1., 1e-12);
+  expect_complaint(sum("[{ of = \"a\", factor = 2 }, { of = \"w\", factor = -1 }]"),
+                   "give one of the factors its unit");
+  expect_complaint(sum("[{ of = \"a\" }, { of = \"w\", factor = \"2 kg\" }]"), "all terms must be lengths");
+}
+
+const std::string pendulum = "[body.p]\ntype = \"planar\"\nnormal = [0, 0, 1]\nmass = 1\ninertia = 1\n"
+                             "position = [1, 0, 0]\n[run]\nstep = \"1 ms\"\nend = \"2 ms\"\n"
+                             "[joint.hinge]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"p\"\nat = [0, 0, 0]\n";
+
+TEST(Messages, APlanarHingeMayGiveTheAxisItHas)
+{
+  EXPECT_EQ(complaint(pendulum + "axis = [0, 0, -2]\n"), "");
+  expect_complaint(pendulum + "axis = [0, 1, 0]\n", "joint.hinge.axis: 'p' turns about another axis only");
+}
+
+// The joint stands in line 10 of the scene.
+TEST(Messages, PointToTheJointThatStaysOpen)
+{
+  expect_complaint(pendulum + "[start]\nq = { \"p.ux\" = 5, \"p.uy\" = 0 }\n", "scene.toml:10: joint.hinge: ");
+}
+
+// What is typed without quotes is no TOML; the line is shown as it must be.
+TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
+{
+  const auto expect = [](const std::string &line, const std::string &hint)
+  { expect_complaint("name = \"a\"\n" + line + "\n", "scene.toml:2: is not TOML here: " + hint); };
+  expect("step = 5 us", "put a value with a unit, and an expression, in quotes: \"5 us\"");
+  expect("a = [0, 0, -9.81 m/s^2]", "put a value with a unit, and an expression, in quotes: \"-9.81 m/s^2\"");
+  expect("k = 20°", "put a value with a unit, and an expression, in quotes: \"20°\"");
+  expect("k = 2*crank - 8 mm # twice", "put a value with a unit, and an expression, in quotes: \"2*crank - 8 mm\"");
+  expect("x = 1,5", "decimals have a point: 1.5");
+  expect("x = 1,5 mm", "decimals have a point: \"1.5 mm\"");
+  expect("x = .5", "a number has digits on both sides of its point");
+  expect("method = bdf", "text stands in quotes: \"bdf\"");
+  expect("on = True", "write true or false");
+  expect("name = “abc”", "quotes are \" or ', not “");
+  expect("k : 3", "a key and its value have = between them");
+  expect("k = ", "a value is missing");
+  expect("[element.crank pin]",
+         "a name with more than letters, digits, _ and - stands in quotes: [element.\"crank pin\"]");
+  expect("crank pin = 3", "a key with more than letters, digits, _ and - stands in quotes: \"crank pin\"");
+  expect("k = \"abc", "a quote is opened here and not closed");
+}
+
+TEST(Messages, ProposeTheInterfaceWhoseNameIsGivenAlone)
+{
+  expect_complaint(pendulum + "[frame]\nmass = [[1]]\ndamping = [[0]]\nstiffness = [[1]]\n"
+                              "[frame.interface.guide]\nrows = { ux = 1 }\n[element.s]\ntype = \"spring-damper\"\nfrom "
+                              "= \"p\"\nto = \"guide\"\n"
+                              "direction = [1, 0, 0]\nstiffness = 1\n",
+                   "did you mean 'frame.guide'?");
+}
+
+// Of some hundred signals the nearest few.
+TEST(Messages, AnUnknownSignalIsAnsweredInALine)
+{
+  std::string many;
+  for (int i = 0; i < 20; ++i)
+    many +=
+        "[body.b" + std::to_string(i) + "]\ntype = \"point\"\nmass = 1\nposition = [" + std::to_string(i) + ", 0, 0]\n";
+  const std::string said = complaint(many + pendulum + "[output.signals]\nx = \"nothing like that\"\n");
+  EXPECT_NE(said.find("the nearest of "), std::string::npos) << said;
+  EXPECT_LT(said.size(), 300u) << said;
+  const std::string part = complaint(many + pendulum + "[output.signals]\nx = \"hinge\"\n");
+  EXPECT_NE(part.find("did you mean one of 'hinge."), std::string::npos) << part;
+}
+
+TEST(Messages, AShareAboveOneIsPercent)
+{
+  const std::string motor = "[element.m]\ntype = \"asynchronous motor\"\non = \"shaft\"\nbreakdown_torque = 1\n"
+                            "synchronous_speed = \"1500/min\"\nbreakdown_slip = ";
+  expect_complaint(rotor(1., "1 s") + motor + "15\n", "breakdown_slip: needs a share of at most 1, got 15; percent are "
+                                                      "written \"15 %\"");
+  EXPECT_EQ(complaint(rotor(1., "1 s") + motor + "\"15 %\"\n"), "");
+}
+
+std::vector<std::string> warnings(const std::string &text)
+{
+  const test::SceneFolder folder;
+  return apps::check_scene(apps::read_scene(folder.write("scene.toml", text)));
+}
+
+TEST(Messages, ABodyOnWhichNothingActsIsNamedWithItsPlace)
+{
+  const std::string stray = "[body.stray]\ntype = \"point\"\nmass = 1\nposition = [3, 0, 0]\n";
+  EXPECT_EQ(warnings(pendulum), std::vector<std::string>{});
+  const auto said = warnings(pendulum + stray);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("scene.toml:15: body.stray: nothing but its weight acts on the body \"stray\""),
+            std::string::npos)
+      << said[0];
+  EXPECT_EQ(warnings(pendulum + stray +
+                     "[element.f]\ntype = \"force\"\nfrom = \"stray\"\ndirection = [1, 0, 0]\nconstant = 1\n"),
+            std::vector<std::string>{});
+}
+
+TEST(Messages, AJointFarFromBothBodiesIsNamedWithTheDistance)
+{
+  const auto bar = [](const std::string &at)
+  {
+    return pendulum +
+           "[body.bar]\ntype = \"planar\"\nnormal = [0, 0, 1]\nmass = 1\ninertia = 1\nposition = [1.4, 0, 0]\n"
+           "[joint.elbow]\ntype = \"revolute\"\nfrom = \"p\"\nto = \"bar\"\nat = [" +
+           at + ", 0, 0]\n";
+  };
+  EXPECT_EQ(warnings(bar("1.2")), std::vector<std::string>{});
+  const auto said = warnings(bar("12")); // cm?
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("the joint \"elbow\" lies 10.6 m from \"p\" and \"bar\""), std::string::npos) << said[0];
+}
+
+TEST(Messages, ARunNeedsNoSignals)
+{
+  const auto motion = run(pendulum);
+  EXPECT_EQ(motion.result.failure, "");
+  EXPECT_EQ(motion.result.signals.size(), 0u);
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,348 @@
+// Values of scenes: "40 mm", "2*crank_radius - 8 mm", "600 kN s/m".
+
+#include "apps/scene/language/quantity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace gestell::apps;
+
+std::optional<Quantity> parameter(const std::string &name)
+{
+  static const std::map<std::string, Quantity> known = {
+      {"crank_radius", {0.08, {1, 0, 0}, true, Counts::nothing}},
+      {"m1", {9500., {0, 1, 0}, true, Counts::nothing}},
+      {"g", {9.81, {1, 0, -2}, true, Counts::nothing}},
+      {"h", {0.004, {1, 0, 0}, true, Counts::nothing}},
+      {"plain", {3., {}, false, Counts::nothing}}, // written as a number: of any dimension
+  };
+  const auto found = known.find(name);
+  return found == known.end() ? std::nullopt : std::optional<Quantity>(found->second);
+}
+
+Quantity read(const std::string &text)
+{
+  return parse_quantity(text, parameter);
+}
+
+std::string complaint(const std::string &text)
+{
+  try
+  {
+    read(text);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    return e.what();
+  }
+  return "no error";
+}
+
+std::string complaint(const std::string &text, const Kind &kind)
+{
+  try
+  {
+    value_as(read(text), kind, text);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    return e.what();
+  }
+  return "no error";
+}
+
+struct Reading
+{
+  std::string text;
+  double      value;
+  Dimension   dimension; // metre, kilogram, second
+};
+
+void PrintTo(const Reading &reading, std::ostream *out)
+{
+  *out << '"' << reading.text << '"';
+}
+
+class QuantityOf : public ::testing::TestWithParam<Reading>
+{
+};
+
+TEST_P(QuantityOf, HasTheValueAndDimensionAnEngineerMeans)
+{
+  const auto &[text, value, dimension] = GetParam();
+  const Quantity quantity              = read(text);
+  EXPECT_NEAR(quantity.value, value, 1e-14 * std::abs(value)) << text; // a few roundings
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(quantity.dimension[i], dimension[i], 1e-12) << text << ", exponent " << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Units, QuantityOf,
+    ::testing::Values(Reading{"40 mm", 0.04, {1, 0, 0}}, Reading{"60 l/min", 1e-3, {3, 0, -1}},
+                      Reading{"40mm", 0.04, {1, 0, 0}}, Reading{"2.5 cm", 0.025, {1, 0, 0}},
+                      Reading{"30 um", 30e-6, {1, 0, 0}}, Reading{"30 µm", 30e-6, {1, 0, 0}},
+                      Reading{"1e-3 m", 1e-3, {1, 0, 0}}, Reading{"10 us", 1e-5, {0, 0, 1}},
+                      Reading{"2 min", 120., {0, 0, 1}}, Reading{"3 t", 3000., {0, 1, 0}},
+                      Reading{"1200 kN/mm", 1.2e9, {0, 1, -2}}, Reading{"600 kN s/m", 6e5, {0, 1, -1}},
+                      Reading{"600 kN*s/m", 6e5, {0, 1, -1}}, Reading{"600 kN·s/m", 6e5, {0, 1, -1}},
+                      Reading{"250 kg m^2", 250., {2, 1, 0}}, Reading{"250 kg m²", 250., {2, 1, 0}},
+                      Reading{"250 kg*m^2", 250., {2, 1, 0}}, Reading{"1300 kN m/rad", 1.3e6, {2, 1, -2}},
+                      Reading{"3 kN m s/rad", 3000., {2, 1, -1}}, Reading{"240 Nm", 240., {2, 1, -2}},
+                      Reading{"9.81 m/s^2", 9.81, {1, 0, -2}}, Reading{"9.81 m s^-2", 9.81, {1, 0, -2}},
+                      Reading{"9.81 m/s/s", 9.81, {1, 0, -2}}, Reading{"7850 kg/m^3", 7850., {-3, 1, 0}},
+                      Reading{"210 GPa", 210e9, {-1, 1, -2}}, Reading{"15 kW", 15e3, {2, 1, -3}},
+                      Reading{"200 Hz", 200., {0, 0, -1}}, Reading{"5 1/s", 5., {0, 0, -1}},
+                      Reading{"10 N/(m s)", 10., {0, 1, -3}}, Reading{"2 %", 0.02, {0, 0, 0}}));
+
+constexpr double pi = 3.14159265358979323846;
+INSTANTIATE_TEST_SUITE_P(Angles, QuantityOf,
+                         ::testing::Values(Reading{"180 deg", pi, {0, 0, 0}}, Reading{"180°", pi, {0, 0, 0}},
+                                           Reading{"2 rad", 2., {0, 0, 0}},
+                                           // Of a shaft, 1/min means turns: 30 1/min = pi rad/s.
+                                           Reading{"30 1/min", pi, {0, 0, -1}}, Reading{"30 rpm", pi, {0, 0, -1}},
+                                           Reading{"sin(30 deg)", 0.5, {0, 0, 0}},
+                                           Reading{"2*pi*50 rad/s", 100. * pi, {0, 0, -1}}));
+INSTANTIATE_TEST_SUITE_P(
+    Expressions, QuantityOf,
+    ::testing::Values(Reading{"2*crank_radius - 8 mm", 0.152, {1, 0, 0}}, Reading{"1/2 * 3 kg", 1.5, {0, 1, 0}},
+                      Reading{"-2^2", -4., {0, 0, 0}}, Reading{"2^3^2", 512., {0, 0, 0}},
+                      Reading{"8/4/2", 1., {0, 0, 0}}, Reading{"2 - 3 - 4", -5., {0, 0, 0}},
+                      Reading{"-(1 + 2) * 3", -9., {0, 0, 0}}, Reading{"(2 + 3) mm", 0.005, {1, 0, 0}},
+                      Reading{"2 m^2", 2., {2, 0, 0}}, Reading{"(2 m)^2", 4., {2, 0, 0}},
+                      Reading{"sqrt(16 m^2)", 4., {1, 0, 0}}, Reading{"max(3 mm, 0.2 cm)", 0.003, {1, 0, 0}},
+                      Reading{"max(0, -3 mm)", 0., {1, 0, 0}}, Reading{"2 mm + 0", 0.002, {1, 0, 0}},
+                      Reading{"atan2(2 m, 2 m)", pi / 4., {0, 0, 0}}, Reading{"tanh(0.5)", std::tanh(0.5), {0, 0, 0}},
+                      Reading{"if(crank_radius > 8 cm, 1 kg, 2 kg)", 2., {0, 1, 0}},
+                      Reading{"if(crank_radius >= 8 cm, 1 kg, 0)", 1., {0, 1, 0}},
+                      Reading{"3 kg*sign(-2 m) + 1 kg*step(0)", -2., {0, 1, 0}}, Reading{"abs(-3 kg)", 3., {0, 1, 0}},
+                      Reading{"exp(log(2))", 2., {0, 0, 0}}, Reading{"m1*g", 93195., {1, 1, -2}},
+                      Reading{"m1 * g / (2 mm)", 46597500., {0, 1, -2}}, Reading{"crank_radius / mm", 80., {0, 0, 0}},
+                      Reading{"1e3*mm", 1., {1, 0, 0}}));
+
+TEST(Quantity, ParametersComeBeforeUnitsWhereAnOperandIsExpected)
+{
+  EXPECT_DOUBLE_EQ(read("2*h").value, 0.008); // sheet thickness, not hours
+  EXPECT_DOUBLE_EQ(read("g").value, 9.81);    // gravity, not a gram
+}
+
+TEST(Quantity, WhatReadsInTwoWaysIsRefused)
+{
+  EXPECT_NE(complaint("10 N/m s").find("two ways"), std::string::npos);
+  EXPECT_NE(complaint("1/2 mm").find("two ways"), std::string::npos);
+  EXPECT_NE(complaint("3 g").find("a unit and a parameter"), std::string::npos);
+  EXPECT_NE(complaint("30 km/h").find("a unit and a parameter"), std::string::npos);
+}
+
+TEST(Quantity, AddsLikeToLikeOnly)
+{
+  EXPECT_NE(complaint("2 mm + 3 kg").find("adds kg to m"), std::string::npos);
+  EXPECT_NE(complaint("crank_radius - 8").find("subtracts a plain number from m"), std::string::npos);
+  EXPECT_NE(complaint("sin(3 mm)").find("sin()"), std::string::npos);
+  EXPECT_NE(complaint("2^(3 mm)").find("exponent"), std::string::npos);
+}
+
+TEST(Quantity, PlainParametersTakeTheDimensionOfTheirPlace)
+{
+  EXPECT_NO_THROW(read("plain + 8 mm"));
+  EXPECT_DOUBLE_EQ(value_as(read("2*plain"), kind::mass, ""), 6.);
+  EXPECT_DOUBLE_EQ(value_as(read("plain + 1 m"), kind::length, ""), 4.);
+  EXPECT_NE(complaint("plain + 1 m", kind::mass), "no error"); // a length now, whatever `plain` is
+}
+
+TEST(Quantity, NonsenseIsRefusedWithTheReason)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {{"", "empty"},
+                                                                  {"   ", "empty"},
+                                                                  {"mm 3", "operator"},
+                                                                  {"3 mmm", "did you mean 'mm'"},
+                                                                  {"3 kG", "unknown unit"},
+                                                                  {"2 +", "ends where"},
+                                                                  {"(2", "closing"},
+                                                                  {"2)", "operator"},
+                                                                  {"2 3", "operator"},
+                                                                  {"3 mm mm^", "exponent"},
+                                                                  {"crank_radus", "parameter"},
+                                                                  {"foo(3)", "unknown function"},
+                                                                  {"max(1)", "arguments"},
+                                                                  {"1/0", "zero"},
+                                                                  {"sqrt(-1)", "negative"},
+                                                                  {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
+                                                                  {"2 $ 3", "'$'"},
+                                                                  {"1e999", "range"},
+                                                                  {"10^400", "finite"},
+                                                                  {"log(0)", "finite"},
+                                                                  {"3 m^1.5", "whole number"},
+                                                                  {"20 degC", "unknown unit"}};
+  for (const auto &[text, reason] : cases)
+    EXPECT_NE(complaint(text).find(reason), std::string::npos) << "\"" << text << "\": " << complaint(text);
+}
+
+TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
+{
+  EXPECT_NE(complaint("2*crank_radius + 3 kg").find("adds kg to m; both must be of one kind (character 16)"),
+            std::string::npos);
+  EXPECT_NE(complaint("3 µm + parsec").find("(character 8)"), std::string::npos); // of UTF-8, not bytes
+  EXPECT_NE(complaint("(2").find("(character 3)"), std::string::npos);
+  EXPECT_NE(complaint("sqrt(4) mm").find("lacks an operator (* / + -) before 'mm' (character 9)"), std::string::npos);
+  EXPECT_NE(complaint("2 $ 3").find("(character 3)"), std::string::npos);
+}
+
+TEST(Quantity, DeepNestingIsRefusedInsteadOfOverflowingTheStack)
+{
+  EXPECT_NE(complaint(std::string(100000, '(')).find("longer than"), std::string::npos);
+}
+
+TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
+{
+  EXPECT_EQ(complaint("3 kg", kind::length), "needs a length such as \"40 mm\", got \"3 kg\", 3 kg");
+  EXPECT_EQ(
+      complaint("3", kind::length),
+      "needs a length such as \"40 mm\", got \"3\" without a unit; a plain number in SI units stands without quotes");
+  EXPECT_EQ(complaint("0", kind::length), "no error"); // zero of anything is zero
+  EXPECT_NE(complaint("3 mm", kind::angular_speed).find("an angular speed"), std::string::npos);
+}
+
+TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
+{
+  EXPECT_NE(complaint("5 Hz", kind::angular_speed).find("turns"), std::string::npos);
+  EXPECT_NE(complaint("30 rad/s", kind::frequency).find("radians"), std::string::npos);
+  EXPECT_NE(complaint("3 N m/Hz", kind::torsional_damping).find("turns"), std::string::npos);
+  EXPECT_EQ(complaint("30 rad/s", kind::angular_speed), "no error");
+  EXPECT_EQ(complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "no error");
+  EXPECT_EQ(complaint("50 Hz", kind::frequency), "no error");
+}
+
+class TurnsPerMinute : public ::testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(TurnsPerMinute, AreTheSameTurnsOfAShaftInEverySpelling)
+{
+  const std::string text = GetParam();
+  EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 50. * pi, 1e-13 * 50. * pi);
+  EXPECT_NEAR(value_as(read(text), kind::frequency, text), 25., 1e-13 * 25.);
+  EXPECT_NE(complaint(text, kind::number), "no error");
+}
+
+INSTANTIATE_TEST_SUITE_P(Spellings, TurnsPerMinute,
+                         ::testing::Values("1500 1/min", "1500/min", "1500 /min", "1500/(min)", "1500/(1 min)",
+                                           "1500 min^-1", "1500 min⁻¹", "1500 · min⁻¹", "1500 * min^-1", "1500*(1/min)",
+                                           "1500 rpm", "1500 r/min", "1500 rev/min", "1500 U/min", "1500 U / min",
+                                           "25 r/s", "25 U/s", "3*500/min", "3*(500 1/min)", "1e3 1/min + 500 rpm",
+                                           "max(0, 1500/min)", "if(m1 > 1 t, 1500 rpm, 0)", "500*plain/min",
+                                           "plain*(500 1/min)", "3000 1/min/s * 0.5 s"));
+
+/// 1500 per minute could be 25 turns or 25 radians a second; 2 pi decides, and no check of dimensions sees it.
+TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
+{
+  for (const std::string text :
+       {"1500/min*crank_radius", "crank_radius*1500 rpm", "3 N m/(1500/min)", "3 N m/rpm", "2*pi*(1500/min)",
+        "(2*pi*1500) 1/min", "1/(1500/min)", "(1500/min)^2", "sqrt(9 1/min)", "exp(1500/min * 1 s)", "3/min + 2 Hz",
+        "3/min + 2 1/s", "sin((2 s)*1500/min)", "(3 rpm)*(2 rpm)", "2 rad * 3 rpm"})
+    EXPECT_NE(complaint(text), "no error") << text;
+  for (const std::string text : {"2*pi*1500/min", "pi/30*1500/min", "1500/(2 min)", "2 s * 1500/(1 s min)"})
+    EXPECT_NE(complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
+  EXPECT_NE(complaint("(3 s)*1500/min", kind::angle).find("may count turns"), std::string::npos);
+  EXPECT_NE(complaint("3 N m/min^-1", kind::torsional_damping).find("may count turns"), std::string::npos);
+  EXPECT_EQ(complaint("100 mm/min", kind::speed), "no error");
+  EXPECT_EQ(complaint("2 rad/min", kind::angular_speed), "no error");
+  EXPECT_EQ(complaint("1500/(2 min)", kind::frequency), "no error"); // turns or not
+  EXPECT_EQ(complaint("(3 min)/(2 min)", kind::number), "no error");
+  EXPECT_EQ(complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "no error");
+  EXPECT_NE(complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "no error");
+}
+
+TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
+{
+  EXPECT_NEAR(read("(1500 rpm)/(50 rad/s)").value, pi, 1e-14); // a ratio of speeds
+  EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);
+  EXPECT_NEAR(read("sin(15 rpm * 1 s)").value, 1., 1e-14); // a quarter of a turn
+  EXPECT_NEAR(value_as(read("30 rpm + 1 rad/s"), kind::angular_speed, ""), pi + 1., 1e-14);
+  EXPECT_NE(complaint("30 rpm + 1 rad/s", kind::frequency).find("radians"), std::string::npos);
+  EXPECT_NEAR(value_as(read("30 1/min * 2 s"), kind::angle, ""), 2. * pi, 1e-14);
+}
+
+TEST(Quantity, SignsOfATypesetTextMeanWhatTheyShow)
+{
+  EXPECT_DOUBLE_EQ(read("3 m·s⁻²").value, 3.);
+  EXPECT_DOUBLE_EQ(read("2×3 mm²").value, 6e-6);
+  EXPECT_DOUBLE_EQ(read("30 μm").value, 30e-6); // the Greek letter
+  EXPECT_DOUBLE_EQ(read("−3 mm").value, -3e-3);
+  EXPECT_DOUBLE_EQ(read("2*π").value, 2. * pi);
+  EXPECT_DOUBLE_EQ(read("3\u00a0mm").value, 3e-3); // a space that does not break
+  EXPECT_NE(complaint("3 mm⁻").find("raised sign"), std::string::npos);
+  EXPECT_NE(complaint("3 Ω").find("'Ω', which has no meaning"), std::string::npos); // the whole character
+}
+
+TEST(Quantity, ADecimalCommaIsNamed)
+{
+  EXPECT_NE(complaint("1,5 mm").find("has a decimal comma; write 1.5 (character 2)"), std::string::npos);
+  EXPECT_NE(complaint("2*(1,5 mm)").find("decimal comma"), std::string::npos);
+  EXPECT_DOUBLE_EQ(read("max(1,5)").value, 5.); // two arguments
+}
+
+TEST(Quantity, AProposedUnitMakesSenseInItsPlace)
+{
+  const auto proposed = [](const std::string &text, const Kind &kind)
+  {
+    try
+    {
+      parse_quantity(text, parameter, {}, &kind);
+    }
+    catch (const std::invalid_argument &e)
+    {
+      const std::string message = e.what(), before = "did you mean '";
+      const auto        begin = message.find(before);
+      return begin == std::string::npos
+                 ? message
+                 : message.substr(begin + before.size(),
+                                  message.find('\'', begin + before.size()) - begin - before.size());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(proposed("3 KJ", kind::torque), "kJ");
+  EXPECT_EQ(proposed("3 Mn", kind::force), "MN");
+  EXPECT_NE(proposed("3 Mn", kind::length), "MN"); // the nearest, but no length
+  EXPECT_EQ(proposed("3 N/mm2", kind::pressure), "mm^2");
+  EXPECT_EQ(proposed("3 Nmm", kind::torque), "N mm");
+  EXPECT_NE(proposed("3 parsec", kind::length).find("unknown unit 'parsec'; a length is given as \"40 mm\""),
+            std::string::npos);
+  EXPECT_NE(proposed("3 RPM", kind::angular_speed).find("rpm"), std::string::npos);
+}
+
+TEST(Quantity, UnitsOfTheWorkshopAreThoseOfTheirStandards)
+{
+  EXPECT_DOUBLE_EQ(read("3 in").value, 0.0762);
+  EXPECT_DOUBLE_EQ(read("3 kp").value, 29.41995);
+  EXPECT_DOUBLE_EQ(read("3 lb").value, 1.36077711);
+  EXPECT_NEAR(read("3 lbf").value, 13.3446648458, 1e-9);
+  EXPECT_NEAR(read("3 psi").value, 20684.27188, 1e-5);
+  EXPECT_NEAR(read("3 PS").value, 2206.49625, 1e-9);
+  EXPECT_NE(complaint("3 lb", kind::force), "no error"); // a mass
+}
+
+TEST(Quantity, MatrixEntriesMayCarryPowersOfAMetreForRotations)
+{
+  EXPECT_EQ(complaint("250 kg m^2", kind::mass_entry), "no error");
+  EXPECT_EQ(complaint("250 kg", kind::mass_entry), "no error");
+  EXPECT_NE(complaint("250 kg m^3", kind::mass_entry), "no error");
+  EXPECT_NE(complaint("250 N/m", kind::mass_entry), "no error");
+}
+
+TEST(Quantity, DimensionsAreDescribedAsEngineersWriteThem)
+{
+  EXPECT_EQ(describe({1, 1, -2}), "N");
+  EXPECT_EQ(describe({1, 0, -2}), "m/s^2");
+  EXPECT_EQ(describe({-3, 1, 0}), "kg/m^3");
+  EXPECT_EQ(describe({0, 0, -1}), "1/s");
+  EXPECT_EQ(describe({0, 0, 0}), "a plain number");
+}
+
+} // namespace

@@ -1,0 +1,176 @@
+// [run] of a scene: methods with their parameters, and what is refused.
+
+#include "tests/support/scene_text.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using coupling::ForceRule;
+using coupling::Method;
+using test::complaint;
+using test::small_scene;
+
+coupling::RunOptions read(const std::string &run)
+{
+  const test::SceneFolder folder;
+  return apps::read_scene(folder.write("scene.toml", small_scene("step = \"10 us\"", run))).run.options;
+}
+
+std::string complaint_of(const std::string &run)
+{
+  return complaint(small_scene("step = \"10 us\"", run));
+}
+
+TEST(RunSettings, NameEveryMethodWithItsParameters)
+{
+  const auto newmark = read("method = \"newmark\"\nbeta = 0.3\ngamma = 0.6\nstep = 1e-5").method;
+  EXPECT_EQ(newmark.method, Method::newmark);
+  EXPECT_EQ(newmark.beta, 0.3);
+  EXPECT_EQ(newmark.gamma, 0.6);
+  EXPECT_EQ(read("method = \"wilson\"\ntheta = 1.5\nstep = 1e-5").method.theta, 1.5);
+  EXPECT_EQ(read("method = \"hht\"\nalpha = -0.1\nstep = 1e-5").method.alpha, -0.1);
+  EXPECT_EQ(read("method = \"generalised-alpha\"\nrho_inf = 0.6\nstep = 1e-5").method.rho_inf, 0.6);
+  EXPECT_EQ(read("method = \"central-difference\"\nstep = 1e-5").method.method, Method::central_difference);
+  const auto exact = read("method = \"exact\"\nforce = \"average\"\nstep = 1e-5").method;
+  EXPECT_EQ(exact.method, Method::exact);
+  EXPECT_EQ(exact.force, ForceRule::average);
+  EXPECT_EQ(read("method = \"exact\"\norder = 6\nstep = 1e-5").method.order, 6);
+}
+
+TEST(RunSettings, HaveTheirDefaults)
+{
+  const auto fixed = read("step = 1e-5");
+  EXPECT_EQ(fixed.method.method, Method::bdf);
+  EXPECT_EQ(fixed.method.order, 2);
+  EXPECT_TRUE(fixed.events);
+  EXPECT_FALSE(fixed.force_unstable);
+  EXPECT_EQ(coupling::output_step(fixed), 1e-5);
+  const auto controlled = read("tolerance = 1e-6");
+  EXPECT_EQ(controlled.method.order, 5);
+  EXPECT_EQ(controlled.method.step, 0.);
+  EXPECT_DOUBLE_EQ(coupling::output_step(controlled), 0.1 / 2000.);
+  EXPECT_EQ(read("tolerance = 1e-6\nstep = \"1 ms\"").method.step, 1e-3);
+  const auto exact = read("method = \"exact\"\nstep = 1e-5").method;
+  EXPECT_EQ(exact.force, ForceRule::collocation);
+  EXPECT_EQ(exact.order, 4);
+}
+
+TEST(RunSettings, AnotherMethodTakesTheParametersOfTheFormerOneAway)
+{
+  const test::SceneFolder folder;
+  const auto base   = folder.write("base.toml", small_scene("step = \"10 us\"", "order = 3\nstep = \"10 us\""));
+  const auto method = [&](const std::vector<std::string> &overrides)
+  { return apps::read_scene(base, overrides).run.options.method; };
+  EXPECT_EQ(method({}).order, 3);
+  EXPECT_EQ(method({"run.method=newmark"}).method, Method::newmark);
+  EXPECT_EQ(method({"run.method=bdf"}).order, 3);
+  EXPECT_EQ(method({"run.method=exact"}).order, 4);
+  EXPECT_EQ(method({"run.order=6", "run.method=exact"}).order, 6);
+  EXPECT_DOUBLE_EQ(method({"run.method=newmark"}).step, 1e-5);
+  EXPECT_THROW(method({"run.method=newmark", "run.order=2"}), std::invalid_argument);
+  EXPECT_EQ(method({"run.tolerance=1e-6"}).step, 0.);
+  EXPECT_EQ(method({"run.tolerance=1e-6"}).order, 5);
+  EXPECT_EQ(method({"run.step=1e-3", "run.tolerance=1e-6"}).step, 1e-3);
+
+  const auto child = folder.write("child.toml", "extends = \"base.toml\"\n[run]\nmethod = \"wilson\"\n");
+  EXPECT_EQ(apps::read_scene(child).run.options.method.method, Method::wilson);
+}
+
+struct Refused
+{
+  std::string run, place, words;
+};
+
+std::ostream &operator<<(std::ostream &out, const Refused &refused)
+{
+  return out << refused.run;
+}
+
+class RefusedRun : public ::testing::TestWithParam<Refused>
+{
+};
+
+TEST_P(RefusedRun, IsToldWithPlaceAndWayOut)
+{
+  const std::string text = complaint_of(GetParam().run);
+  EXPECT_NE(text.find("scene.toml:"), std::string::npos) << text;
+  EXPECT_NE(text.find(GetParam().place), std::string::npos) << text;
+  EXPECT_NE(text.find(GetParam().words), std::string::npos) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RefusedRun,
+    ::testing::Values(
+        Refused{"order = 3\nmethod = \"newmark\"\nstep = 1e-5", "run.order", "is a key of 'bdf', 'exact'"},
+        Refused{"beta = 0.3\nstep = 1e-5", "run.beta", "is a key of 'newmark', but the method is 'bdf'"},
+        Refused{"theta = 1.4\nstep = 1e-5", "run.theta", "'wilson'"},
+        Refused{"alpha = -0.1\nstep = 1e-5", "run.alpha", "'hht'"},
+        Refused{"rho_inf = 0.9\nstep = 1e-5", "run.rho_inf", "'generalised-alpha'"},
+        Refused{"force = \"linear\"\nstep = 1e-5", "run.force", "'exact'"},
+        Refused{"method = \"wilson\"\ntolerance = 1e-4", "run.tolerance", "is a key of 'bdf', 'exact'"},
+        Refused{"tolerance = 1e-14", "run.tolerance", "rounding"},
+        Refused{"tolerance = 2", "run.tolerance", "between 0 and 1"},
+        Refused{"max_halvings = 3", "run", "or 'tolerance'"}, //
+        Refused{"method = \"hht\"", "run", "step"},           //
+        Refused{"order = 0\nstep = 1e-5", "run.order", "1 to 6"},
+        Refused{"method = \"exact\"\norder = 3\nstep = 1e-5", "run.order", "2, 4, 6 or 8"},
+        Refused{"method = \"exact\"\nforce = \"linear\"\norder = 2\nstep = 1e-5", "run.order", "second order"},
+        Refused{"method = \"exact\"\nforce = \"linear\"\ntolerance = 1e-4", "run.tolerance", "collocation"},
+        Refused{"method = \"newmark\"\nbeta = -0.1\nstep = 1e-5", "run.beta", "zero or positive"},
+        Refused{"method = \"wilson\"\ntheta = 0.99\nstep = 1e-5", "run.theta", "1 or more"},
+        Refused{"method = \"hht\"\nalpha = 0.1\nstep = 1e-5", "run.alpha", "between -1/3 and 0"},
+        Refused{"method = \"generalised-alpha\"\nrho_inf = -0.1\nstep = 1e-5", "run.rho_inf", "between 0 and 1"},
+        Refused{"step = 1e-10", "run", "GB of history"}));
+
+TEST(RunSettings, AStepLongerThanTheLoadsPeriodIsToldByCheck)
+{
+  const std::string shaker = "[element.shaker]\ntype = \"force\"\nfrom = \"slide\"\n"
+                             "harmonics = [{ amplitude = \"1 kN\", frequency = \"400 Hz\" }]\n[start]";
+  std::string       text   = small_scene("[start]", shaker);
+  EXPECT_EQ(complaint(text, {"run.step=\"2.4 ms\""}), "");
+  const std::string told = complaint(text, {"run.step=\"2.6 ms\""});
+  EXPECT_NE(told.find("400 Hz"), std::string::npos) << told;
+}
+
+coupling::MethodOptions overridden(const std::string &run, const std::vector<std::string> &overrides)
+{
+  const test::SceneFolder folder;
+  return apps::read_scene(folder.write("scene.toml", small_scene("step = \"10 us\"", run)), overrides)
+      .run.options.method;
+}
+
+// The tolerance and its largest step belong to the method that controls its step.
+TEST(RunSettings, AToleranceGoesWithTheMethodThatCanHoldIt)
+{
+  const std::string controlled = "method = \"exact\"\ntolerance = 1e-6\nstep = \"1 ms\"";
+  for (const std::string method : {"newmark", "wilson", "hht", "generalised-alpha", "central-difference"})
+  {
+    const auto o = overridden(controlled, {"run.method=" + method, "run.step=20 us"});
+    EXPECT_EQ(o.tolerance, 0.) << method;
+    EXPECT_DOUBLE_EQ(o.step, 2e-5) << method;
+    EXPECT_DOUBLE_EQ(overridden(controlled, {"run.step=20 us", "run.method=" + method}).step, 2e-5) << method;
+    try
+    {
+      overridden(controlled, {"run.method=" + method});
+      ADD_FAILURE() << method << " without a step";
+    }
+    catch (const std::invalid_argument &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("needs 'step'"), std::string::npos) << error.what();
+    }
+  }
+  const auto bdf = overridden(controlled, {"run.method=bdf"});
+  EXPECT_EQ(bdf.tolerance, 1e-6);
+  EXPECT_DOUBLE_EQ(bdf.step, 1e-3);
+  EXPECT_DOUBLE_EQ(overridden("method = \"bdf\"\nstep = \"30 us\"", {"run.method=newmark"}).step, 3e-5);
+}
+
+} // namespace
+} // namespace gestell::tests

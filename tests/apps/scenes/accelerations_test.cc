@@ -1,0 +1,239 @@
+// Accelerations as signals, against closed forms: bodies, places, measures, interfaces; every method; at jumps.
+
+#include "tests/support/scene_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+constexpr double omega = 20.; // [1/s] of 2 kg on 800 N/m
+
+/// x = 10 mm cos(omega t).
+std::string oscillator(const std::string &end)
+{
+  return slider(2., end) + "a = \"slide.acceleration\"\n[output]\npicture_step = 0\n" +
+         "[element.spring]\ntype = \"spring-damper\"\nfrom = \"slide\"\nstiffness = \"800 N/m\"\n"
+         "[start]\nq = { slide = \"10 mm\" }\n";
+}
+
+/// Largest |a + omega^2 x| over all rows: what the equation of motion says of every state, however good that is.
+double off_the_equation_of_motion(const SceneRun &motion)
+{
+  double largest = 0.;
+  for (std::size_t row = 0; row < motion.n_rows(); ++row)
+    largest = std::max(largest, std::abs(motion.at(row, 3) + omega * omega * motion.at(row, 1)));
+  return largest;
+}
+
+class Accelerations : public ::testing::TestWithParam<Settings>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, Accelerations,
+                         ::testing::Values(fixed, controlled, Settings{"run.method=newmark"},
+                                           Settings{"run.method=hht", "run.alpha=-0.1"},
+                                           Settings{"run.method=generalised-alpha"}, Settings{"run.method=wilson"},
+                                           Settings{"run.method=central-difference"},
+                                           Settings{"run.method=exact", "run.step=5 ms"}));
+
+TEST_P(Accelerations, OfEveryMethodFollowTheEquationOfMotionFromTheFirstRowOn)
+{
+  const SceneRun motion = run(oscillator("0.5 s"), GetParam());
+  ASSERT_EQ(motion.result.failure, "");
+  const double peak = omega * omega * 0.01; // 4 m/s^2
+  EXPECT_EQ(motion.signal("a").unit, "m/s^2");
+  EXPECT_NEAR(motion.at(0, 3), -peak, 1e-12);
+  EXPECT_LT(off_the_equation_of_motion(motion), 1e-11); // also in rows between the steps
+  // (omega h)^2 = 4e-6 of fixed steps, over 10 rad.
+  EXPECT_NEAR(motion.signal("a").final, -peak * std::cos(omega * 0.5), 1e-4 * peak);
+  EXPECT_NEAR(motion.signal("a").max, peak, 2e-5 * peak);
+  EXPECT_NEAR(motion.signal("a").min, -peak, 2e-5 * peak);
+}
+
+TEST_P(Accelerations, JumpWhereAForceDoesAndTellBothSides)
+{
+  const SceneRun motion = run(slider(2., "0.5 s") + "a = \"slide.acceleration\"\n" +
+                                  "[element.push]\ntype = \"table force\"\nfrom = \"slide\"\nagainst = \"time\"\n"
+                                  "table = [[0, \"10 N\"], [\"0.1234567 s\", \"10 N\"], [\"0.1234567 s\", \"-6 N\"]]\n",
+                              GetParam());
+  EXPECT_NEAR(motion.signal("a").max, 5., 1e-10);
+  EXPECT_NEAR(motion.signal("a").min, -3., 1e-10);
+  EXPECT_NEAR(motion.signal("a").t_min, 0.1234567, 1e-9);
+}
+
+// --- bodies in joints, places, measures
+
+const std::string pendulum = R"toml(
+gravity = [0, 0, -9.81]
+[body.bar]
+type = "planar"
+normal = [0, 1, 0]
+mass = "2 kg"
+inertia = "0.5 kg m^2"
+position = [0, 0, "-1 m"]
+[joint.pin]
+type = "revolute"
+from = "ground"
+to = "bar"
+at = [0, 0, 0]
+[place.tip]
+on = "bar"
+at = [0, 0, "-1.5 m"]
+[place.post]
+on = "ground"
+at = ["2 m", 0, 0]
+[measure.way]
+type = "distance"
+from = "post"
+to = "tip"
+[start]
+q = { "bar.angle" = 1 }
+[run]
+step = "0.5 ms"
+end = "1 s"
+[output]
+step = "10 ms"
+picture_step = 0
+[output.signals]
+phi = "bar.angle"
+w = "bar.speed"
+alpha = "bar.acceleration"
+ax = "bar.ax"
+az = "bar.az"
+tx = "tip.ax"
+tz = "tip.az"
+s = "way.value"
+r = "way.rate"
+a = "way.acceleration"
+X = "tip.x"
+Z = "tip.z"
+vx = "tip.vx"
+vz = "tip.vz"
+)toml";
+
+class AccelerationsInJoints : public ::testing::TestWithParam<Settings>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, AccelerationsInJoints,
+                         ::testing::Values(fixed, controlled,
+                                           Settings{"run.method=generalised-alpha", "run.rho_inf=0.8"}));
+
+// J phi'' = -m g l sin(phi), and of a point at r on the bar: -r phi'^2 along it, r phi'' across.  Positive about y the
+// bar turns towards -x.
+TEST_P(AccelerationsInJoints, OfAPendulumAreRadialAndTangential)
+{
+  const SceneRun motion = run(pendulum, GetParam());
+  ASSERT_EQ(motion.result.failure, "");
+  // bdf takes multipliers from g'' = 0, as good as positions; those of generalised-alpha err by (omega h)^2 = 2e-6 of
+  // some 10 m/s^2, several times.
+  const bool   own = !GetParam().empty() && GetParam()[0].find("alpha") != std::string::npos;
+  const double J = 0.5 + 2., limit = own ? 1e-4 : 1e-6;
+  for (std::size_t row = 0; row < motion.n_rows(); ++row)
+  {
+    const double phi = motion.at(row, 1), w = motion.at(row, 2), alpha = -2. * 9.81 * std::sin(phi) / J;
+    EXPECT_NEAR(motion.at(row, 3), alpha, limit) << row;
+    for (const auto &[r, column] : {std::pair{1., 4}, std::pair{1.5, 6}})
+    {
+      EXPECT_NEAR(motion.at(row, column), r * (w * w * std::sin(phi) - alpha * std::cos(phi)), limit) << row;
+      EXPECT_NEAR(motion.at(row, column + 1), r * (w * w * std::cos(phi) + alpha * std::sin(phi)), limit) << row;
+    }
+    // s s'' = d . d'' + d'^2 - s'^2, d from the post to the tip
+    const double s = motion.at(row, 8), rate = motion.at(row, 9), dx = motion.at(row, 11) - 2., dz = motion.at(row, 12);
+    const double v2 = motion.at(row, 13) * motion.at(row, 13) + motion.at(row, 14) * motion.at(row, 14);
+    EXPECT_NEAR(motion.at(row, 10) * s, dx * motion.at(row, 6) + dz * motion.at(row, 7) + v2 - rate * rate, limit)
+        << row;
+  }
+}
+
+TEST(Accelerations, AreThoseAgainstSpaceWithoutGravity)
+{
+  const SceneRun motion =
+      run("gravity = [0, 0, -9.81]\n[body.ball]\ntype = \"point\"\nmass = 3\nposition = [0, 0, 0]\n"
+          "[run]\nstep = \"1 ms\"\nend = \"0.1 s\"\n[output.signals]\nz = \"ball.az\"\nx = \"ball.ax\"\n");
+  EXPECT_NEAR(motion.signal("z").min, -9.81, 1e-12);
+  EXPECT_NEAR(motion.signal("z").max, -9.81, 1e-12);
+  EXPECT_EQ(motion.signal("x").max, 0.);
+}
+
+// A frame of one mass with a rotor on it: what drives the rotor drives the frame back.
+TEST(Accelerations, OfAnInterfaceAndOfWhatItCarries)
+{
+  const SceneRun motion = run(R"([frame]
+mass = [[10, 0], [0, 4]]
+stiffness = [[0, 0], [0, 0]]
+[frame.interface.a]
+rows = { ry = 1, uz = 2 }
+[body.rotor]
+type = "rotor"
+axis = [0, 1, 0]
+on = "frame.a"
+inertia = 2
+[element.motor]
+type = "force profile"
+from = "rotor"
+to = "frame.a"
+profile = "6 N m"
+[element.load]
+type = "force"
+from = "frame.a"
+direction = [0, 0, 1]
+constant = "8 N"
+[run]
+step = "1 ms"
+end = "0.1 s"
+[output.signals]
+frame = "frame.a.ry_acceleration"
+rotor = "rotor.acceleration"
+lift = "-frame.a.uz_acceleration"
+)");
+  for (const auto &[name, value] : {std::pair{"frame", -0.6}, std::pair{"rotor", 3.}, std::pair{"lift", -2.}})
+  {
+    EXPECT_NEAR(motion.signal(name).min, value, 1e-12) << name;
+    EXPECT_NEAR(motion.signal(name).max, value, 1e-12) << name;
+  }
+  EXPECT_EQ(motion.signal("frame").unit, "rad/s^2");
+}
+
+// --- bad input
+
+TEST(Accelerations, NeedMassAndThrowNoSwitch)
+{
+  EXPECT_THROW(
+      {
+        try
+        {
+          run("[frame]\nmass = [[10, 0], [0, 0]]\nstiffness = [[1e4, 0], [0, 1e3]]\n[frame.interface.a]\n"
+              "rows = { ux = 1, ry = 2 }\n[run]\nstep = \"1 ms\"\nend = \"0.1 s\"\n[output.signals]\n"
+              "a = \"frame.a.ux_acceleration\"\n");
+        }
+        catch (const std::invalid_argument &refused)
+        {
+          EXPECT_NE(std::string(refused.what()).find("\"frame.a.ry\" has no mass"), std::string::npos)
+              << refused.what();
+          throw;
+        }
+      },
+      std::invalid_argument);
+  EXPECT_THROW(
+      {
+        try
+        {
+          run(oscillator("0.1 s") +
+              "[switch.s]\nwhen = \"slide.acceleration\"\nabove = \"1 m/s^2\"\ntell = \"spring\"\n"
+              "order = \"off\"\n");
+        }
+        catch (const std::invalid_argument &refused)
+        {
+          EXPECT_NE(std::string(refused.what()).find("is an acceleration"), std::string::npos) << refused.what();
+          throw;
+        }
+      },
+      std::invalid_argument);
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,217 @@
+#include "coupling/frame/frame_cache.h"
+
+#include "tests/support/frame_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <utime.h>
+
+namespace gestell
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using coupling::cache_file;
+using coupling::content_key;
+using coupling::FrameOrigin;
+using test::some_frame;
+
+const FrameOrigin fine{{{"mesh.size", "0.04"}, {"material.E", "2.1e+11"}}, "fine.toml", "press.step"};
+const FrameOrigin coarse{{{"mesh.size", "0.08"}, {"material.E", "2.1e+11"}}, "coarse.toml", "press.step"};
+const FrameOrigin other{{{"mesh.size", "0.05"}, {"material.E", "7e+10"}}, "other.toml", "press.step"};
+
+class FrameCache : public test::FrameFolder
+{
+};
+
+TEST_F(FrameCache, FindsAFrameByItsKeyAlone)
+{
+  std::string       note;
+  const std::string key = content_key(fine.recipe);
+  EXPECT_FALSE(coupling::find_in_cache(key, note));
+  EXPECT_EQ(note, "");
+  EXPECT_EQ(coupling::keep_in_cache(some_frame(), fine), "");
+  EXPECT_TRUE(coupling::find_in_cache(key, note));
+  EXPECT_EQ(note, "");
+
+  fs::rename(cache_file(key), cache_file(content_key(coarse.recipe))); // by someone who tidies up
+  EXPECT_FALSE(coupling::find_in_cache(content_key(coarse.recipe), note));
+  EXPECT_NE(note.find("something else"), std::string::npos) << note;
+}
+
+TEST_F(FrameCache, ADamagedFileIsToldAndReplaced)
+{
+  std::string       note;
+  const std::string key = content_key(fine.recipe);
+  coupling::keep_in_cache(some_frame(), fine);
+  fs::resize_file(cache_file(key), 1000);
+  EXPECT_FALSE(coupling::find_in_cache(key, note));
+  EXPECT_NE(note.find("reduced anew"), std::string::npos) << note;
+
+  EXPECT_EQ(coupling::keep_in_cache(some_frame(), fine), "");
+  note.clear();
+  EXPECT_TRUE(coupling::find_in_cache(key, note));
+  EXPECT_EQ(note, "");
+}
+
+TEST_F(FrameCache, ThatCannotBeWrittenIsToldAndDoesNoHarm)
+{
+  std::ofstream(folder / "file") << "no folder";
+  setenv("GESTELL_CACHE", (folder / "file").c_str(), 1);
+  EXPECT_NE(coupling::keep_in_cache(some_frame(), fine), "");
+  EXPECT_TRUE(coupling::cache_entries().empty());
+}
+
+TEST_F(FrameCache, OnAFullDiskIsToldAndLeavesNothing)
+{
+  // A process of its own, whose files may not grow beyond 4096 bytes: what a full disk looks like from inside.
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string reason = coupling::keep_in_cache(some_frame(), fine);
+    std::exit(reason.find("not kept") == std::string::npos ? 1 : 0); // HDF5 ends without complaint, too
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(FrameCache, ManyProcessesMayWriteTheSameFrame)
+{
+  constexpr int      writers = 4;
+  std::vector<pid_t> children;
+  for (int i = 0; i < writers; ++i)
+  {
+    children.push_back(fork());
+    if (children.back() == 0)
+    {
+      std::string note, told;
+      for (int round = 0; round < 20; ++round)
+      {
+        told += coupling::keep_in_cache(some_frame(), fine);
+        if (!coupling::find_in_cache(content_key(fine.recipe), note))
+          note += "not there";
+      }
+      _exit(told.empty() && note.empty() ? 0 : 1);
+    }
+  }
+  for (const pid_t child : children)
+  {
+    int status = 1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1); // no pieces are left
+}
+
+TEST_F(FrameCache, ListsFramesWithTheirOriginAndTellsWhichCannotBeUsed)
+{
+  coupling::keep_in_cache(some_frame(), fine);
+  coupling::keep_in_cache(some_frame(), coarse);
+  const utimbuf long_ago{1000000000, 1000000000};
+  utime(cache_file(content_key(coarse.recipe)).c_str(), &long_ago);
+  std::ofstream(folder / "notes.txt") << "of a user";
+  std::ofstream(folder / (std::string(64, 'a') + ".h5")) << "foreign";
+  std::ofstream(folder / "unfinished-1-2") << "being written by another process";
+  std::ofstream(folder / "unfinished-3-4") << "of a process that was killed";
+  utime((folder / "unfinished-3-4").c_str(), &long_ago);
+
+  const auto entries = coupling::cache_entries();
+  ASSERT_EQ(entries.size(), 4u);
+  int usable = 0;
+  for (const auto &entry : entries)
+    if (entry.defect.empty())
+    {
+      ++usable;
+      EXPECT_EQ(entry.key, content_key(entry.origin.recipe));
+      EXPECT_EQ(entry.n_full, 150000);
+      EXPECT_EQ(entry.n_interface, 3);
+      EXPECT_EQ(entry.n_modes, 2);
+      EXPECT_EQ(entry.bytes, fs::file_size(entry.file));
+    }
+  EXPECT_EQ(usable, 2);
+
+  std::string note; // use makes a frame young again
+  EXPECT_TRUE(coupling::find_in_cache(content_key(coarse.recipe), note));
+  for (const auto &entry : coupling::cache_entries())
+    if (entry.defect.empty())
+    {
+      EXPECT_GT(entry.last_used, 1500000000);
+    }
+}
+
+/// Bytes that this process has read so far, as Linux counts them.
+long bytes_read()
+{
+  std::ifstream io("/proc/self/io");
+  std::string   name;
+  long          count = -1;
+  io >> name >> count; // "rchar: 123"
+  return count;
+}
+
+TEST_F(FrameCache, IsListedWithoutReadingItsFramesWhole)
+{
+  auto frame  = some_frame();
+  frame.notes = {std::string(20'000'000, 'x')};
+  coupling::keep_in_cache(frame, fine);
+  const std::string file  = cache_file(content_key(fine.recipe));
+  const long        begin = bytes_read();
+  ASSERT_GE(begin, 0);
+  const auto entries = coupling::cache_entries();
+  EXPECT_LT(bytes_read() - begin, 2'000'000) << "of " << fs::file_size(file);
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].defect, "");
+  EXPECT_EQ(entries[0].n_full, 150000);
+
+  // Damage of the numbers is seen where a frame is used, and where all is checked.
+  {
+    std::fstream change(file, std::ios::in | std::ios::out | std::ios::binary);
+    change.seekp(std::streamoff(fs::file_size(file) / 2));
+    change.put('y');
+  }
+  EXPECT_EQ(coupling::cache_entries()[0].defect, "");
+  EXPECT_NE(coupling::content_defect(coupling::cache_entries()[0]).find("checksum"), std::string::npos);
+  EXPECT_NE(coupling::cache_entries(coupling::CacheCheck::contents)[0].defect.find("checksum"), std::string::npos);
+  std::string note;
+  EXPECT_FALSE(coupling::find_in_cache(content_key(fine.recipe), note));
+
+  fs::resize_file(file, fs::file_size(file) / 2); // cut off: HDF5 knows its end
+  EXPECT_NE(coupling::cache_entries()[0].defect.find("is damaged"), std::string::npos);
+}
+
+TEST_F(FrameCache, NearestIsTheFrameOfTheFewestDifferences)
+{
+  EXPECT_FALSE(coupling::nearest_entry(coupling::cache_entries(), fine.recipe));
+  coupling::keep_in_cache(some_frame(), coarse);
+  coupling::keep_in_cache(some_frame(), other);
+  const auto nearest = coupling::nearest_entry(coupling::cache_entries(), fine.recipe);
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->origin.scene, "coarse.toml");
+}
+
+TEST_F(FrameCache, FolderFollowsTheEnvironment)
+{
+  EXPECT_EQ(coupling::cache_folder(), folder.string());
+  unsetenv("GESTELL_CACHE");
+  setenv("XDG_CACHE_HOME", "/somewhere", 1);
+  EXPECT_EQ(coupling::cache_folder(), "/somewhere/gestell");
+  unsetenv("XDG_CACHE_HOME");
+  setenv("HOME", "/of/somebody", 1);
+  EXPECT_EQ(coupling::cache_folder(), "/of/somebody/.cache/gestell");
+}
+
+} // namespace
+} // namespace gestell

@@ -1,0 +1,163 @@
+#include "coupling/frame/reduced_frame_file.h"
+
+#include "tests/support/frame_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace gestell
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using coupling::ReducedFrame;
+using test::bytes;
+using test::FrameFolder;
+using test::some_frame;
+
+class ReducedFrameFile : public FrameFolder
+{
+protected:
+  std::string file = (folder / "below" / "frame.h5").string();
+};
+
+TEST_F(ReducedFrameFile, ComesBackBitByBit)
+{
+  const ReducedFrame frame = some_frame();
+  coupling::write_reduced_frame(file, frame);
+  const ReducedFrame back = coupling::read_reduced_frame(file);
+
+  EXPECT_EQ(back.M, frame.M);
+  EXPECT_EQ(back.B, frame.B);
+  EXPECT_EQ(back.C, frame.C);
+  EXPECT_EQ(back.n_interface, frame.n_interface);
+  EXPECT_EQ(back.omega0, frame.omega0);
+  ASSERT_EQ(back.interfaces.size(), 1u);
+  EXPECT_EQ(back.interfaces[0].name, "crown");
+  EXPECT_EQ(back.interfaces[0].position, frame.interfaces[0].position);
+  EXPECT_EQ(back.interfaces[0].coordinate, frame.interfaces[0].coordinate);
+  EXPECT_EQ(back.interfaces[0].sign, frame.interfaces[0].sign);
+  EXPECT_EQ(back.translations_load, frame.translations_load);
+  ASSERT_EQ(back.outputs.size(), 1u);
+  EXPECT_EQ(back.outputs[0].name, "support.feet.z");
+  EXPECT_EQ(back.outputs[0].unit, "N");
+  EXPECT_EQ(back.outputs[0].on_q, frame.outputs[0].on_q);
+  EXPECT_EQ(back.outputs[0].on_v, frame.outputs[0].on_v);
+  EXPECT_EQ(back.outputs[0].under_acceleration, frame.outputs[0].under_acceleration);
+  EXPECT_EQ(back.points, frame.points);
+  EXPECT_EQ(back.triangles, frame.triangles);
+  EXPECT_EQ(back.displacement, frame.displacement);
+  EXPECT_EQ(back.stress.point, frame.stress.point);
+  EXPECT_EQ(back.stress.triangles, frame.stress.triangles);
+  EXPECT_EQ(back.stress.rigid, frame.stress.rigid);
+  EXPECT_EQ(back.stress.beside, frame.stress.beside);
+  EXPECT_EQ(back.stress.mean, frame.stress.mean);
+  EXPECT_EQ(back.stress.deviation, frame.stress.deviation);
+  EXPECT_EQ(back.n_full, frame.n_full);
+  EXPECT_EQ(back.n_cells, frame.n_cells);
+  EXPECT_EQ(back.mass, frame.mass);
+  EXPECT_EQ(back.frequencies_hz, frame.frequencies_hz);
+  EXPECT_EQ(back.frequency_error, frame.frequency_error);
+  EXPECT_EQ(back.static_residual, frame.static_residual);
+  EXPECT_EQ(back.notes, frame.notes);
+  EXPECT_EQ(back.statements, frame.statements);
+}
+
+TEST_F(ReducedFrameFile, IsTheSameFileWhenWrittenAgain)
+{
+  const coupling::FrameOrigin origin{{{"mesh.size", "0.08"}, {"a=b\n", "1 2 c"}}, "press.toml", "press.step"};
+  coupling::write_reduced_frame(file, some_frame(), origin);
+  const auto stored = coupling::read_stored_frame(file);
+  EXPECT_EQ(coupling::text_of(stored.origin.recipe), coupling::text_of(origin.recipe));
+  EXPECT_EQ(stored.origin.scene, "press.toml");
+  coupling::write_reduced_frame(file + ".again", stored.frame, stored.origin);
+  EXPECT_EQ(bytes(file + ".again"), bytes(file)); // every part came back
+}
+
+TEST_F(ReducedFrameFile, EveryChangedByteIsNoticed)
+{
+  coupling::write_reduced_frame(file, some_frame());
+  const std::string whole = bytes(file);
+  for (std::size_t at = 0; at < whole.size(); at += 97) // 97 is prime to every size of a block
+  {
+    std::string changed = whole;
+    changed[at] ^= 1;
+    std::ofstream(file, std::ios::binary) << changed;
+    EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument) << "byte " << at;
+  }
+  std::ofstream(file, std::ios::binary) << whole << " ";
+  EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+}
+
+TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
+{
+  coupling::write_reduced_frame(file, some_frame());
+  std::string other           = bytes(file);
+  other[other.find('\n') - 1] = '0'; // the number of the format ends the first line
+  const auto says             = [&](const std::string &content, const std::string &words)
+  {
+    std::ofstream(file, std::ios::binary) << content;
+    try
+    {
+      coupling::read_reduced_frame(file);
+      ADD_FAILURE() << "was read";
+    }
+    catch (const std::invalid_argument &error)
+    {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("gestell reduce"), std::string::npos) << error.what();
+    }
+  };
+  says(other, "another version");
+  says("\x89HDF\r\n\x1a\n", "foreign file, or one of an early version");
+}
+
+TEST_F(ReducedFrameFile, EqualFramesGiveEqualFiles)
+{
+  const ReducedFrame frame = some_frame();
+  coupling::write_reduced_frame(file, frame, {{{"mesh.size", "0.08"}}, "press.toml", "press.step"});
+  const std::string first = bytes(file);
+  coupling::write_reduced_frame(file, frame, {{{"mesh.size", "0.08"}}, "press.toml", "press.step"});
+  EXPECT_EQ(bytes(file), first);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "below"), {}), 1); // nothing is left beside it
+}
+
+TEST_F(ReducedFrameFile, DamagedFilesAreRefused)
+{
+  EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+  coupling::write_reduced_frame(file, some_frame());
+  const std::string whole = bytes(file);
+  for (const std::size_t length : {std::size_t(0), std::size_t(100), whole.size() / 2, whole.size() - 1})
+  {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+    EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument) << length << " bytes";
+  }
+  std::ofstream(file) << "[frame]\n";
+  EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+}
+
+TEST_F(ReducedFrameFile, PartsThatDoNotFitAreRefused)
+{
+  ReducedFrame frame = some_frame();
+  frame.n_interface  = 4;
+  coupling::write_reduced_frame(file, frame);
+  EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+  frame                             = some_frame();
+  frame.interfaces[0].coordinate[2] = 4;
+  coupling::write_reduced_frame(file, frame);
+  EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+}
+
+TEST_F(ReducedFrameFile, HoldsNoPhysicalCoordinatesBehindTheInterface)
+{
+  auto frame  = some_frame();
+  frame.modal = false;
+  EXPECT_THROW(coupling::write_reduced_frame(file, frame), std::invalid_argument);
+}
+
+} // namespace
+} // namespace gestell

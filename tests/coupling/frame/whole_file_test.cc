@@ -1,0 +1,107 @@
+#include "coupling/frame/whole_file.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utime.h>
+
+namespace gestell
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+class WholeFile : public ::testing::Test
+{
+protected:
+  WholeFile() { fs::create_directories(folder); }
+  ~WholeFile() override { fs::remove_all(folder); }
+
+  std::string content() const
+  {
+    std::ifstream      file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  auto files() const { return std::distance(fs::directory_iterator(folder), {}); }
+
+  fs::path    folder = fs::temp_directory_path() / ("gestell-whole-file-" + std::to_string(getpid()));
+  std::string path   = (folder / "history.csv").string();
+};
+
+TEST_F(WholeFile, IsNotThereBeforeItIsFinished)
+{
+  {
+    coupling::WholeFile file(path);
+    file.stream() << "new" << std::flush;
+    EXPECT_FALSE(fs::exists(path));
+    file.finish();
+    EXPECT_EQ(content(), "new");
+  }
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, ThatIsGivenUpLeavesWhatStoodInItsPlace)
+{
+  std::ofstream(path) << "old";
+  {
+    coupling::WholeFile file(path);
+    file.stream() << "new" << std::flush;
+  }
+  EXPECT_EQ(content(), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, OnAFullDiskIsAnErrorWithPathAndReasonAndLeavesWhatStoodInItsPlace)
+{
+  std::ofstream(path) << "old";
+  const pid_t child = fork(); // whose files may not grow beyond 4096 bytes: what a full disk looks like from inside
+  if (child == 0)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::string message;
+    try
+    {
+      coupling::WholeFile file(path);
+      file.stream() << std::string(1000000, 'x');
+      file.finish();
+    }
+    catch (const std::runtime_error &error)
+    {
+      message = error.what();
+    }
+    _exit(message.find(path) == 0 && message.find("too large") != std::string::npos ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(content(), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, OfAKilledProcessIsTakenForAbandonedAfterAnHour)
+{
+  const fs::path being_written = folder / "unfinished-1-2", of_a_user = folder / "notes.txt";
+  std::ofstream(being_written) << "x";
+  std::ofstream(of_a_user) << "x";
+  EXPECT_FALSE(coupling::abandoned(being_written.string()));
+  const utimbuf long_ago{1000000000, 1000000000};
+  utime(being_written.c_str(), &long_ago);
+  utime(of_a_user.c_str(), &long_ago);
+  EXPECT_TRUE(coupling::abandoned(being_written.string()));
+  EXPECT_FALSE(coupling::abandoned(of_a_user.string()));
+}
+
+} // namespace
+} // namespace gestell

@@ -1,0 +1,70 @@
+// Work is counted the same way for every method: each look at the forces of the elements is one evaluation.
+
+#include "coupling/integration/method.h"
+#include "tests/support/small_system.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+
+MethodOptions of(Method method, int order = 2, ForceRule force = ForceRule::collocation, double tolerance = 0.)
+{
+  MethodOptions options;
+  options.method    = method;
+  options.order     = order;
+  options.force     = force;
+  options.tolerance = tolerance;
+  options.step      = 1e-3;
+  return options;
+}
+
+class WorkCount : public ::testing::TestWithParam<MethodOptions>
+{
+};
+
+TEST_P(WorkCount, HoldsEveryLookAtTheForces)
+{
+  SmallSystem system(Eigen::MatrixXd::Constant(1, 1, 2.), Eigen::MatrixXd::Constant(1, 1, 3.),
+                     Eigen::MatrixXd::Constant(1, 1, 500.));
+  long        looks = 0;
+  system.set_law(Eigen::VectorXd::Ones(1),
+                 [&looks](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   ++looks;
+                   p     = -400. * u * u * u;
+                   dp_du = -1200. * u * u;
+                   dp_dv = 0.;
+                 });
+  const auto integrator = make_integrator(system, GetParam());
+  integrator->begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  for (int k = 0; k < 100; ++k)
+    integrator->advance();
+  EXPECT_EQ(integrator->work().evaluations, looks);
+  EXPECT_GE(integrator->work().evaluations, 100);
+  EXPECT_GE(integrator->work().steps, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, WorkCount,
+                         ::testing::Values(of(Method::bdf), of(Method::bdf, 4),
+                                           of(Method::bdf, 5, ForceRule::collocation, 1e-6), of(Method::newmark),
+                                           of(Method::hht), of(Method::generalised_alpha), of(Method::wilson),
+                                           of(Method::central_difference), of(Method::exact, 2, ForceRule::average),
+                                           of(Method::exact, 2, ForceRule::linear), of(Method::exact, 6),
+                                           of(Method::exact, 6, ForceRule::collocation, 1e-6)),
+                         [](const auto &info)
+                         {
+                           std::string name;
+                           for (const char c :
+                                method_name(info.param) + (info.param.tolerance > 0. ? "controlled" : ""))
+                             if (std::isalnum(static_cast<unsigned char>(c)))
+                               name += c;
+                           return name;
+                         });
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,234 @@
+// What sticks: the force that holds it inside the steps, the load at which it lets go, and what of both is told.
+
+#include "coupling/integration/events/event_driver.h"
+#include "coupling/simulation/simulation.h"
+#include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/spring_damper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Vector = Eigen::VectorXd;
+
+std::shared_ptr<mechanism::CoulombFriction> dry(double kinetic, double limit)
+{
+  return std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{kinetic, limit});
+}
+
+struct Way
+{
+  const char   *name;
+  MethodOptions method;
+};
+
+MethodOptions fixed(Method method, double step, int order = 2)
+{
+  MethodOptions options;
+  options.method = method;
+  options.order  = order;
+  options.step   = step;
+  return options;
+}
+
+MethodOptions propagated(ForceRule rule, double step)
+{
+  MethodOptions options = fixed(Method::exact, step, 6);
+  options.force         = rule;
+  return options;
+}
+
+MethodOptions controlled(Method method, double tolerance)
+{
+  MethodOptions options = fixed(method, 0., method == Method::exact ? 6 : 5);
+  options.tolerance     = tolerance;
+  options.step          = 0.05;
+  return options;
+}
+
+std::string name_of(const ::testing::TestParamInfo<Way> &info)
+{
+  return info.param.name;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+constexpr double stiffness = 400., F = 7., Omega = 3.;
+
+/// A mass that sticks for good, another of 1 kg that swings on it by x = 0.1 cos(20 t), and a load on the first one.
+Machine swinging_on_the_held()
+{
+  Machine   machine;
+  const int held = machine.add_slider("held", {1., 0., 0.}, 2., "ground");
+  const int free = machine.add_slider("free", {1., 0., 0.}, 1., "ground");
+  machine.add_linear("spring", {{free, 1.}, {held, -1.}}, stiffness, 0., 0., 0., "N");
+  machine.add_load("load", {{held, 1.}}, 0., {{Omega, F, 0.}}, "N");
+  machine.attach("brake", dry(1000., 1000.), {{{held, 1.}}});
+  machine.finish();
+  return machine;
+}
+
+/// Largest error of the holding force at nine places in every step of a run of 0.5 s, relative to its size.
+double error_of_holding_force(const MethodOptions &method)
+{
+  Machine     machine    = swinging_on_the_held();
+  const auto  integrator = make_integrator(machine, method);
+  EventDriver driver(machine, *integrator, EventOptions());
+  driver.begin(0., Vector::Zero(2) + 0.1 * Vector::Unit(2, 1), Vector::Zero(2));
+  LocalState local;
+  local.resize(machine);
+  double largest = 0.;
+  while (integrator->time() < 0.5)
+  {
+    driver.advance();
+    const double begin = integrator->step_begin(), end = integrator->time();
+    for (int k = 0; k <= 8; ++k)
+    {
+      const double t = begin + k * (end - begin) / 8.;
+      integrator->interpolate(t, local);
+      const double expected = -stiffness * 0.1 * std::cos(20. * t) - F * std::sin(Omega * t);
+      const double p        = k == 8 ? integrator->local().p[0] : local.p[0];
+      largest               = std::max(largest, std::abs(p - expected));
+    }
+  }
+  return largest / (stiffness * 0.1);
+}
+
+class FixedStepHolds : public ::testing::TestWithParam<Way>
+{
+};
+
+TEST_P(FixedStepHolds, WithAForceOfTheOrderOfTheMethodAtEveryInstant)
+{
+  MethodOptions method = GetParam().method;
+  const double  error  = error_of_holding_force(method);
+  method.step /= 2.;
+  const double order = std::log2(error / error_of_holding_force(method));
+  EXPECT_GT(order, 1.8) << error;
+}
+INSTANTIATE_TEST_SUITE_P(Methods, FixedStepHolds,
+                         ::testing::Values(Way{"bdf2", fixed(Method::bdf, 2e-3)},
+                                           Way{"newmark", fixed(Method::newmark, 2e-3)},
+                                           Way{"wilson", fixed(Method::wilson, 2e-3)},
+                                           Way{"generalised_alpha", fixed(Method::generalised_alpha, 2e-3)}),
+                         name_of);
+
+class CarriedStepHolds : public ::testing::TestWithParam<Way>
+{
+};
+
+// The motion beside what is held is linear: exact propagation and dense output carry it to their rounding or tolerance.
+TEST_P(CarriedStepHolds, WithTheForceOfTheEquationOfMotion)
+{
+  EXPECT_LT(error_of_holding_force(GetParam().method), 1e-6);
+}
+INSTANTIATE_TEST_SUITE_P(Methods, CarriedStepHolds,
+                         ::testing::Values(Way{"exact_collocation", propagated(ForceRule::collocation, 5e-3)},
+                                           Way{"exact_average", propagated(ForceRule::average, 1e-4)},
+                                           Way{"bdf_controlled", controlled(Method::bdf, 1e-9)}),
+                         name_of);
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// 2 kg that come from 0.5 m/s to rest on a static limit of 30 N, kinetic 20 N, under a load of 30.03 sin(2 pi t) N
+/// that exceeds it for 14 ms.
+constexpr double mass = 2., limit = 30., kinetic = 20., load = 30.03, w = 2. * M_PI, v_0 = 0.5;
+
+Machine loaded_beyond_its_limit()
+{
+  Machine   machine;
+  const int x = machine.add_slider("mass", {1., 0., 0.}, mass, "ground");
+  machine.add_load("load", {{x, 1.}}, 0., {{w, load, 0.}}, "N");
+  machine.attach("friction", dry(kinetic, limit), {{{x, 1.}}});
+  machine.finish();
+  return machine;
+}
+
+/// Way and velocity at t of m x'' = F sin(w t) - R from t_0 on, where the velocity is v.
+Eigen::Vector2d slid(double t_0, double v, double t)
+{
+  const double tau = t - t_0;
+  return {v * tau + (load / mass) * ((std::sin(w * t_0) - std::sin(w * t)) / (w * w) + std::cos(w * t_0) * tau / w) -
+              0.5 * kinetic / mass * tau * tau,
+          v + load / mass * (std::cos(w * t_0) - std::cos(w * t)) / w - kinetic / mass * tau};
+}
+
+/// Where it comes to rest, between 0 and 0.1 s.
+double first_way()
+{
+  double low = 0., high = 0.1;
+  for (int k = 0; k < 60; ++k)
+    (slid(0., v_0, 0.5 * (low + high))[1] > 0. ? low : high) = 0.5 * (low + high);
+  return slid(0., v_0, low)[0];
+}
+
+RunResult run(Machine machine, const MethodOptions &method, double end)
+{
+  RunOptions options;
+  options.method      = method;
+  options.end         = end;
+  options.output_step = 1e-3;
+  InitialState initial;
+  initial.q = Vector::Zero(1);
+  initial.v = Vector::Constant(1, v_0);
+  return simulate(machine, initial, options,
+                  {machine.signal("x", "mass.displacement"), machine.signal("R", "friction.force")});
+}
+
+class BriefOverload : public ::testing::TestWithParam<Way>
+{
+};
+
+TEST_P(BriefOverload, LetsGoWhatSticksAndIsNeverHeldByMore)
+{
+  const double    end    = 0.45; // it slides until 0.5 s and longer
+  const RunResult result = run(loaded_beyond_its_limit(), GetParam().method, end);
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_EQ(result.events[0].kind, "stick");
+  EXPECT_EQ(result.events[1].kind, "slip_forward");
+  const double t_0 = std::asin(limit / load) / w, x = first_way() + slid(t_0, 0., end)[0];
+  const double share = GetParam().method.tolerance > 0. ? 1e-7 : 2e-2;
+  EXPECT_NEAR(result.events[1].t, t_0, 0.1 * share);
+  EXPECT_NEAR(result.signals[0].final, x, share * x);
+  EXPECT_LE(result.signals[1].max, limit * (1. + 1e-9));
+  EXPECT_GE(result.signals[1].max, limit * (1. - share));
+}
+INSTANTIATE_TEST_SUITE_P(Methods, BriefOverload,
+                         ::testing::Values(Way{"bdf_controlled", controlled(Method::bdf, 1e-10)},
+                                           Way{"exact_controlled", controlled(Method::exact, 1e-8)},
+                                           Way{"bdf2", fixed(Method::bdf, 10e-3)},
+                                           Way{"newmark", fixed(Method::newmark, 20e-3)},
+                                           Way{"exact", propagated(ForceRule::collocation, 60e-3)}),
+                         name_of);
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+// A damper d between what moves and what sticks: in a step h it weighs h d/m against 1, what holds h^2/m against h d/m.
+// That is a matter of units, and no step makes the force that holds d v unknown.
+TEST(HeldForces, OfADamperAreKnownInTheShortestSteps)
+{
+  constexpr double d = 1e5, v = 0.01, h = 1e-12;
+  Machine          machine;
+  const int        held = machine.add_slider("held", {1., 0., 0.}, 2., "ground");
+  const int        free = machine.add_slider("free", {1., 0., 0.}, 1., "ground");
+  machine.attach("damper", std::make_shared<mechanism::SpringDamper>(mechanism::SpringDamper::Parameters{0., d}),
+                 {{{free, 1.}, {held, -1.}}});
+  machine.attach("brake", dry(2. * d * v, 2. * d * v), {{{held, 1.}}});
+  machine.finish();
+  const auto  integrator = make_integrator(machine, fixed(Method::bdf, h));
+  EventDriver driver(machine, *integrator, EventOptions());
+  driver.begin(0., Vector::Zero(2), v * Vector::Unit(2, 1));
+  for (int i = 0; i < 5; ++i)
+    driver.advance();
+  EXPECT_NEAR(integrator->instant().v[0], 0., 1e-16 * v);            // rounding
+  EXPECT_NEAR(integrator->local().p[1], -d * v, 5. * h * d * d * v); // v falls by d v/m in a second
+}
+
+} // namespace
+} // namespace gestell::tests

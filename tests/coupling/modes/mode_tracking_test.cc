@@ -1,0 +1,118 @@
+// Assignment and tracking of modes on systems of two oscillators whose frequencies pass each other.
+
+#include "coupling/modes/mode_tracking.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using coupling::Mode;
+using coupling::TrackedModes;
+
+/// Two oscillators of unit mass and omega^2 = 10 + x, 10 - x (k_1 + x, k_2 - x), coupled by epsilon.
+std::vector<Mode> two_oscillators(double x, double epsilon)
+{
+  Eigen::Matrix2d K;
+  K << 10. + x, epsilon, epsilon, 10. - x;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(K);
+  std::vector<Mode>                                    modes(2);
+  for (int j = 0; j < 2; ++j)
+  {
+    modes[j].frequency_hz = std::sqrt(solver.eigenvalues()[j]) / (2. * M_PI);
+    modes[j].shape        = solver.eigenvectors().col(j);
+  }
+  return modes;
+}
+
+/// Frequencies of line 0 and 1 behind the way from x = -1.05 to 0.95 in `steps`.
+TrackedModes followed(double epsilon, int steps, int halvings)
+{
+  coupling::TrackingOptions options;
+  options.lines        = 2;
+  options.most_halving = halvings;
+  TrackedModes at{-1.05, two_oscillators(-1.05, epsilon), {}};
+  for (int k = 1; k <= steps; ++k)
+  {
+    TrackedModes next;
+    next.x     = -1.05 + 2. * k / steps;
+    next.modes = two_oscillators(next.x, epsilon);
+    coupling::track(at, next, Eigen::Matrix2d::Identity(), options,
+                    [&](double x) { return two_oscillators(x, epsilon); });
+    at = next;
+  }
+  return at;
+}
+
+bool crossed(const TrackedModes &end) // line 0 begins as the lower one
+{
+  return end.modes[0].frequency_hz > end.modes[1].frequency_hz;
+}
+
+} // namespace
+
+TEST(BestAssignment, HasTheLargestSumOfAllChoices)
+{
+  Eigen::MatrixXd value(4, 5); // the largest of each row taken one after the other would end with 0.1
+  value << 0.9, 0.8, 0.1, 0., 0.2, 0.85, 0.1, 0.2, 0.1, 0., 0.3, 0.79, 0.6, 0.2, 0.1, 0.1, 0.2, 0.55, 0.5, 0.45;
+  const std::vector<int> chosen = coupling::best_assignment(value);
+  double                 sum    = 0.;
+  for (int i = 0; i < 4; ++i)
+    sum += value(i, chosen[i]);
+  std::vector<int> columns(5);
+  std::iota(columns.begin(), columns.end(), 0);
+  double best = 0.;
+  do
+    best = std::max(best, value(0, columns[0]) + value(1, columns[1]) + value(2, columns[2]) + value(3, columns[3]));
+  while (std::next_permutation(columns.begin(), columns.end()));
+  EXPECT_NEAR(sum, best, 1e-12);
+  EXPECT_THROW(coupling::best_assignment(value.transpose()), std::invalid_argument);
+}
+
+TEST(ModeTracking, UncoupledOscillatorsCrossAndKeepTheirShapes)
+{
+  for (const int steps : {1, 7, 10, 40}) // 40: a position lies where both frequencies are the same
+  {
+    const TrackedModes end = followed(0., steps, 10);
+    EXPECT_TRUE(crossed(end)) << steps;
+    EXPECT_NEAR(std::abs(end.modes[0].shape[0]), 1., 1e-12) << steps;
+  }
+}
+
+// Frequencies come as near as 2 epsilon in omega^2 and shapes turn within |x| < epsilon, a fiftieth of the step.
+TEST(ModeTracking, WeaklyCoupledOscillatorsVeerAway)
+{
+  for (const int steps : {1, 7, 10, 40})
+  {
+    EXPECT_FALSE(crossed(followed(1e-3 * 40. / steps, steps, 10))) << steps;
+    const TrackedModes end = followed(1e-3 * 40. / steps, steps, 10);
+    EXPECT_GT(std::abs(end.modes[0].shape[1]), 0.99); // the line goes on with the other oscillator
+  }
+  EXPECT_TRUE(crossed(followed(1e-3, 7, 0))); // without halving the shapes jump over the veering
+}
+
+// Any mixture of two shapes of one frequency is a mode; lines take the one that continues them.
+TEST(ModeTracking, ShapesOfOneFrequencyAreTurnedToTheOnesBefore)
+{
+  TrackedModes before{0., two_oscillators(-0.5, 0.), {}}, next;
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  next.x     = 0.5;
+  next.modes = two_oscillators(0., 0.);
+  next.modes[0].shape << c, s;
+  next.modes[1].shape << -s, c;
+  coupling::track(before, next, Eigen::Matrix2d::Identity(), {2},
+                  [](double) -> std::vector<Mode> { throw std::invalid_argument("not needed"); });
+  for (int j = 0; j < 2; ++j)
+    EXPECT_NEAR(next.assurance[j], 1., 1e-12);
+  EXPECT_NEAR((next.modes[0].shape - before.modes[0].shape).norm(), 0., 1e-12); // signs as well
+}
+
+} // namespace gestell::tests

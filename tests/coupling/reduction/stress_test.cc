@@ -1,0 +1,149 @@
+// Stresses of a reduced frame against those of the full one.
+
+#include "coupling/frame/stress_field.h"
+#include "coupling/reduction/craig_bampton.h"
+#include "fem/recovery/discretisation.h"
+#include "tests/support/box_mesh.h"
+#include "tests/support/brick_mesh.h"
+#include "tests/support/statics.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/SparseLU>
+
+namespace gestell
+{
+namespace
+{
+
+using coupling::ReducedFrame;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A short column, clamped below, with a node that is tied to its top and one that takes the mean of a side.
+fem::FrameMatrices column()
+{
+  auto specification       = test::free_steel();
+  specification.stress     = true;
+  specification.supports   = {test::clamped("floor", {"z0"})};
+  specification.interfaces = {test::interface("top", {"z1"}, fem::InterfaceCoupling::rigid)};
+  return fem::discretise(test::box_mesh({{2, 2, 4}}, {{0.4, 0.3, 1.2}}, 0.2), specification);
+}
+
+/// A block with a load inside: a surface of which only the mean is an interface.
+fem::FrameMatrices loaded_block()
+{
+  auto specification       = test::free_steel();
+  specification.stress     = true;
+  specification.supports   = {test::clamped("floor", {"z0"})};
+  specification.interfaces = {test::interface("load", {"z1"}, fem::InterfaceCoupling::average)};
+  return fem::discretise(test::box_mesh({{2, 1, 1}}, {{0.8, 0.4, 0.3}}, 0.2), specification);
+}
+
+/// The block in hexahedra.
+fem::FrameMatrices loaded_bricks()
+{
+  auto specification       = test::free_steel();
+  specification.stress     = true;
+  specification.supports   = {test::clamped("floor", {"z0"})};
+  specification.interfaces = {test::interface("load", {"z1"}, fem::InterfaceCoupling::average)};
+  return fem::discretise(test::brick_mesh({{2, 1, 1}}, {{0.8, 0.4, 0.3}}, 0.2), specification);
+}
+
+ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
+{
+  coupling::ReductionOptions options;
+  options.n_modes = modes;
+  return coupling::craig_bampton(frame, options);
+}
+
+/// Largest difference over the largest stress.  Columns in single precision are rounded to 6e-8; stresses of unit
+/// motions of an interface cancel to some tenths of a percent of themselves.
+double error(const VectorXd &found, const VectorXd &exact)
+{
+  return (found - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+}
+
+VectorXd flat(const coupling::StressField &field)
+{
+  return Eigen::Map<const VectorXd>(field.components.data(), field.components.size());
+}
+
+/// Static stress of the reduced frame under forces F on its interface and an acceleration field g.
+VectorXd reduced_static_stress(const ReducedFrame &frame, const VectorXd &F, const Eigen::Vector3d &g)
+{
+  VectorXd f = frame.translations_load * g;
+  f.head(F.size()) += F;
+  const VectorXd p = frame.C.lu().solve(f);
+  return flat(coupling::stress_field(frame.stress, coupling::stress_state(frame.stress, p, {g[0], g[1], g[2]})));
+}
+
+VectorXd full_static_stress(const fem::FrameMatrices &frame, const VectorXd &F, const Eigen::Vector3d &g)
+{
+  VectorXd   f  = frame.acceleration_load * g;
+  const auto q1 = frame.interface_coordinates();
+  for (std::size_t i = 0; i < q1.size(); ++i)
+    f[q1[i]] += F[Eigen::Index(i)];
+  return fem::stresses(frame.stress, test::statics(frame, f), fem::StressOf::mean);
+}
+
+TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
+{
+  VectorXd F(6);
+  F << 3e4, -1e4, -8e4, 2e3, 5e3, -1e3;
+  const Eigen::Vector3d g(1., -2., -9.81);
+  for (const auto &frame : {column(), loaded_block(), loaded_bricks()})
+    for (const int modes : {0, 5})
+    {
+      const ReducedFrame small = reduced(frame, modes);
+      EXPECT_LT(error(reduced_static_stress(small, F, Eigen::Vector3d::Zero()),
+                      full_static_stress(frame, F, Eigen::Vector3d::Zero())),
+                1e-5)
+          << modes << " modes, forces at the interface";
+      EXPECT_LT(
+          error(reduced_static_stress(small, VectorXd::Zero(6), g), full_static_stress(frame, VectorXd::Zero(6), g)),
+          1e-5)
+          << modes << " modes, weight: what the modes leave out is added";
+    }
+}
+
+TEST(ReducedStress, OfAVibrationErrsAsTheModesLeftOutAre)
+{
+  // A mode of fixed-interface frequency omega_j that is left out lacks the share omega^2 / omega_j^2 of what inertia
+  // asks of it.  Many are left out, and short waves stress more than they move: a few times the first share.
+  const auto   frame = column();
+  const double omega = 2. * M_PI * 300.;
+  const auto   q1    = frame.interface_coordinates();
+  VectorXd     f     = VectorXd::Zero(frame.C.rows());
+  f[q1[0]]           = 1e4;
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>> full(
+      Eigen::SparseMatrix<double>(frame.C - omega * omega * frame.M));
+  const VectorXd exact = fem::stresses(frame.stress, full.solve(f), fem::StressOf::mean);
+
+  double last = 1e9;
+  for (const int modes : {2, 8, 30})
+  {
+    const ReducedFrame small = reduced(frame, modes);
+    const VectorXd     p =
+        MatrixXd(small.C - omega * omega * small.M).lu().solve(VectorXd(1e4 * VectorXd::Unit(small.C.rows(), 0)));
+    const double err =
+        error(flat(coupling::stress_field(small.stress, coupling::stress_state(small.stress, p, {0., 0., 0.}))), exact);
+    EXPECT_LT(err, 5. * std::pow(omega / small.omega0[modes - 1], 2)) << modes << " modes";
+    EXPECT_LT(err, last);
+    last = err;
+  }
+}
+
+TEST(ReducedStress, IsThereOnlyIfItIsAskedFor)
+{
+  auto specification       = test::free_steel();
+  specification.supports   = {test::clamped("floor", {"z0"})};
+  specification.interfaces = {test::interface("top", {"z1"}, fem::InterfaceCoupling::rigid)};
+  const auto small         = reduced(fem::discretise(test::box_mesh({{1, 1, 2}}, {{1., 1., 2.}}), specification), 2);
+  EXPECT_TRUE(small.stress.empty());
+  EXPECT_EQ(small.stress.mean.size() + small.stress.deviation.size(), 0);
+}
+
+} // namespace
+} // namespace gestell

@@ -1,0 +1,82 @@
+// Failures among ranks: none is left waiting.  What they find together: modes, and how many there are.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+Answer trial(const std::string &how, int ranks = 2)
+{
+  return shell("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 300 mpirun --oversubscribe "
+               "--mca mpi_yield_when_idle 1 -np " +
+               std::to_string(ranks) + " '" GESTELL_BINARY_DIR "/bin/team_trial' " + how);
+}
+
+TEST(Team, WorksTogether)
+{
+  const Answer answer = trial("sound");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("2 ranks took part\nthen 2 ranks took part")) << answer.text;
+}
+
+TEST(Team, IsToldOfAFailureThatAllAgreeOnAndGoesOn)
+{
+  const Answer answer = trial("agreed");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("told: the part of this rank is wrong (rank 1 of 2)")) << answer.text;
+  EXPECT_TRUE(answer.says("then 2 ranks took part")) << answer.text;
+}
+
+TEST(Team, EndsWithAMessageWhereOneRankBreaksDown)
+{
+  const Answer answer = trial("abrupt");
+  EXPECT_EQ(answer.exit_code, 3) << answer.text;
+  EXPECT_TRUE(answer.says("gestell: the computation failed on rank 1 of 2: this rank broke down")) << answer.text;
+  EXPECT_FALSE(answer.says("took part")) << answer.text;
+}
+
+TEST(Team, SolvesAndFindsModesAsOneProcessDoes)
+{
+  for (const int ranks : {2, 3})
+  {
+    const Answer answer = trial("compare", ranks);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    EXPECT_FALSE(answer.says("differs")) << answer.text;
+    for (const char *what : {"factor", "solution", "frequencies", "mass of the modes", "shapes", "number", "rest",
+                             "solution with the matrix given away", "place of what is not positive"})
+      EXPECT_TRUE(answer.says("the " + std::string(what) + " agrees")) << what << answer.text;
+  }
+}
+
+TEST(Team, CountsTheModesOfAFrameByTheInertiaOfItsFactor)
+{
+  const Answer answer = trial("count");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  for (const char *line : {"0 modes and counted 0\n", "1 modes and counted 1\n", "7 modes and counted 7\n",
+                           "11 modes and counted 11\n", "the rest agrees\n"})
+    EXPECT_TRUE(answer.says(line)) << line << answer.text;
+}
+
+TEST(Team, FindsAllModesThereAreAndRefusesToFindMore)
+{
+  const Answer answer = trial("exhaust");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  for (const char *count : {"16", "19", "21"})
+    EXPECT_TRUE(answer.says(std::string(count) + " of 21 modes found: " + count + ",")) << count << answer.text;
+  EXPECT_TRUE(answer.says("Hz tells of 21 fixed-interface modes below it, and as many are found")) << answer.text;
+  EXPECT_TRUE(answer.says("lowest modes: 21 of 22 exist, for the mass matrix has no higher rank")) << answer.text;
+}
+
+TEST(Team, TakesNoModesWhereNoneIsNeeded)
+{
+  const Answer answer = trial("none");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("0 modes: reduction: 0 fixed-interface modes")) << answer.text;
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,158 @@
+// What the residual of the energy balance is measured against, and what it says of a run.
+
+#include "coupling/simulation/energy_guard.h"
+#include "coupling/simulation/simulation.h"
+#include "fem/values/two_pi.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Verdict = EnergyGuard::Verdict;
+
+/// A slider of 1 kg and 1 Hz, that starts with 1 m/s: 0.5 J.
+RunResult oscillation(double step, double end)
+{
+  Machine   machine;
+  const int x = machine.add_slider("m", {1., 0., 0.}, 1., "ground");
+  machine.add_linear("spring", {{x, 1.}}, two_pi * two_pi, 0., 0., 0., "N");
+  machine.finish();
+  RunOptions run;
+  run.method.step = step;
+  run.end         = end;
+  return simulate(machine, {0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)}, run, {});
+}
+
+/// Share of the energy that numerical damping takes, docs/theory/integration.md (11): ratio (omega h)^4/4 per step.
+double lost_share(double step, double end)
+{
+  return 1. - std::exp(-2. * std::pow(two_pi * step, 4) / 4. * end / step);
+}
+
+TEST(EnergyGuard, AnOscillatorThatKeepsItsEnergyIsNoOpenBalance)
+{
+  const RunResult result = oscillation(1. / 200, 10.);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  EXPECT_NEAR(result.energy.exchanged, 0.5, 1e-3);
+  EXPECT_NEAR(result.energy.residual, 0.5 * lost_share(1. / 200, 10.), 0.03 * result.energy.residual); // h^2 terms
+}
+
+TEST(EnergyGuard, NumericalDampingIsAWarningWithItsShare)
+{
+  for (const double end : {10., 300.}) // 6 % of the energy is lost, then nearly all
+  {
+    const RunResult result = oscillation(1. / 50, end);
+    const double    share  = lost_share(1. / 50, end);
+    EXPECT_EQ(result.failure, "");
+    EXPECT_NEAR(result.energy.residual / result.energy.exchanged, share, 0.05 * share) << end;
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_NE(result.warnings[0].find("which the method lost: BDF 2 with a step of 0.02 s is too coarse"),
+              std::string::npos)
+        << result.warnings[0];
+    EXPECT_NE(result.warnings[0].find("% of the 0.5 J that the motion exchanges"), std::string::npos)
+        << result.warnings[0];
+  }
+}
+
+TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
+{
+  Machine machine;
+  machine.set_gravity({0., 0., -9.81});
+  const int z = machine.add_slider("m", {0., 0., 1.}, 3., "ground");
+  machine.add_linear("spring", {{z, 1.}}, 700., 0., 0., 0., "N");
+  machine.finish();
+  RunOptions run;
+  run.method.step     = 1e-3;
+  run.end             = 5.;
+  const double    sag = -3. * 9.81 / 700.; // rounded: not quite at rest
+  const RunResult result =
+      simulate(machine, {0., Eigen::VectorXd::Constant(1, sag), Eigen::VectorXd::Zero(1)}, run, {});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+}
+
+TEST(EnergyGuard, EnergyFromNowhereIsNoMotion)
+{
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 200; ++k) // doubles every ten steps, and nothing drives
+  {
+    state.stored = state.kinetic = std::pow(2., 0.1 * k);
+    guard.step(state, 1.);
+  }
+  EXPECT_EQ(guard.verdict(), Verdict::no_motion);
+  EXPECT_NE(guard.words("BDF 3").find("came from nowhere: BDF 3 does not give a motion"), std::string::npos);
+}
+
+TEST(EnergyGuard, WorkThatGoesThroughIsTheMeasureOfADrivenMachine)
+{
+  // 1 J in and out in each of 1000 steps, of which 2 mJ go astray: 0.2 % of the work, but twice the energy it holds.
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 1000; ++k)
+  {
+    state.input += 1.;
+    state.dissipated += 0.998;
+    guard.step(state, 1.);
+  }
+  EXPECT_NEAR(guard.residual(), 2., 1e-9);
+  EXPECT_NEAR(guard.exchanged(), 1998., 1e-9);
+  EXPECT_EQ(guard.verdict(), Verdict::closed);
+  EXPECT_EQ(guard.words("BDF 2"), "");
+}
+
+TEST(EnergyGuard, WhatALoadGivesAndTakesBackIsNoWorkThatGoesThrough)
+{
+  // 1 J in and out in each of 1000 periods, of which a thousandth is lost every time: all of the joule in the end.
+  EnergyGuard guard;
+  EnergyState state;
+  for (int k = 0; k < 1000; ++k)
+    for (const double input : {1., 0.})
+    {
+      state.input  = input;
+      state.stored = input - 1e-3 * k;
+      guard.step(state, 1.);
+    }
+  EXPECT_NEAR(guard.exchanged(), 1., 1e-9);
+  EXPECT_EQ(guard.verdict(), Verdict::open);
+}
+
+TEST(EnergyGuard, AnEnergyThatIsNoNumberEndsTheRun)
+{
+  for (double EnergyState::*part : {&EnergyState::input, &EnergyState::stored, &EnergyState::dissipated})
+    for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
+    {
+      EnergyGuard guard;
+      EnergyState state;
+      guard.step(state, 1.);
+      state.*part = value;
+      EXPECT_THROW(guard.step(state, 1.), ConvergenceFailure);
+    }
+}
+
+TEST(EnergyGuard, RoundingOfManyStepsIsNoError)
+{
+  EnergyGuard guard;
+  EnergyState state;
+  state.forces = 1e6; // at 10 m: 2e-9 J a step
+  for (int k = 0; k < 1000; ++k)
+  {
+    state.stored = -1e-9 * k;
+    guard.step(state, 10.);
+  }
+  EXPECT_EQ(guard.verdict(), Verdict::closed);
+  state.stored = -1e-2;
+  guard.step(state, 10.);
+  EXPECT_EQ(guard.verdict(), Verdict::open); // it is lost, not more than there was
+}
+
+} // namespace
+} // namespace gestell::tests

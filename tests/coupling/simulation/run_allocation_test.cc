@@ -1,0 +1,91 @@
+// A run takes no memory from step to step: what it needs is there before the first one.
+
+#include "coupling/simulation/simulation.h"
+#include "mechanism/elements/cubic_spring.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace
+{
+long allocations = 0;
+} // namespace
+
+// Eigen and operator new both take their memory by malloc; glibc keeps its own under another name.
+extern "C" void                                        *__libc_malloc(std::size_t size);
+extern "C" __attribute__((visibility("default"))) void *malloc(std::size_t size)
+{
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace
+{
+
+using namespace gestell;
+using namespace gestell::coupling;
+
+/// Two masses on springs, one of them hardening, shaken; events none.
+long allocations_of_run(const MethodOptions &method, double end, bool energy)
+{
+  Machine   machine;
+  const int x = machine.add_slider("x", {1., 0., 0.}, 3., "ground"),
+            y = machine.add_slider("y", {1., 0., 0.}, 2., "ground");
+  machine.add_linear("base", {{x, 1.}}, 2e4, 20., 0., 0., "N");
+  machine.add_linear("link", {{x, 1.}, {y, -1.}}, 3e4, 20., 0., 0., "N");
+  machine.attach("buffer", std::make_shared<mechanism::CubicSpring>(mechanism::CubicSpring::Parameters{1e4, 1e9}),
+                 {{{y, 1.}}});
+  machine.add_load("shaker", {{y, 1.}}, 0., {{60., 100., 0.}}, "N");
+  machine.finish();
+  InitialState rest;
+  rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
+  RunOptions options;
+  options.method                    = method;
+  options.end                       = end;
+  options.energy                    = energy;
+  const std::vector<Signal> signals = {machine.signal("x", "x.displacement"), machine.signal("F", "buffer.force")};
+  const long                before  = allocations;
+  const RunResult           result  = simulate(machine, rest, options, signals);
+  const long                needed  = allocations - before;
+  EXPECT_EQ(result.failure, "");
+  return needed;
+}
+
+class RunAllocation : public ::testing::TestWithParam<MethodOptions>
+{
+};
+
+TEST_P(RunAllocation, DoesNotGrowWithTheNumberOfSteps)
+{
+  for (const bool energy : {false, true})
+    EXPECT_EQ(allocations_of_run(GetParam(), 0.2, energy), allocations_of_run(GetParam(), 0.4, energy));
+}
+
+MethodOptions fixed(Method method)
+{
+  MethodOptions options;
+  options.method = method;
+  options.step   = 1e-4;
+  return options;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, RunAllocation,
+                         ::testing::Values(fixed(Method::bdf), fixed(Method::newmark), fixed(Method::wilson),
+                                           fixed(Method::generalised_alpha), fixed(Method::exact)),
+                         [](const auto &information)
+                         {
+                           return std::string(1, "bnwhgce"[static_cast<int>(information.param.method)]) + "_" +
+                                  std::to_string(static_cast<int>(information.param.method));
+                         });
+
+TEST(Allocations, AreCounted)
+{
+  const long             before = allocations;
+  const Eigen::VectorXd  x      = Eigen::VectorXd::Ones(100);
+  const std::vector<int> y(100, 3);
+  EXPECT_GE(allocations - before, 2);
+  EXPECT_EQ(x.sum() + y[0], 103.);
+}
+
+} // namespace

@@ -1,0 +1,85 @@
+// A motor runs up two rotors on an elastic shaft: the vibration that the start excites dies away while the angle grows
+// without end, so that the angle is no measure of what an error means.
+
+#include "coupling/simulation/simulation.h"
+#include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/kloss_motor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+
+constexpr double J_1 = 0.5, J_2 = 2., c = 800., b = 0.1; ///< [kg m^2, N m/rad, N m s/rad]
+
+RunResult run_up(Method method, int order, double tolerance)
+{
+  Machine   machine;
+  const int motor = machine.add_rotor("motor", {0., 0., 1.}, J_1, 0., "ground"),
+            load  = machine.add_rotor("load", {0., 0., 1.}, J_2, 0., "ground");
+  machine.add_linear("shaft", {{motor, 1.}, {load, -1.}}, c, 0., 0., 0., "N m");
+  machine.add_linear("drag", {{load, 1.}}, 0., b, 0., 0., "N m");
+  machine.attach("drive",
+                 std::make_shared<mechanism::KlossMotor>(mechanism::KlossMotor::Parameters{40., 0.15, 50. * M_PI, 1.}),
+                 {{{motor, 1.}}});
+  machine.finish();
+  InitialState rest;
+  rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
+  RunOptions options;
+  options.method.method    = method;
+  options.method.order     = order;
+  options.method.tolerance = tolerance;
+  options.end              = 60.;
+  return simulate(machine, rest, options, {machine.signal("T", "shaft.torque")});
+}
+
+TEST(RunUp, OfAMotorTellsThePeakOfTheShaftByExactPropagationWithATolerance)
+{
+  const double peak = run_up(Method::bdf, 5, 1e-9).signals[0].max;
+  EXPECT_NEAR(peak, 295.4, 0.1);
+  // The peak, after 167 periods of the shaft, is that of a passage in which errors add up; they follow the tolerance.
+  EXPECT_NEAR(run_up(Method::exact, 4, 1e-5).signals[0].max, peak, 0.02 * peak);
+  EXPECT_NEAR(run_up(Method::exact, 4, 1e-6).signals[0].max, peak, 0.002 * peak);
+  EXPECT_NEAR(run_up(Method::exact, 4, 1e-8).signals[0].max, peak, 0.0002 * peak);
+}
+
+TEST(RunUp, EndsWithTheTorqueOfTheLoad)
+{
+  // Vibrations died away: T = b omega, and the motor gives the same.
+  for (const double tolerance : {1e-5, 1e-7})
+  {
+    const RunResult run = run_up(Method::exact, 4, tolerance);
+    EXPECT_NEAR(run.signals[0].final, 15.2415, 0.02) << tolerance;
+    EXPECT_TRUE(run.warnings.empty());
+  }
+}
+
+TEST(DryFriction, WithoutLocatedEventsIsWarnedOf)
+{
+  Machine   machine;
+  const int x = machine.add_slider("x", {1., 0., 0.}, 5., "ground");
+  machine.add_linear("spring", {{x, 1.}}, 2000., 0., 0., 0., "N");
+  machine.attach("floor",
+                 std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{10., 15.}),
+                 {{{x, 1.}}});
+  machine.finish();
+  InitialState start;
+  start.q = Eigen::VectorXd::Constant(1, 0.05);
+  start.v = Eigen::VectorXd::Zero(1);
+  RunOptions options;
+  options.method.step = 1e-3;
+  options.end         = 0.1;
+  options.events      = false;
+  const RunResult run = simulate(machine, start, options, {machine.signal("x", "x.displacement")});
+  ASSERT_FALSE(run.warnings.empty());
+  EXPECT_NE(run.warnings[0].find("run.events = false, but the dry friction of \"floor\""), std::string::npos);
+}
+
+} // namespace
+} // namespace gestell::tests

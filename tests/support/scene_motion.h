@@ -1,0 +1,71 @@
+#pragma once
+
+#include "tests/support/scene_text.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace gestell::tests
+{
+
+using Settings = std::vector<std::string>;
+
+inline SceneRun run(const std::string &scene, const Settings &overrides = {})
+{
+  const test::SceneFolder folder;
+  return SceneRun(folder.write("scene.toml", scene), overrides);
+}
+
+inline void expect_complaint(const std::string &scene, const std::string &words)
+{
+  const std::string said = test::complaint(scene);
+  EXPECT_NE(said.find(words), std::string::npos) << "said: " << said << "\nnot: " << words;
+}
+
+/// Time of the n-th event of a kind, from 0.
+inline double time_of(const SceneRun &motion, const std::string &kind, int n = 0)
+{
+  for (const coupling::Event &event : motion.result.events)
+    if (event.kind == kind && n-- == 0)
+      return event.t;
+  ADD_FAILURE() << "no event " << kind;
+  return std::nan("");
+}
+
+inline int count(const SceneRun &motion, const std::string &kind)
+{
+  int n = 0;
+  for (const coupling::Event &event : motion.result.events)
+    n += event.kind == kind;
+  return n;
+}
+
+inline void expect_closed_balance(const SceneRun &motion, double part)
+{
+  const auto &energy = motion.result.energy;
+  EXPECT_EQ(motion.result.failure, "");
+  EXPECT_LT(std::abs(energy.residual), part * (std::abs(energy.input) + std::abs(energy.stored) + energy.dissipated));
+}
+
+/// One body, to which elements are added; the first step is the fixed one.
+inline std::string rotor(double inertia, const std::string &end)
+{
+  return "[body.shaft]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = " + std::to_string(inertia) +
+         "\n[run]\nstep = \"0.1 ms\"\nend = \"" + end +
+         "\"\n[output.signals]\nw = \"shaft.speed\"\nphi = \"shaft.angle\"\n";
+}
+inline std::string slider(double mass, const std::string &end)
+{
+  return "[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = " + std::to_string(mass) +
+         "\n[run]\nstep = \"0.1 ms\"\nend = \"" + end +
+         "\"\n[output.signals]\nx = \"slide.displacement\"\nv = \"slide.velocity\"\n";
+}
+
+// Fixed steps, and controlled ones up to 20 ms.
+inline const Settings fixed = {}, controlled = {"run.tolerance=1e-8", "run.step=20 ms"};
+
+} // namespace gestell::tests
