@@ -71,7 +71,7 @@ void ForceElement::constraint(const LocalMotion &, const double *, double *, dou
 
 void ForceElement::constraint_rates(const LocalMotion &, const double *, double *, double *) const {}
 
-bool ForceElement::command(const Order &, const LocalMotion &, double *) const
+bool ForceElement::command(const SwitchCommand &, const LocalMotion &, double *) const
 {
   return false;
 }

@@ -152,10 +152,10 @@ public:
   virtual std::string constraint_name(int i) const { return (void)i, ""; }
 
   /// Obeys an order of a switch at the motion where it is given; false: the element knows no such order.
-  virtual bool                     command(const Order &order, const LocalMotion &motion, double *history) const;
+  virtual bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
   /// @throws std::invalid_argument if the values of one of these orders are none for it
-  virtual void check_order(const Order &) const {}
+  virtual void check_order(const SwitchCommand &) const {}
 
   virtual void accept(const LocalMotion &, double *history) const { (void)history; }
 

@@ -15,7 +15,7 @@ namespace gestell::mechanism
  *     "set"         a ramp begins that takes its level to `level` within the limits `rate` and `rate_of_rate`
  *     "brake"       likewise, to zero
  */
-struct Order
+struct SwitchCommand
 {
   std::string name;
   double      level        = 0.;

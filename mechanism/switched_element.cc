@@ -96,7 +96,7 @@ bool SwitchedElement::closure(const double *u, const double *v, double &g, doubl
   return begin_ == Begin::on && law_->closure(u, v, g, gradient, curvature);
 }
 
-bool SwitchedElement::command(const Order &order, const LocalMotion &motion, double *history) const
+bool SwitchedElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   if (order.name != "on" && order.name != "off")
   {

@@ -48,9 +48,9 @@ public:
   void geometric(const LocalMotion &motion, const double *history, double *K) const override;
   bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
 
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override;
-  void                     check_order(const Order &order) const override { law_->check_order(order); }
+  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
   void                     accept(const LocalMotion &motion, double *history) const override;
   double                   stored_energy(const LocalMotion &motion, const double *history) const override;
   double                   stored_power(const LocalMotion &motion, const double *history) const override;

@@ -231,7 +231,7 @@ void TransmittedElement::transition(int i, const LocalMotion &motion, double *hi
   law_->transition(i, seen.motion(motion), history);
 }
 
-bool TransmittedElement::command(const Order &order, const LocalMotion &motion, double *history) const
+bool TransmittedElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion, history);
   return law_->command(order, seen.motion(motion), history);

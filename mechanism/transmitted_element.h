@@ -67,9 +67,9 @@ public:
   int  n_guards(const double *history) const override { return law_->n_guards(history) + function().n_guards(); }
   void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void transition(int i, const LocalMotion &motion, double *history) const override;
-  bool command(const Order &order, const LocalMotion &motion, double *history) const override;
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override { return law_->commands(); }
-  void                     check_order(const Order &order) const override { law_->check_order(order); }
+  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
 
   std::vector<Quantity> quantities() const override { return law_->quantities(); }
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;

@@ -104,7 +104,7 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
     write_results(folder, result);
   }
 
-  for (const std::string &line : frame_lines(result.model))
+  for (const std::string &line : frame_text(result.model))
     std::cout << "frame: " << line << '\n';
   if (convergence)
   {

@@ -105,7 +105,7 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   facts.damping      = damping_text(scene.frame);
   facts.mesh         = mesh_text(scene.frame);
   facts.statements   = frame.statements;
-  for (const std::string &line : frame_lines(facts))
+  for (const std::string &line : frame_text(facts))
     std::cout << "  " << line << '\n';
   for (const std::string &note : frame.notes)
     std::cout << "  note: " << note << '\n';

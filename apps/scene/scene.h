@@ -52,11 +52,11 @@ struct ReductionRequest
 };
 
 /// The shape of a body from CAD, placed as the scene describes it.
-struct PartRequest
+struct CadBodyRequest
 {
-  fem::Part   shape;        ///< in the scene's coordinates; its inertia is for density one
-  double      density = 0.; ///< [kg/m^3]
-  std::string found;        ///< for people: file, mass, centre of mass, inertia
+  fem::CadBody shape;        ///< in the scene's coordinates; its inertia is for density one
+  double       density = 0.; ///< [kg/m^3]
+  std::string  found;        ///< for people: file, mass, centre of mass, inertia
 };
 
 struct BodyRequest
@@ -71,7 +71,7 @@ struct BodyRequest
   double             radius = 0.;                      ///< [m], for pictures
   std::string        place;
 
-  std::shared_ptr<const PartRequest> part; ///< inertia, mass and position come from it; null if they are given
+  std::shared_ptr<const CadBodyRequest> part; ///< inertia, mass and position come from it; null if they are given
 };
 
 /// A point of a body, an interface or the ground, in the position the scene describes.

@@ -42,18 +42,18 @@ void for_each_strip(int n_tiles, const Visit &visit)
 
 } // namespace
 
-TallMatrix::TallMatrix(int n, int columns) : n_(n), columns_(columns), algebra_(&block_algebra(columns))
+MultiVector::MultiVector(int n, int columns) : n_(n), columns_(columns), algebra_(&block_algebra(columns))
 {
   for (int p = 0; p < panels_for(columns, lanes()); ++p)
     panels_.emplace_back(n_tiles() * tile_step());
 }
 
-double &TallMatrix::operator()(int i, int j)
+double &MultiVector::operator()(int i, int j)
 {
   return panels_[j / lanes()].data()[ptrdiff_t(i) * lanes() + j % lanes()];
 }
 
-void TallMatrix::take(const Eigen::Ref<const MatrixXd> &Y, const std::vector<int> &order)
+void MultiVector::take(const Eigen::Ref<const MatrixXd> &Y, const std::vector<int> &order)
 {
   assert(Y.rows() == n_ && Y.cols() == columns_);
   for (int k = 0; k < n_; ++k)
@@ -61,7 +61,7 @@ void TallMatrix::take(const Eigen::Ref<const MatrixXd> &Y, const std::vector<int
       (*this)(k, j) = Y(order[k], j);
 }
 
-void TallMatrix::give(Eigen::Ref<MatrixXd> Y, const std::vector<int> &order) const
+void MultiVector::give(Eigen::Ref<MatrixXd> Y, const std::vector<int> &order) const
 {
   assert(Y.rows() == n_ && Y.cols() == columns_);
   for (int k = 0; k < n_; ++k)
@@ -69,7 +69,7 @@ void TallMatrix::give(Eigen::Ref<MatrixXd> Y, const std::vector<int> &order) con
       Y(order[k], j) = (*this)(k, j);
 }
 
-void TallMatrix::transform(const MatrixXd &F)
+void MultiVector::transform(const MatrixXd &F)
 {
   assert(F.rows() == columns_ && F.cols() <= columns_);
   std::vector<std::vector<double>> minus_F; // by panels of the result
@@ -98,7 +98,7 @@ void TallMatrix::transform(const MatrixXd &F)
   panels_.resize(minus_F.size());
 }
 
-MatrixXd gram(const TallMatrix &X, const TallMatrix &Y)
+MatrixXd gram(const MultiVector &X, const MultiVector &Y)
 {
   assert(X.rows() == Y.rows() && X.lanes() == Y.lanes());
   const int           lanes = X.lanes();
@@ -174,7 +174,7 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
   first_.push_back(n_);
 }
 
-void ReorderedMatrix::multiply(const TallMatrix &X, TallMatrix &Y) const
+void ReorderedMatrix::multiply(const MultiVector &X, MultiVector &Y) const
 {
   assert(X.rows() == n_ && Y.rows() == n_ && Y.columns() == X.columns() && Y.lanes() == X.lanes());
   const SparseRows rows{int(first_.size()) - 1, first_.data(), begin_.data(), column_.data(), value_.data()};
@@ -182,7 +182,7 @@ void ReorderedMatrix::multiply(const TallMatrix &X, TallMatrix &Y) const
     X.algebra().sparse_product(rows, X.panel(p), Y.panel(p));
 }
 
-void TallSpace::append(const TallMatrix &X)
+void KrylovBasis::append(const MultiVector &X)
 {
   const int  width = X.columns();
   Part       part{LargeArray(ptrdiff_t(n_tiles()) * tile_rows * width), width, width};
@@ -199,7 +199,7 @@ void TallSpace::append(const TallMatrix &X)
   parts_.push_back(std::move(part));
 }
 
-MatrixXd TallSpace::project(const TallMatrix &X, int from) const
+MatrixXd KrylovBasis::project(const MultiVector &X, int from) const
 {
   const int         lanes = X.lanes();
   MatrixXd          H(columns_ - from, X.columns());
@@ -233,7 +233,7 @@ MatrixXd TallSpace::project(const TallMatrix &X, int from) const
   return H;
 }
 
-MatrixXd TallSpace::rows_of_parts(const MatrixXd &H, std::size_t first_part) const
+MatrixXd KrylovBasis::rows_of_parts(const MatrixXd &H, std::size_t first_part) const
 {
   int height = 0;
   for (std::size_t a = first_part; a < parts_.size(); ++a)
@@ -249,8 +249,8 @@ MatrixXd TallSpace::rows_of_parts(const MatrixXd &H, std::size_t first_part) con
   return padded;
 }
 
-void TallSpace::subtract_strip(const BlockAlgebra &algebra, std::size_t first_part, int first, int count,
-                               const double *H, double *X) const
+void KrylovBasis::subtract_strip(const BlockAlgebra &algebra, std::size_t first_part, int first, int count,
+                                 const double *H, double *X) const
 {
   for (std::size_t a = first_part; a < parts_.size(); ++a)
   {
@@ -260,7 +260,7 @@ void TallSpace::subtract_strip(const BlockAlgebra &algebra, std::size_t first_pa
   }
 }
 
-void TallSpace::subtract(TallMatrix &X, const MatrixXd &H, int from) const
+void KrylovBasis::subtract(MultiVector &X, const MatrixXd &H, int from) const
 {
   const std::size_t first_part = part_at(from);
   const MatrixXd    padded     = rows_of_parts(H, first_part);
@@ -274,7 +274,7 @@ void TallSpace::subtract(TallMatrix &X, const MatrixXd &H, int from) const
 }
 
 template <typename Visit>
-void TallSpace::for_each_product(const MatrixXd &S, const Visit &visit) const
+void KrylovBasis::for_each_product(const MatrixXd &S, const Visit &visit) const
 {
   const BlockAlgebra              &algebra   = block_algebra(int(S.cols()));
   const int                        lanes     = algebra.columns;
@@ -296,7 +296,7 @@ void TallSpace::for_each_product(const MatrixXd &S, const Visit &visit) const
                  });
 }
 
-void TallSpace::transform(const MatrixXd &S)
+void KrylovBasis::transform(const MatrixXd &S)
 {
   assert(S.rows() == columns_ && S.cols() <= columns_);
   const int kept = int(S.cols());
@@ -325,7 +325,7 @@ void TallSpace::transform(const MatrixXd &S)
   columns_ = kept;
 }
 
-void TallSpace::give(const MatrixXd &S, const std::vector<int> &order, MatrixXd &V) const
+void KrylovBasis::give(const MatrixXd &S, const std::vector<int> &order, MatrixXd &V) const
 {
   V.resize(n_, S.cols());
   for_each_product(S,
@@ -338,7 +338,7 @@ void TallSpace::give(const MatrixXd &S, const std::vector<int> &order, MatrixXd 
                    });
 }
 
-std::size_t TallSpace::part_at(int column) const
+std::size_t KrylovBasis::part_at(int column) const
 {
   std::size_t part = 0;
   for (int before = 0; before < column; ++part)

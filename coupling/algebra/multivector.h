@@ -17,11 +17,11 @@ namespace gestell::coupling
  * takes together (fewer for few columns), in which the numbers of a row lie side by side.  Rows beyond n, up to a
  * multiple of eight and at least one, and columns beyond those in use are zero.
  */
-class TallMatrix
+class MultiVector
 {
 public:
-  TallMatrix() = default;
-  TallMatrix(int n, int columns);
+  MultiVector() = default;
+  MultiVector(int n, int columns);
 
   int rows() const { return n_; }
   int columns() const { return columns_; }
@@ -36,7 +36,7 @@ public:
   const double *panel(int p) const { return panels_[p].data(); }
 
   double &operator()(int i, int j);
-  double  operator()(int i, int j) const { return const_cast<TallMatrix &>(*this)(i, j); }
+  double  operator()(int i, int j) const { return const_cast<MultiVector &>(*this)(i, j); }
 
   /// X(k, :) <- Y(order[k], :), and back; the numbers of columns must agree.
   void take(const Eigen::Ref<const Eigen::MatrixXd> &Y, const std::vector<int> &order);
@@ -52,7 +52,7 @@ private:
 };
 
 /// X^T Y; both with panels of as many lanes.
-Eigen::MatrixXd gram(const TallMatrix &X, const TallMatrix &Y);
+Eigen::MatrixXd gram(const MultiVector &X, const MultiVector &Y);
 
 /// A sparse matrix with rows and columns in another order; rows of a node that are alike are kept once.
 class ReorderedMatrix
@@ -62,7 +62,7 @@ public:
   ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std::vector<int> &order, const std::vector<int> &held);
 
   /// Y <- A X; Y has the size of X.
-  void multiply(const TallMatrix &X, TallMatrix &Y) const;
+  void multiply(const MultiVector &X, MultiVector &Y) const;
 
 private:
   int                 n_;
@@ -71,19 +71,19 @@ private:
 };
 
 /// Q [n x columns], to which columns are added in blocks.
-class TallSpace
+class KrylovBasis
 {
 public:
-  explicit TallSpace(int n) : n_(n) {}
+  explicit KrylovBasis(int n) : n_(n) {}
 
   int columns() const { return columns_; }
 
-  void append(const TallMatrix &X);
+  void append(const MultiVector &X);
 
   /// Q(:, from ...)^T X; `from` is where a block was added.
-  Eigen::MatrixXd project(const TallMatrix &X, int from = 0) const;
+  Eigen::MatrixXd project(const MultiVector &X, int from = 0) const;
   /// X -= Q(:, from ...) H
-  void subtract(TallMatrix &X, const Eigen::MatrixXd &H, int from = 0) const;
+  void subtract(MultiVector &X, const Eigen::MatrixXd &H, int from = 0) const;
 
   /// Q <- Q S, S [columns x k], k <= columns.
   void transform(const Eigen::MatrixXd &S);

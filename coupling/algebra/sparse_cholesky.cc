@@ -190,10 +190,10 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   const int        *order       = f.fronts().order;
   const auto        columns_for = [](int width)
   {
-    return *std::find_if(tile_sweeps().begin(), tile_sweeps().end(),
-                         [&](const TileSweeps &sweeps) { return sweeps.columns >= width; });
+    return *std::find_if(triangular_solve_kernels().begin(), triangular_solve_kernels().end(),
+                         [&](const TriangularSolve &sweeps) { return sweeps.columns >= width; });
   };
-  const int  most = std::min(tile_sweeps().back().columns, int(X.cols()));
+  const int  most = std::min(triangular_solve_kernels().back().columns, int(X.cols()));
   LargeArray several; // right-hand sides in the order of elimination; a single one has its place for the next time
   if (most > 1)
     several = LargeArray(std::size_t(columns_for(most).columns) * (f.n + 1));
@@ -202,9 +202,9 @@ void SparseCholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   double *const rhs = most > 1 ? several.data() : f.single.data();
   for (int first = 0; first < X.cols();)
   {
-    const int            width   = std::min(most, int(X.cols()) - first);
-    const TileSweeps     sweeps  = columns_for(width);
-    const std::ptrdiff_t columns = sweeps.columns;
+    const int             width   = std::min(most, int(X.cols()) - first);
+    const TriangularSolve sweeps  = columns_for(width);
+    const std::ptrdiff_t  columns = sweeps.columns;
     for (std::ptrdiff_t k = 0; k < f.n; ++k)
     {
       double *const x = rhs + k * columns;
@@ -235,11 +235,11 @@ std::vector<int> SparseCholesky::order() const
   return {order, order + factor_->n};
 }
 
-void SparseCholesky::solve_in_place(TallMatrix &X) const
+void SparseCholesky::solve_in_place(MultiVector &X) const
 {
   eigen_assert(X.rows() == factor_->n && !released());
-  const TileSweeps &sweeps = block_sweeps(X.lanes());
-  const TiledFactor tiles  = factor_->L.tiles();
+  const TriangularSolve &sweeps = block_triangular_solve(X.lanes());
+  const TiledFactor      tiles  = factor_->L.tiles();
   for (int p = 0; p < X.n_panels(); ++p)
   {
     sweeps.forward(tiles, X.panel(p));

@@ -77,7 +77,7 @@ public:
   /// Coordinate of A at every place in the order of elimination.
   std::vector<int> order() const;
   /// The same for right-hand sides in that order: X(k, :) belongs to coordinate order()[k].
-  void solve_in_place(TallMatrix &X) const;
+  void solve_in_place(MultiVector &X) const;
 
   /// Numbers stored in L.
   double entries() const;

@@ -348,7 +348,7 @@ constexpr BlockAlgebra algebra_of = {B::columns,
                                      Algebra<B>::sparse_product};
 
 template <typename Columns>
-constexpr TileSweeps sweeps_of = {Columns::columns, Sweep<Columns>::forward, Sweep<Columns>::backward};
+constexpr TriangularSolve sweeps_of = {Columns::columns, Sweep<Columns>::forward, Sweep<Columns>::backward};
 
 } // namespace
 

@@ -12,12 +12,13 @@ namespace
 using Narrow = Block<Eight, 1, 8>;
 using Wide   = Block<Eight, 2, 8>;
 
-constexpr SweepKernels kernels = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>, sweeps_of<Block<Eight, 3, 8>>};
-constexpr AlgebraKernels algebra = {algebra_of<Narrow>, algebra_of<Wide>};
+constexpr TriangularSolveKernels kernels = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>,
+                                            sweeps_of<Block<Eight, 3, 8>>};
+constexpr AlgebraKernels         algebra = {algebra_of<Narrow>, algebra_of<Wide>};
 
 } // namespace
 
-const SweepKernels &avx512_tile_sweeps()
+const TriangularSolveKernels &avx512_triangular_solve_kernels()
 {
   return kernels;
 }

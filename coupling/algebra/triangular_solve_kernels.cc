@@ -15,9 +15,9 @@ namespace
 using Narrow = Block<Four, 1, 8>;
 using Wide   = Block<Four, 2, 4>;
 
-constexpr SweepKernels   any_processor = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>,
-                                          sweeps_of<Block<Four, 3, 4>>};
-constexpr AlgebraKernels any_algebra   = {algebra_of<Narrow>, algebra_of<Wide>};
+constexpr TriangularSolveKernels any_processor = {sweeps_of<Single>, sweeps_of<Narrow>, sweeps_of<Wide>,
+                                                  sweeps_of<Block<Four, 3, 4>>};
+constexpr AlgebraKernels         any_algebra   = {algebra_of<Narrow>, algebra_of<Wide>};
 
 /// Whether the kernels for AVX-512 are there, wanted, and within what the processor can do.
 bool has_avx512()
@@ -35,9 +35,9 @@ bool has_avx512()
 
 } // namespace
 
-const SweepKernels &tile_sweeps()
+const TriangularSolveKernels &triangular_solve_kernels()
 {
-  return has_avx512() ? avx512_tile_sweeps() : any_processor;
+  return has_avx512() ? avx512_triangular_solve_kernels() : any_processor;
 }
 
 namespace
@@ -46,7 +46,7 @@ namespace
 /// Of kernels for few and for many columns.
 bool wants_many(int columns)
 {
-  return columns > tile_sweeps()[1].columns;
+  return columns > triangular_solve_kernels()[1].columns;
 }
 
 } // namespace
@@ -56,13 +56,13 @@ const BlockAlgebra &block_algebra(int columns)
   return (has_avx512() ? avx512_block_algebra() : any_algebra)[wants_many(columns) ? 1 : 0];
 }
 
-const TileSweeps &block_sweeps(int columns)
+const TriangularSolve &block_triangular_solve(int columns)
 {
-  return tile_sweeps()[wants_many(columns) ? 2 : 1];
+  return triangular_solve_kernels()[wants_many(columns) ? 2 : 1];
 }
 
 #if !defined(GESTELL_AVX512_KERNELS)
-const SweepKernels &avx512_tile_sweeps()
+const TriangularSolveKernels &avx512_triangular_solve_kernels()
 {
   return any_processor;
 }

@@ -26,7 +26,7 @@ struct TiledFactor
 
 /// One way through L for a number of right-hand sides at once: X is [columns x (n + 1)], a row of the right-hand sides
 /// together, in the order of elimination; what lies in the last row is of no meaning.
-struct TileSweeps
+struct TriangularSolve
 {
   int columns;
   void (*forward)(const TiledFactor &, double *X);  ///< X <- L^-1 X
@@ -60,10 +60,10 @@ struct BlockAlgebra
 };
 
 /// For 1, a few, many and most right-hand sides, with columns ascending.
-using SweepKernels = std::array<TileSweeps, 4>;
+using TriangularSolveKernels = std::array<TriangularSolve, 4>;
 
 /// As the processor at hand does them best.
-const SweepKernels &tile_sweeps();
+const TriangularSolveKernels &triangular_solve_kernels();
 
 /// For few and for many columns.
 using AlgebraKernels = std::array<BlockAlgebra, 2>;
@@ -71,6 +71,6 @@ using AlgebraKernels = std::array<BlockAlgebra, 2>;
 /// For blocks of `columns` columns, by as many at once as block_algebra().columns tells.
 const BlockAlgebra &block_algebra(int columns);
 /// Sweeps for the panels of such a block.
-const TileSweeps &block_sweeps(int columns);
+const TriangularSolve &block_triangular_solve(int columns);
 
 } // namespace gestell::coupling

@@ -32,10 +32,10 @@ constexpr std::uint64_t golden       = 0x9E3779B97F4A7C15u; // SplitMix64
 constexpr double        gap          = 1e-4;                // of theta, between modes that count as apart
 
 /// Numbers in [-1, 1), always the same for a seed, on any number of processes.
-TallMatrix irregular(const InverseStiffness &of, int columns, unsigned long &seed)
+MultiVector irregular(const InverseStiffness &of, int columns, unsigned long &seed)
 {
-  const int  rows = int(of.order().size());
-  TallMatrix X(rows, columns);
+  const int   rows = int(of.order().size());
+  MultiVector X(rows, columns);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
     {
@@ -80,7 +80,7 @@ std::vector<int> all_of(int n)
 
 InverseByColumns::InverseByColumns(int n, Solve solve) : solve_(std::move(solve)), order_(all_of(n)) {}
 
-void InverseByColumns::solve_in_place(TallMatrix &X) const
+void InverseByColumns::solve_in_place(MultiVector &X) const
 {
   MatrixXd columns(X.rows(), X.columns());
   X.give(columns, order_);
@@ -103,7 +103,7 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr
   room_          = std::max(room_, size + 4 * options_.block);
   if (size > 0)
   {
-    TallMatrix V(n_, size);
+    MultiVector V(n_, size);
     V.take(known.V, inverse_->order());
     Q_.append(V);
   }
@@ -112,7 +112,7 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr
 }
 
 /// X^T M X of all rows.
-MatrixXd BlockLanczos::product(const TallMatrix &X, const TallMatrix &MX) const
+MatrixXd BlockLanczos::product(const MultiVector &X, const MultiVector &MX) const
 {
   MatrixXd G = gram(X, MX);
   inverse_->sum(G);
@@ -120,7 +120,7 @@ MatrixXd BlockLanczos::product(const TallMatrix &X, const TallMatrix &MX) const
 }
 
 /// Q^T M X, likewise.
-MatrixXd BlockLanczos::projection(const TallMatrix &MX, int from) const
+MatrixXd BlockLanczos::projection(const MultiVector &MX, int from) const
 {
   MatrixXd H = Q_.project(MX, from);
   inverse_->sum(H);
@@ -130,9 +130,9 @@ MatrixXd BlockLanczos::projection(const TallMatrix &MX, int from) const
 /// A block of any direction orthogonal to the space; none if the space has the whole range of M.
 void BlockLanczos::start_block()
 {
-  const int  size = Q_.columns();
-  TallMatrix X    = irregular(*inverse_, std::min(options_.block, inverse_->size() - size), seed_);
-  TallMatrix MX(n_, X.columns());
+  const int   size = Q_.columns();
+  MultiVector X    = irregular(*inverse_, std::min(options_.block, inverse_->size() - size), seed_);
+  MultiVector MX(n_, X.columns());
   for (int pass = 0; pass < 2; ++pass)
   {
     M_.multiply(X, MX);
@@ -140,7 +140,7 @@ void BlockLanczos::start_block()
     Q_.subtract(X, projection(MX));
     M_.multiply(X, MX);
     if (pass == 0 && (norms(product(X, MX)).array() <= 1e-7 * before.array()).all())
-      X = TallMatrix(n_, 0), MX = TallMatrix(n_, 0);
+      X = MultiVector(n_, 0), MX = MultiVector(n_, 0);
   }
   inverse_->solve_in_place(MX); // what of it has no mass would never leave the space
   std::swap(X, MX);

@@ -21,8 +21,8 @@ class InverseStiffness
 public:
   virtual ~InverseStiffness() = default;
   /// X <- C^-1 X, of which row k is that of coordinate order()[k].
-  virtual void                    solve_in_place(TallMatrix &X) const = 0;
-  virtual const std::vector<int> &order() const                       = 0;
+  virtual void                    solve_in_place(MultiVector &X) const = 0;
+  virtual const std::vector<int> &order() const                        = 0;
   /// Coordinates (ascending) without motion.
   virtual const std::vector<int> &held() const = 0;
 
@@ -47,7 +47,7 @@ public:
       : factor_(factor), order_(factor.order()), held_(std::move(held))
   {
   }
-  void                    solve_in_place(TallMatrix &X) const override { factor_.solve_in_place(X); }
+  void                    solve_in_place(MultiVector &X) const override { factor_.solve_in_place(X); }
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return held_; }
 
@@ -62,7 +62,7 @@ class InverseByColumns final : public InverseStiffness
 public:
   using Solve = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
   InverseByColumns(int n, Solve solve);
-  void                    solve_in_place(TallMatrix &X) const override;
+  void                    solve_in_place(MultiVector &X) const override;
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return none_; }
 
@@ -146,8 +146,8 @@ public:
   int n_vectors() const { return Q_.columns(); } ///< of the space
 
 private:
-  Eigen::MatrixXd product(const TallMatrix &X, const TallMatrix &MX) const;
-  Eigen::MatrixXd projection(const TallMatrix &MX, int from = 0) const;
+  Eigen::MatrixXd product(const MultiVector &X, const MultiVector &MX) const;
+  Eigen::MatrixXd projection(const MultiVector &MX, int from = 0) const;
   void            start_block();
   void            step();
   void            restart(int keep);
@@ -162,9 +162,9 @@ private:
   int                                     coupled_   = 0; // first column of Q that the last block couples to
   bool                                    exhausted_ = false;
   unsigned long                           seed_      = 1;
-  TallSpace                               Q_;
+  KrylovBasis                             Q_;
   Eigen::MatrixXd                         T_, E_;            // E: T's rows of the next block [block x size]
-  TallMatrix                              next_, M_next_;    // the next block, and M times it
+  MultiVector                             next_, M_next_;    // the next block, and M times it
   Eigen::VectorXd                         theta_, residual_; // of T, descending
   Eigen::MatrixXd                         S_;
 };

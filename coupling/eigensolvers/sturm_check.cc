@@ -22,13 +22,13 @@ constexpr int    largest_block = 200;                       // with which missin
 constexpr int    most_rounds   = 4;                         // of finding modes that were missing
 } // namespace
 
-CountedModes::CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
-                           const Eigen::SparseMatrix<double> &C)
+SturmCheckedModes::SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+                                     const Eigen::SparseMatrix<double> &C)
     : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(C.diagonal())
 {
 }
 
-void CountedModes::find(int count)
+void SturmCheckedModes::find(int count)
 {
   wanted_ = count;
   if (dense_)
@@ -49,7 +49,7 @@ void CountedModes::find(int count)
   }
 }
 
-LowestModes CountedModes::lowest(int count)
+LowestModes SturmCheckedModes::lowest(int count)
 {
   if (count == 0)
     return {Eigen::VectorXd(0), MatrixXd(n(), 0), Eigen::VectorXd(0)};
@@ -58,7 +58,7 @@ LowestModes CountedModes::lowest(int count)
   return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
 }
 
-LowestModes CountedModes::find_all(int count)
+LowestModes SturmCheckedModes::find_all(int count)
 {
   for (int round = 0; round < most_rounds; ++round)
   {
@@ -71,7 +71,7 @@ LowestModes CountedModes::find_all(int count)
                            " rounds some were missing each time; ask for another number of modes");
 }
 
-void CountedModes::finish()
+void SturmCheckedModes::finish()
 {
   release(); // before the modes are made of the space
   if (wanted_ == 0)
@@ -87,7 +87,7 @@ void CountedModes::finish()
   }
 }
 
-void CountedModes::look_for(const LowestModes &known, int count, int block)
+void SturmCheckedModes::look_for(const LowestModes &known, int count, int block)
 {
   BlockLanczos::Options options = options_;
   options.block                 = block;
@@ -96,7 +96,7 @@ void CountedModes::look_for(const LowestModes &known, int count, int block)
 }
 
 /// Each search is by larger blocks, which find frequencies that are repeated more often.
-void CountedModes::look_for_missing(LowestModes known, int count, double omega)
+void SturmCheckedModes::look_for_missing(LowestModes known, int count, double omega)
 {
   restore();
   const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
@@ -112,7 +112,7 @@ void CountedModes::look_for_missing(LowestModes known, int count, double omega)
 
 /// E, of the size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j: past the shift it must not.  The mode above
 /// the gap, which is not known, is taken for like those below it.
-double CountedModes::largest_growth(double shift) const
+double SturmCheckedModes::largest_growth(double shift) const
 {
   constexpr double      eps      = std::numeric_limits<double>::epsilon();
   const Eigen::VectorXd moved    = eps * (found_.V.cwiseAbs2().transpose() * stiffness_);
@@ -121,7 +121,7 @@ double CountedModes::largest_growth(double shift) const
   return std::min(distance.cwiseQuotient(moved).minCoeff(), above / moved.maxCoeff());
 }
 
-Inertia CountedModes::count_in_gap(double &omega)
+Inertia SturmCheckedModes::count_in_gap(double &omega)
 {
   Inertia best{0, INFINITY};
   double  least = INFINITY; // growth over what is allowed
@@ -140,7 +140,7 @@ Inertia CountedModes::count_in_gap(double &omega)
                            rounded(least) + " times as much as the gap there is wide; ask for another number of modes");
 }
 
-bool CountedModes::confirm()
+bool SturmCheckedModes::confirm()
 {
   if (dense_ || wanted_ == 0)
     return true;

@@ -19,10 +19,10 @@ namespace gestell::coupling
  *
  * Frames of few coordinates are solved densely, which yields all modes there are.
  */
-class CountedModes
+class SturmCheckedModes
 {
 public:
-  virtual ~CountedModes() = default;
+  virtual ~SturmCheckedModes() = default;
 
   /// Looks for the lowest `count`, 0 <= count <= coordinates.
   /// @throws ConvergenceFailure with the number found.
@@ -60,8 +60,8 @@ protected:
   /// @param kind   of modes, in messages
   /// @param dense  whether few coordinates are solved at once, by all()
   /// @param C      [n x n]
-  CountedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
-               const Eigen::SparseMatrix<double> &C);
+  SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
+                    const Eigen::SparseMatrix<double> &C);
 
 private:
   virtual int                         n() const           = 0; ///< rows of the modes

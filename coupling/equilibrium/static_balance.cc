@@ -143,7 +143,7 @@ double share_of_frame(const Machine &machine, const VectorXd &motion)
 
 } // namespace
 
-std::string told_loose(const Machine &machine, const VectorXd &motion)
+std::string mechanism_mode_text(const Machine &machine, const VectorXd &motion)
 {
   const ReducedFrame *frame = machine.reduced_frame();
   if (frame && !frame->facts.free_motions.empty() && share_of_frame(machine, motion) > takes_part)

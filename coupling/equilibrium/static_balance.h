@@ -65,6 +65,6 @@ private:
  * stiffness nor weight that holds it here; hold it", or of a frame that moves as a whole how it is free and what would
  * hold it.
  */
-std::string told_loose(const Machine &machine, const Eigen::VectorXd &motion);
+std::string mechanism_mode_text(const Machine &machine, const Eigen::VectorXd &motion);
 
 } // namespace gestell::coupling

@@ -258,7 +258,8 @@ private:
       if (lu.isInvertible())
         return scale.asDiagonal() * lu.solve(forces);
     }
-    loose_ = told_loose(machine_, (scale.asDiagonal() * (scaled * x - forces)).head(n_)); // along which a force acts
+    loose_ = mechanism_mode_text(machine_,
+                                 (scale.asDiagonal() * (scaled * x - forces)).head(n_)); // along which a force acts
     return VectorXd::Constant(saddle.rows(), std::numeric_limits<double>::quiet_NaN());
   }
 
@@ -352,7 +353,7 @@ private:
       h = std::min(longest_step, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
     }
     if (h > shortest_step)
-      loose_ = told_loose(machine_, moves); // still on its way
+      loose_ = mechanism_mode_text(machine_, moves); // still on its way
     return false;
   }
 

@@ -193,7 +193,7 @@ void each(const std::string &at, T &value, Archive &archive)
     each_interface(at, value, archive);
   else if constexpr (std::is_same_v<Value, fem::FrameOutput>)
     each_output(at, value, archive);
-  else if constexpr (std::is_same_v<Value, fem::FrameFacts::Part>)
+  else if constexpr (std::is_same_v<Value, fem::FrameFacts::SolidMass>)
     each_part_of_facts(at, value, archive);
   else
     archive(at, value);

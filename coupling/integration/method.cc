@@ -135,7 +135,7 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
   }
   case Method::exact:
   {
-    Exact::Options options;
+    ModalPropagation::Options options;
     options.force     = o.force;
     options.order     = o.order;
     options.step      = o.step;
@@ -145,7 +145,7 @@ std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system,
       options.newton.tolerance = std::max(newton_part * o.tolerance, finest);
     else
       options.max_halvings = o.max_halvings;
-    return std::make_unique<Exact>(system, options);
+    return std::make_unique<ModalPropagation>(system, options);
   }
   case Method::wilson:
   {

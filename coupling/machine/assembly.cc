@@ -218,7 +218,7 @@ private:
     Eigen::MatrixXd rows;
     evaluate({}, residual, rows, false);
     rows.conservativeResize(n_c_, Eigen::NoChange);
-    if (const JointRank rank(machine_, rows); !rank.full())
+    if (const ConstraintRank rank(machine_, rows); !rank.full())
       throw std::invalid_argument(rank.dependence());
   }
 

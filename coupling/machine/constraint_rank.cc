@@ -44,7 +44,7 @@ std::string joined(const std::vector<std::string> &names)
 
 } // namespace
 
-JointRank::JointRank(const Machine &machine, Eigen::MatrixXd rows) : machine_(machine), rows_(std::move(rows))
+ConstraintRank::ConstraintRank(const Machine &machine, Eigen::MatrixXd rows) : machine_(machine), rows_(std::move(rows))
 {
   if (rows_.rows() == 0)
     return;
@@ -64,7 +64,7 @@ JointRank::JointRank(const Machine &machine, Eigen::MatrixXd rows) : machine_(ma
   dependent_ = int(rows_.rows() - qr_.rank());
 }
 
-JointRank JointRank::at(const Machine &machine, double t, const Eigen::VectorXd &q)
+ConstraintRank ConstraintRank::at(const Machine &machine, double t, const Eigen::VectorXd &q)
 {
   LocalState local;
   local.resize(machine);
@@ -76,7 +76,7 @@ JointRank JointRank::at(const Machine &machine, double t, const Eigen::VectorXd 
   return {machine, joint_jacobian(machine, G)};
 }
 
-std::string JointRank::joint_of(int row) const
+std::string ConstraintRank::joint_of(int row) const
 {
   for (const ElementPlacement &placement : machine_.elements())
   {
@@ -88,7 +88,7 @@ std::string JointRank::joint_of(int row) const
   return "";
 }
 
-std::vector<std::string> JointRank::bodies_of(int row) const
+std::vector<std::string> ConstraintRank::bodies_of(int row) const
 {
   std::vector<std::string> bodies;
   for (Eigen::Index i = 0; i < rows_.cols(); ++i)
@@ -104,7 +104,7 @@ std::vector<std::string> JointRank::bodies_of(int row) const
   return bodies;
 }
 
-std::string JointRank::dependence() const
+std::string ConstraintRank::dependence() const
 {
   const int   rank  = int(qr_.rank());
   const auto &order = qr_.colsPermutation().indices();
@@ -143,7 +143,7 @@ std::string JointRank::dependence() const
                 "elsewhere";
 }
 
-std::string JointRank::nearly_dependent() const
+std::string ConstraintRank::nearly_dependent() const
 {
   const auto n = rows_.rows();
   if (n == 0 || n > rows_.cols())

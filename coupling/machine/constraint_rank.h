@@ -17,13 +17,13 @@ namespace gestell::coupling
  * Rows that make bodies rigid are taken as independent first: an equation of a joint follows from those of joints and
  * bodies, never the other way round.
  */
-class JointRank
+class ConstraintRank
 {
 public:
   /// @param rows  G W^T [n_c x n], joint_jacobian()
-  JointRank(const Machine &machine, Eigen::MatrixXd rows);
+  ConstraintRank(const Machine &machine, Eigen::MatrixXd rows);
   /// At a motion of the machine.
-  static JointRank at(const Machine &machine, double t, const Eigen::VectorXd &q);
+  static ConstraintRank at(const Machine &machine, double t, const Eigen::VectorXd &q);
 
   bool full() const { return dependent_ == 0; }
   /// All equations that follow from others, from those of which joints, the bodies they hold, and what can be done.

@@ -122,8 +122,8 @@ struct NamedMeasure
 /// What is told to which element or joint.
 struct SwitchOrder
 {
-  std::string      element;
-  mechanism::Order order;
+  std::string              element;
+  mechanism::SwitchCommand order;
 };
 
 enum class SwitchCrossing

@@ -295,11 +295,11 @@ double DividedFactor::pivot_ratio() const
   return largest > 0. ? std::pow(smallest / largest, 2) : 1.;
 }
 
-void DividedFactor::solve_in_place(TallMatrix &X) const
+void DividedFactor::solve_in_place(MultiVector &X) const
 {
-  const TileSweeps    &sweeps = block_sweeps(X.lanes());
-  const TiledFactor    own = L_.tiles(), top = L_top_.tiles();
-  const std::ptrdiff_t numbers = std::ptrdiff_t(n_border()) * X.lanes();
+  const TriangularSolve &sweeps = block_triangular_solve(X.lanes());
+  const TiledFactor      own = L_.tiles(), top = L_top_.tiles();
+  const std::ptrdiff_t   numbers = std::ptrdiff_t(n_border()) * X.lanes();
   for (int p = 0; p < X.n_panels(); ++p)
   {
     double *const border = X.panel(p) + std::ptrdiff_t(own_.columns()) * X.lanes();
@@ -333,7 +333,7 @@ void DividedFactor::solve_on_first(Eigen::Ref<MatrixXd> X) const
       deal_out(none, rows);
       rows.bottomRows(n_border()).setZero(); // loads add up
     }
-    TallMatrix block(n_rows(), width);
+    MultiVector block(n_rows(), width);
     block.take(rows, all);
     solve_in_place(block);
     block.give(rows, all);

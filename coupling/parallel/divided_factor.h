@@ -66,7 +66,7 @@ public:
   double pivot_ratio() const; ///< (smallest / largest diagonal entry of L)^2
 
   /// X <- C^-1 X, of loads to motions, by the rows of this rank.
-  void solve_in_place(TallMatrix &X) const;
+  void solve_in_place(MultiVector &X) const;
   /// The same for columns on rank 0, in the order of its coordinates; zero where it is held.
   void solve_on_first(Eigen::Ref<Eigen::MatrixXd> X) const;
 
@@ -112,7 +112,7 @@ class InverseOnRanks final : public InverseStiffness
 {
 public:
   explicit InverseOnRanks(const DividedFactor &factor);
-  void                    solve_in_place(TallMatrix &X) const override { factor_.solve_in_place(X); }
+  void                    solve_in_place(MultiVector &X) const override { factor_.solve_in_place(X); }
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return factor_.held(); }
   int                     size() const override { return factor_.n(); }

@@ -11,44 +11,44 @@ namespace gestell::coupling
 /// The other ranks load what they need while rank 0 reads and meshes; it does not wait for them.
 struct PrepareTask
 {
-  static constexpr Order order = Order::prepare;
-  void                   run(const fem::Ranks &) {}
+  static constexpr RankTask order = RankTask::prepare;
+  void                      run(const fem::Ranks &) {}
 };
 
 struct DivideTask
 {
-  static constexpr Order order  = Order::divide;
-  int                    number = 0;
-  MatricesOnFirst        matrices;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::divide;
+  int                       number = 0;
+  MatricesOnFirst           matrices;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct ForgetFactorTask
 {
-  static constexpr Order order  = Order::forget_factor;
-  int                    number = 0;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::forget_factor;
+  int                       number = 0;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct FactoriseTask
 {
-  static constexpr Order order       = Order::factorise;
-  int                    number      = 0;
-  int                    failed      = -1; ///< made by run(), as what follows
-  double                 pivot_ratio = 0.;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order       = RankTask::factorise;
+  int                       number      = 0;
+  int                       failed      = -1; ///< made by run(), as what follows
+  double                    pivot_ratio = 0.;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct ReleaseFactorTask
 {
-  static constexpr Order order  = Order::release_factor;
-  int                    number = 0;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::release_factor;
+  int                       number = 0;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct SolveDividedTask
 {
-  static constexpr Order       order  = Order::solve_divided;
+  static constexpr RankTask    order  = RankTask::solve_divided;
   int                          number = 0;
   Eigen::Ref<Eigen::MatrixXd> *X      = nullptr;
   void                         run(const fem::Ranks &ranks);
@@ -56,44 +56,44 @@ struct SolveDividedTask
 
 struct InertiaTask
 {
-  static constexpr Order order  = Order::inertia;
-  int                    number = 0;
-  double                 sigma  = 0.;
-  Inertia                inertia; ///< found by run()
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::inertia;
+  int                       number = 0;
+  double                    sigma  = 0.;
+  Inertia                   inertia; ///< found by run()
+  void                      run(const fem::Ranks &ranks);
 };
 
 /// A new search on all ranks, for a factor.
 struct SearchTask
 {
-  static constexpr Order order  = Order::search;
-  int                    number = 0, search = 0; ///< names the search
-  BlockLanczos::Options  options;
-  const LowestModes     *known = nullptr;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::search;
+  int                       number = 0, search = 0; ///< names the search
+  BlockLanczos::Options     options;
+  const LowestModes        *known = nullptr;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct FindTask
 {
-  static constexpr Order order  = Order::find;
-  int                    search = 0, count = 0;
-  const ModeSearch      *found = nullptr; ///< rank 0's search, set by run()
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::find;
+  int                       search = 0, count = 0;
+  const ModeSearch         *found = nullptr; ///< rank 0's search, set by run()
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct FoundTask
 {
-  static constexpr Order order  = Order::found;
-  int                    search = 0, count = 0;
-  LowestModes            modes; ///< collected by run()
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::found;
+  int                       search = 0, count = 0;
+  LowestModes               modes; ///< collected by run()
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct EndSearchTask
 {
-  static constexpr Order order  = Order::end_search;
-  int                    search = 0;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::end_search;
+  int                       search = 0;
+  void                      run(const fem::Ranks &ranks);
 };
 
 } // namespace gestell::coupling

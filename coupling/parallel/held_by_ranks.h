@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// A frame with its interface held whose factor lies on several ranks, as rank 0 uses it; see HeldFrame.
+/// A frame with its interface held whose factor lies on several ranks, as rank 0 uses it; see FixedInterfaceFrame.
 class HeldByRanks
 {
 public:

@@ -64,39 +64,39 @@ void Team::report(const fem::AgreedFailure &failure)
 void obey(int order)
 {
   const fem::Ranks ranks;
-  switch (Order(order))
+  switch (RankTask(order))
   {
-  case Order::prepare:
+  case RankTask::prepare:
     return serve<PrepareTask>(ranks);
-  case Order::divide:
+  case RankTask::divide:
     return serve<DivideTask>(ranks);
-  case Order::forget_factor:
+  case RankTask::forget_factor:
     return serve<ForgetFactorTask>(ranks);
-  case Order::factorise:
+  case RankTask::factorise:
     return serve<FactoriseTask>(ranks);
-  case Order::release_factor:
+  case RankTask::release_factor:
     return serve<ReleaseFactorTask>(ranks);
-  case Order::solve_divided:
+  case RankTask::solve_divided:
     return serve<SolveDividedTask>(ranks);
-  case Order::inertia:
+  case RankTask::inertia:
     return serve<InertiaTask>(ranks);
-  case Order::search:
+  case RankTask::search:
     return serve<SearchTask>(ranks);
-  case Order::find:
+  case RankTask::find:
     return serve<FindTask>(ranks);
-  case Order::found:
+  case RankTask::found:
     return serve<FoundTask>(ranks);
-  case Order::end_search:
+  case RankTask::end_search:
     return serve<EndSearchTask>(ranks);
-  case Order::hold:
+  case RankTask::hold:
     return serve<HoldTask>(ranks);
-  case Order::release:
+  case RankTask::release:
     return serve<ReleaseTask>(ranks);
-  case Order::solve:
+  case RankTask::solve:
     return serve<SolveTask>(ranks);
-  case Order::modes:
+  case RankTask::modes:
     return serve<ModesTask>(ranks);
-  case Order::count:
+  case RankTask::count:
     return serve<CountTask>(ranks);
   }
   ranks.abort("there is no order " + std::to_string(order) + "; all ranks must run the same version of gestell");

@@ -6,7 +6,7 @@ namespace gestell::coupling
 {
 
 /// Orders of rank 0, see fem::Ranks; 0 dismisses.
-enum class Order
+enum class RankTask
 {
   prepare = 1,
   divide,
@@ -29,8 +29,8 @@ enum class Order
 /**
  * The ranks of this run, as rank 0 employs them.
  *
- * A task is a class with `static constexpr Order order` and a collective `void run(const fem::Ranks &)`.  Rank 0 makes
- * one with what it needs and calls together(); obey() makes an empty one on every other rank and runs it there.
+ * A task is a class with `static constexpr RankTask order` and a collective `void run(const fem::Ranks &)`.  Rank 0
+ * makes one with what it needs and calls together(); obey() makes an empty one on every other rank and runs it there.
  */
 class Team
 {

@@ -11,7 +11,7 @@ namespace gestell::coupling
 
 struct HoldTask
 {
-  static constexpr Order    order  = Order::hold;
+  static constexpr RankTask order  = RankTask::hold;
   int                       number = 0;
   const fem::FrameMatrices *frame  = nullptr;
   const std::vector<int>   *q1     = nullptr;
@@ -21,14 +21,14 @@ struct HoldTask
 
 struct ReleaseTask
 {
-  static constexpr Order order  = Order::release;
-  int                    number = 0;
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::release;
+  int                       number = 0;
+  void                      run(const fem::Ranks &ranks);
 };
 
 struct SolveTask
 {
-  static constexpr Order       order  = Order::solve;
+  static constexpr RankTask    order  = RankTask::solve;
   int                          number = 0;
   Eigen::Ref<Eigen::MatrixXd> *X      = nullptr;
   void                         run(const fem::Ranks &ranks);
@@ -36,7 +36,7 @@ struct SolveTask
 
 struct ModesTask
 {
-  static constexpr Order                   order  = Order::modes;
+  static constexpr RankTask                order  = RankTask::modes;
   int                                      number = 0, count = 0;
   const Eigen::Ref<const Eigen::MatrixXd> *known = nullptr;
   LowestModes                              modes; ///< found by run()
@@ -45,11 +45,11 @@ struct ModesTask
 
 struct CountTask
 {
-  static constexpr Order order  = Order::count;
-  int                    number = 0;
-  double                 omega  = 0.;
-  int                    below  = 0; ///< counted by run()
-  void                   run(const fem::Ranks &ranks);
+  static constexpr RankTask order  = RankTask::count;
+  int                       number = 0;
+  double                    omega  = 0.;
+  int                       below  = 0; ///< counted by run()
+  void                      run(const fem::Ranks &ranks);
 };
 
 } // namespace gestell::coupling

@@ -44,7 +44,7 @@ public:
   virtual ~FrameService()                                                                 = default;
   virtual MeshReport mesh(const fem::FrameSpecification &frame, const Progress &progress) = 0;
   /// Volume, centre and inertia of a part of the mechanism.
-  virtual fem::Part measure(const fem::CadSource &part) = 0;
+  virtual fem::CadBody measure(const fem::CadSource &part) = 0;
   /// Craig-Bampton (5.5.3/14-23), modal damping included.
   virtual ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;

@@ -65,7 +65,8 @@ void tell(const Progress &progress, const char *phase)
     progress(phase, -1.);
 }
 
-ReductionBasis basis_without_modes(const HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+ReductionBasis basis_without_modes(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
+                                   const std::vector<int> &q1)
 {
   ReductionBasis basis;
   basis.q1 = q1;
@@ -137,7 +138,7 @@ void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const
 }
 
 /// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
-void add_modal_damping(MatrixXd &B, const SupportedModes &refined, const fem::ModalRatios &zeta)
+void add_modal_damping(MatrixXd &B, const RefinedModes &refined, const fem::ModalRatios &zeta)
 {
   const auto n = B.rows(), p = std::min<Eigen::Index>(refined.omega.size(), n);
   const auto P = refined.P.topLeftCorner(n, p);
@@ -209,10 +210,10 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
   options.n_modes = std::max(0, n_modes);
   const auto q1   = frame.interface_coordinates();
   require_valid(frame, q1, options);
-  HeldFrame         held(frame, q1);
-  ReductionBasis    basis = basis_without_modes(held, frame, q1);
-  FixedModes        fixed(held, frame, q1);
-  const LowestModes modes = fixed.find_all(options.n_modes);
+  FixedInterfaceFrame held(frame, q1);
+  ReductionBasis      basis = basis_without_modes(held, frame, q1);
+  FixedInterfaceModes fixed(held, frame, q1);
+  const LowestModes   modes = fixed.find_all(options.n_modes);
   basis.set_modes(modes.V, modes.omega);
   return basis;
 }
@@ -228,10 +229,10 @@ namespace
 /// What of the reduction does not depend on the modes.
 struct Statics
 {
-  MatrixXd         load; // [n x 3] of a unit acceleration, or [n x 0]
-  InteriorResponse response;
-  FreeModes        free;   // if they are asked for
-  MatrixXd         relief; // shapes [n x 6, 3 or 0]
+  MatrixXd            load; // [n x 3] of a unit acceleration, or [n x 0]
+  ResidualFlexibility response;
+  FreeModes           free;   // if they are asked for
+  MatrixXd            relief; // shapes [n x 6, 3 or 0]
 };
 
 /// A basis with all its shapes, and what is known of the modes of the supported frame.
@@ -239,7 +240,7 @@ struct Shapes
 {
   ReductionBasis  basis;
   ReducedMatrices star;
-  SupportedModes  refined, damped; // for the estimate of the error, and for modal damping
+  RefinedModes    refined, damped; // for the estimate of the error, and for modal damping
   double          limit;           // [rad/s] highest frequency the model is meant for
   std::string statement{}; // that the modes do what is asked; empty: nothing is known, or a note tells what they leave
 };
@@ -262,15 +263,15 @@ void warn_of_few_modes(const ReductionBasis &basis, int n, const ReductionOption
 }
 
 /// @param basis with its constraint modes.
-Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame &held, FixedModes &fixed,
-                   const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
-                   std::vector<std::string> &notes)
+Shapes held_shapes(ReductionBasis basis, const Statics &statics, const FixedInterfaceFrame &held,
+                   FixedInterfaceModes &fixed, const fem::FrameMatrices &frame, const ReductionOptions &options,
+                   const Progress &progress, std::vector<std::string> &notes)
 {
   Shapes   shapes{std::move(basis), {}, {}, {}, 0.};
   MatrixXd more = statics.relief;
   if (options.n_modes < 0)
   {
-    auto enough      = enough_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
+    auto enough      = select_modes(shapes.basis, held, fixed, statics.response, frame, options, progress, notes);
     shapes.refined   = std::move(enough.refined);
     shapes.statement = std::move(enough.statement);
     more.resize(frame.M.rows(), enough.shapes.cols() + statics.relief.cols());
@@ -286,7 +287,7 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
   tell(progress, "reduced matrices");
   shapes.star = reduced_matrices(shapes.basis, frame.B, frame.C);
   if (options.n_modes >= 0)
-    shapes.refined = supported_modes(shapes.basis, shapes.star, statics.response, frame);
+    shapes.refined = refined_modes(shapes.basis, shapes.star, statics.response, frame);
   const int m = shapes.basis.m();
   if (options.n_modes >= 0 && options.frequency > 0. && shapes.basis.n1() > 0 && m > 0 &&
       two_pi * options.frequency < shapes.basis.omega0(m - 1))
@@ -302,7 +303,7 @@ Shapes held_shapes(ReductionBasis basis, const Statics &statics, const HeldFrame
     warn_of_few_modes(shapes.basis, int(frame.M.rows()), options, notes);
   shapes.damped = shapes.refined;
   shapes.limit  = highest_of_interest(options, shapes.refined);
-  if (append_shapes(shapes.basis, frame, std::move(more)) > 0)
+  if (append_attachment_modes(shapes.basis, frame, std::move(more)) > 0)
   {
     shapes.star   = reduced_matrices(shapes.basis, frame.B, frame.C);
     shapes.damped = ritz_modes(shapes.star, shapes.refined.n_rigid);
@@ -316,7 +317,7 @@ Shapes free_shapes(ReductionBasis basis, const Statics &statics, const fem::Fram
   Shapes   shapes{std::move(basis), {}, {}, {}, 0.};
   MatrixXd W(frame.M.rows(), statics.free.W.cols() + statics.relief.cols());
   W << statics.free.W, statics.relief;
-  append_shapes(shapes.basis, frame, std::move(W));
+  append_attachment_modes(shapes.basis, frame, std::move(W));
   shapes.star          = reduced_matrices(shapes.basis, frame.B, frame.C);
   shapes.damped        = ritz_modes(shapes.star, statics.free.n_rigid);
   const auto   kept    = std::min(statics.free.omega.size(), shapes.damped.omega.size());
@@ -370,14 +371,14 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
-  HeldFrame held(frame, q1);
+  FixedInterfaceFrame held(frame, q1);
   tell(progress, "constraint modes");
   ReductionBasis basis = basis_without_modes(held, frame, q1);
   Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),
                   {},
                   {VectorXd(0), MatrixXd(frame.M.rows(), 0), {}},
                   MatrixXd(frame.M.rows(), 0)};
-  statics.response = interior_response(held, basis, frame.M, statics.load);
+  statics.response = residual_flexibility(held, basis, frame.M, statics.load);
   if (options.inertia_relief)
     statics.relief = inertia_relief_shapes(held, frame, q1);
   if (options.inner == InnerModes::interface_free)
@@ -390,7 +391,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
       reduced.frame.statements.push_back(statics.free.statement);
     return reduced;
   }
-  FixedModes fixed(held, frame, q1);
+  FixedInterfaceModes fixed(held, frame, q1);
   for (int round = 0; round < most_rounds; ++round)
   {
     std::vector<std::string> notes;
@@ -424,12 +425,12 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
         "), and an unreduced frame is damped by the modes of a supported one; support it, reduce it "
         "(reduction.method = \"craig-bampton\"), or damp it by rayleigh");
   tell(progress, "factorisation");
-  HeldFrame free_frame(frame, {});
+  FixedInterfaceFrame free_frame(frame, {});
   tell(progress, "modes of the supported frame");
-  FixedModes        fixed(free_frame, frame, {});
-  const LowestModes modes = fixed.find_all(n_modes);
-  frame.modal_damping.Z   = symmetric_product(frame.M, modes.V);
-  frame.modal_damping.d   = frame.modal_damping_ratio.modal_dampers(modes.omega);
+  FixedInterfaceModes fixed(free_frame, frame, {});
+  const LowestModes   modes = fixed.find_all(n_modes);
+  frame.modal_damping.Z     = symmetric_product(frame.M, modes.V);
+  frame.modal_damping.d     = frame.modal_damping_ratio.modal_dampers(modes.omega);
 }
 
 } // namespace gestell::coupling

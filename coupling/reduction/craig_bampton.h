@@ -20,11 +20,11 @@ namespace gestell::coupling
  * q1, the coordinates of all interfaces, stays physical, so mechanisms attach to it unchanged; deflection under static
  * interface loads is exact for any number of modes.  One Cholesky factor of C22 serves all steps.
  *
- * A modal damping ratio zeta refers to the modes of the supported frame with free interface, refined (SupportedModes),
+ * A modal damping ratio zeta refers to the modes of the supported frame with free interface, refined (RefinedModes),
  * and enters as  B* = T^T B T + P diag(2 zeta omega) P^T,  P = T^T M Phi: what add_modal_damping() does to a full
  * frame.
  *
- * Automatic number of modes (options.n_modes < 0): see enough_modes().
+ * Automatic number of modes (options.n_modes < 0): see select_modes().
  *
  * @param frame   M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (nothing of the frame may move
  *                freely while the interface is held); interfaces may be none.
@@ -51,7 +51,7 @@ ReductionBasis craig_bampton_basis(const fem::FrameMatrices &frame, int n_modes)
 
 /// Fills frame.modal_damping with the lowest n_modes modes of the supported frame (rigid motions are not damped):
 /// Z = M Phi, d = 2 zeta omega with zeta = frame.modal_damping_ratio.  That none is missing is proved by inertia, see
-/// FixedModes.
+/// FixedInterfaceModes.
 /// @throws std::invalid_argument if the frame is not supported or has fewer coordinates; ConvergenceFailure.
 void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress = {});
 

@@ -7,8 +7,8 @@
 namespace gestell::coupling
 {
 
-StateKeeper::StateKeeper(const TimeIntegrator &integrator, const StateRequest &request, double begin,
-                         const std::vector<SignalSummary> &signals, KeptStates &kept)
+ExtremeStates::ExtremeStates(const TimeIntegrator &integrator, const StateRequest &request, double begin,
+                             const std::vector<SignalSummary> &signals, KeptStates &kept)
     : integrator_(integrator), request_(request), signals_(signals), kept_(kept), idle_(request.empty()), begin_(begin)
 {
   kept_.at.resize(request.at.size());
@@ -17,7 +17,7 @@ StateKeeper::StateKeeper(const TimeIntegrator &integrator, const StateRequest &r
     kept_.at[i].t = request.at[i];
 }
 
-Eigen::VectorXd StateKeeper::state(double t)
+Eigen::VectorXd ExtremeStates::state(double t)
 {
   if (t >= integrator_.time())
     return integrator_.instant().q;
@@ -27,7 +27,7 @@ Eigen::VectorXd StateKeeper::state(double t)
   return q_;
 }
 
-void StateKeeper::follow()
+void ExtremeStates::follow()
 {
   if (idle_)
     return;

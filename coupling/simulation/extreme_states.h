@@ -41,11 +41,11 @@ struct KeptStates
 
 /// Takes the wanted states from the dense output, where they lie, not from the steps beside them.  Without a request a
 /// step costs one comparison.
-class StateKeeper
+class ExtremeStates
 {
 public:
-  StateKeeper(const TimeIntegrator &integrator, const StateRequest &request, double begin,
-              const std::vector<SignalSummary> &signals, KeptStates &kept);
+  ExtremeStates(const TimeIntegrator &integrator, const StateRequest &request, double begin,
+                const std::vector<SignalSummary> &signals, KeptStates &kept);
 
   /// At the start, after a step and after an event, when the extremes of the signals are known.
   void follow();

@@ -56,7 +56,7 @@ private:
   const RunOptions            &options_;
   const std::vector<Signal>   &signals_;
   RunResult                   &result_;
-  StateKeeper                  keeper_;
+  ExtremeStates                keeper_;
   EnergyBalance                energy_;
   PowerRule                    power_rule_;
   EnergyGuard                  guard_;

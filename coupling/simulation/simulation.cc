@@ -286,7 +286,7 @@ void fail_at_start(const ConvergenceFailure &failure, RunResult &result)
 std::string advice(const Machine &machine, const MethodOptions &method, const Instant &last)
 {
   std::string text;
-  if (const std::string joint = JointRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
+  if (const std::string joint = ConstraintRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
     text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
             " is about to follow from the other joints; keep it off there, or make a joint compliant";
   bool rubs = false;
@@ -368,9 +368,9 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     fail_at_start(failure, result);
     return result;
   }
-  CylinderWatch  cylinders(machine, *integrator);
-  StiffnessWatch stiffness(machine, initial, method);
-  FastForces     fast_forces(machine, *integrator);
+  HydraulicLimits cylinders(machine, *integrator);
+  StiffnessCheck  stiffness(machine, initial, method);
+  FastForces      fast_forces(machine, *integrator);
   driver.on_step(
       [&]
       {

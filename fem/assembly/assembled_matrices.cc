@@ -8,10 +8,10 @@
 namespace gestell::fem
 {
 
-CellSums sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics)
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics)
 {
   const Eigen::Vector3d middle = middle_of_nodes(mesh);
-  CellSums              sums;
+  AssembledMatrices     sums;
   // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
   {
     std::vector<int> nodes(mesh.n_nodes());
@@ -23,7 +23,7 @@ CellSums sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, co
   const BlockMatrix M      = assemble_mass(mesh, materials);
   const NodalMasses masses = nodal_masses(mesh, M, middle);
   sums.M                   = kinematics.project(M);
-  sums.whole               = weigh(mesh, masses, middle);
+  sums.whole               = mass_integrals(mesh, masses, middle);
   sums.nodal_mass          = masses.mass;
   return sums;
 }

@@ -9,7 +9,7 @@ namespace gestell::fem
 {
 
 /// What the cells of a frame add up to.
-struct CellSums
+struct AssembledMatrices
 {
   SparseMatrix    C, M;              ///< [n x n] in the coordinates of the frame
   double          rigid_energy = 0.; ///< FrameFacts::rigid_energy
@@ -17,6 +17,6 @@ struct CellSums
   MassProperties  whole;
 };
 
-CellSums sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics);
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics);
 
 } // namespace gestell::fem

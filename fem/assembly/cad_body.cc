@@ -64,7 +64,7 @@ TriangleSurface surface_of(const std::vector<int> &tags, double unit)
   return surface;
 }
 
-void add_skin(Part &part, const TriangleSurface &surface)
+void add_skin(CadBody &part, const TriangleSurface &surface)
 {
   const int first = static_cast<int>(part.points.size());
   part.points.insert(part.points.end(), surface.points.begin(), surface.points.end());
@@ -73,7 +73,7 @@ void add_skin(Part &part, const TriangleSurface &surface)
 }
 
 /// Coarse triangles for pictures, solid by solid; none if gmsh does not find them.
-void draw_skin(Part &part, const CadModel &model)
+void draw_skin(CadBody &part, const CadModel &model)
 {
   gmsh::option::setNumber("Mesh.MeshSizeMax", coarsest * model.diagonal() / model.unit);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", n_around);
@@ -128,7 +128,7 @@ void check_overlap(const CadModel &model, const CadSource &source, const GmshSes
                                 "common part would count twice.");
 }
 
-void measure_geometry(Part &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source,
+void measure_geometry(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source,
                       const GmshSession &session)
 {
   const double unit = model.unit;
@@ -145,7 +145,7 @@ void measure_geometry(Part &part, VolumeIntegrals &sum, const CadModel &model, c
   check_overlap(model, source, session);
 }
 
-void measure_cells(Part &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
+void measure_cells(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
   const Mesh mesh = extract_mesh(model, head_of(source), {0}).mesh;
   for (const auto &[a, b, c, d] : tetrahedra_of(mesh))
@@ -154,7 +154,7 @@ void measure_cells(Part &part, VolumeIntegrals &sum, const CadModel &model, cons
   add_skin(part, {mesh.points, mesh.skin});
 }
 
-void measure_triangles(Part &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
+void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
   gmsh::vectorpair surfaces;
   gmsh::model::getEntities(surfaces, 2);
@@ -181,10 +181,10 @@ void measure_triangles(Part &part, VolumeIntegrals &sum, const CadModel &model, 
 
 } // namespace
 
-Part measure_part(const CadSource &source)
+CadBody measure_part(const CadSource &source)
 {
   const GmshSession session;
-  Part              part;
+  CadBody           part;
   const auto        measure = [&]
   {
     const CadFile file = check_cad_file(source);

@@ -12,7 +12,7 @@ namespace gestell::fem
 {
 
 /// A body by the integrals over its volume, in the coordinates of its file and of density one.
-struct Part
+struct CadBody
 {
   std::vector<std::string> solids;                            ///< names; their integrals are summed
   double                   volume  = 0.;                      ///< [m^3]
@@ -32,6 +32,6 @@ struct Part
  *
  * @throws std::invalid_argument as open_cad(), or if a surface of triangles is open or solids overlap.
  */
-Part measure_part(const CadSource &source);
+CadBody measure_part(const CadSource &source);
 
 } // namespace gestell::fem

@@ -32,7 +32,7 @@ NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const 
   return masses;
 }
 
-MassProperties weigh(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin)
+MassProperties mass_integrals(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin)
 {
   MassProperties whole;
   whole.mass                = masses.mass.sum();
@@ -60,10 +60,10 @@ Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinem
   return result;
 }
 
-std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
-                                           const CellMaterials &materials)
+std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                                const CellMaterials &materials)
 {
-  std::vector<FrameFacts::Part> parts;
+  std::vector<FrameFacts::SolidMass> parts;
   for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid)
     parts.push_back({mesh.solids[solid], materials.materials[solid].name});
   for (int cell = 0; cell < mesh.n_cells(); ++cell)

@@ -24,14 +24,14 @@ NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const 
 /// Mass, centre and inertia of all cells: M carries linear fields exactly, so  S = sum_ab M_ab x_a x_b^T  is
 /// int rho x x^T dV and  J = tr(S) I - S.
 /// @param origin of the moments; best near the centre, where no digits are lost.
-MassProperties weigh(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin);
+MassProperties mass_integrals(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin);
 
 /// Load of a unit acceleration field in x, y, z [n x 3].
 Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinematics &kinematics);
 
 /// Mass and material of every solid.
-std::vector<FrameFacts::Part> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
-                                           const CellMaterials &materials);
+std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
+                                                const CellMaterials &materials);
 
 /// Energies u^T C u of the six rigid motions, and |u|^T |C| |u|, whose terms cancel in them.
 struct RigidEnergies

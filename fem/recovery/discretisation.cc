@@ -132,7 +132,7 @@ void add_matrices(const Ingredients &of, FrameMatrices &frame)
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
 
-  CellSums sums            = sum_cells(mesh, materials, kinematics);
+  AssembledMatrices sums   = sum_cells(mesh, materials, kinematics);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;

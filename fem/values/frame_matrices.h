@@ -66,13 +66,13 @@ struct ModalDamping
 /// What a frame made of cells weighs, and how well its elements keep rigid motions free: for people.
 struct FrameFacts
 {
-  struct Part
+  struct SolidMass
   {
     std::string name, material; ///< of a solid; an attached mass has no material
     double      mass = 0.;      ///< [kg]
   };
-  std::vector<Part> parts;
-  MassProperties    whole;
+  std::vector<SolidMass> parts;
+  MassProperties         whole;
   /// Largest strain energy of the six rigid motions of the unsupported frame, as a share of the energies that cancel in
   /// it: rounding, some 1e-15, if all is well; nan if not known.
   double rigid_energy = std::numeric_limits<double>::quiet_NaN();

@@ -54,7 +54,7 @@ void CoulombFriction::follow_engagement(const LocalMotion &motion, double *histo
     history[0] = branch_at(motion.v[0]);
 }
 
-bool CoulombFriction::command(const Order &order, const LocalMotion &motion, double *history) const
+bool CoulombFriction::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   if (!parameters_.engagement.command(order, motion.t, history + 1))
     return false;
@@ -62,7 +62,7 @@ bool CoulombFriction::command(const Order &order, const LocalMotion &motion, dou
   return true;
 }
 
-void CoulombFriction::check_order(const Order &order) const
+void CoulombFriction::check_order(const SwitchCommand &order) const
 {
   if (order.name == "set")
     require(order.level >= 0. && order.level <= 1., "coulomb friction", "engagement", order.level, "between 0 and 1");

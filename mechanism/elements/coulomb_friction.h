@@ -48,10 +48,10 @@ public:
     double static_force  = 0.; ///< R0 [N or N m], >= R
     double belt_speed    = 0.; ///< v_b [m/s or rad/s]
 
-    double stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: R drops at once
-    double stribeck_exponent = 1.; ///< 1 or 2
-    double viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
-    Course engagement        = 1.; ///< e, 0 to 1; a level or a profile
+    double           stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: R drops at once
+    double           stribeck_exponent = 1.; ///< 1 or 2
+    double           viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0
+    CommandedProfile engagement        = 1.; ///< e, 0 to 1; a level or a profile
 
     std::optional<JointLoad> load = std::nullopt; ///< of a joint: R and R0 are per unit of its N [1 or m]
   };
@@ -84,9 +84,9 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return Course::commands(); }
-  void                     check_order(const Order &order) const override;
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  void                     check_order(const SwitchCommand &order) const override;
 
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;

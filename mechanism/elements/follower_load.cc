@@ -69,7 +69,7 @@ void FollowerLoad::transition(int i, const LocalMotion &motion, double *history)
   law_->transition(i, seen.motion(motion), history);
 }
 
-bool FollowerLoad::command(const Order &order, const LocalMotion &motion, double *history) const
+bool FollowerLoad::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion);
   return law_->command(order, seen.motion(motion), history);

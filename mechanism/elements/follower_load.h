@@ -33,9 +33,9 @@ public:
                double *dp) const override;
   Work work() const override { return law_->work(); }
 
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override { return law_->commands(); }
-  void                     check_order(const Order &order) const override { law_->check_order(order); }
+  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
 
   std::vector<Guard> guards(const double *history) const override { return law_->guards(history); }
   int                n_guards(const double *history) const override { return law_->n_guards(history); }

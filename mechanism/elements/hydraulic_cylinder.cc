@@ -63,12 +63,12 @@ void HydraulicCylinder::transition(int i, const LocalMotion &motion, double *his
   parameters_.course.transition(i, motion.t, history);
 }
 
-bool HydraulicCylinder::command(const Order &order, const LocalMotion &motion, double *history) const
+bool HydraulicCylinder::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   return parameters_.course.command(order, motion.t, history);
 }
 
-void HydraulicCylinder::check_order(const Order &order) const
+void HydraulicCylinder::check_order(const SwitchCommand &order) const
 {
   if (order.name == "set" && parameters_.control == Control::valve)
     require(std::abs(order.level) <= 1., "hydraulic cylinder", "opening of the valve", order.level, "from -1 to 1");

@@ -42,16 +42,16 @@ public:
   };
   struct Parameters
   {
-    double  area_a = 0., area_b = 0.;         ///< A, B [m^2], > 0
-    double  volume_a = 0., volume_b = 0.;     ///< V_a, V_b at x = 0 [m^3], > 0
-    double  zero         = 0.;                ///< u_0 [m]
-    double  bulk_modulus = 1.4e9;             ///< K [Pa], > 0
-    double  pressure_a = 0., pressure_b = 0.; ///< p_a0, p_b0 at x = 0 [Pa]
-    double  leakage = 0.;                     ///< k_L [m^3/(s Pa)], >= 0
-    Control control = Control::flow;
-    Course  course;
-    double  rated_flow = 0., rated_drop = 0.; ///< of the valve: Q_N [m^3/s] at d_N [Pa], > 0
-    double  supply = 0., tank = 0.;           ///< p_S, p_T [Pa]
+    double           area_a = 0., area_b = 0.;         ///< A, B [m^2], > 0
+    double           volume_a = 0., volume_b = 0.;     ///< V_a, V_b at x = 0 [m^3], > 0
+    double           zero         = 0.;                ///< u_0 [m]
+    double           bulk_modulus = 1.4e9;             ///< K [Pa], > 0
+    double           pressure_a = 0., pressure_b = 0.; ///< p_a0, p_b0 at x = 0 [Pa]
+    double           leakage = 0.;                     ///< k_L [m^3/(s Pa)], >= 0
+    Control          control = Control::flow;
+    CommandedProfile course;
+    double           rated_flow = 0., rated_drop = 0.; ///< of the valve: Q_N [m^3/s] at d_N [Pa], > 0
+    double           supply = 0., tank = 0.;           ///< p_S, p_T [Pa]
   };
 
   static constexpr double lag = 1.; ///< T [s]
@@ -113,9 +113,9 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return Course::commands(); }
-  void                     check_order(const Order &order) const override;
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  void                     check_order(const SwitchCommand &order) const override;
 
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;

@@ -28,7 +28,7 @@ void ProfileForce::transition(int i, const LocalMotion &motion, double *history)
   course_.transition(i, motion.t, history);
 }
 
-bool ProfileForce::command(const Order &order, const LocalMotion &motion, double *history) const
+bool ProfileForce::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   return course_.command(order, motion.t, history);
 }

@@ -14,7 +14,7 @@ namespace gestell::mechanism
 class ProfileForce : public DifferentiableElement<ProfileForce, 1>
 {
 public:
-  explicit ProfileForce(const Course &course) : course_(course) {}
+  explicit ProfileForce(const CommandedProfile &course) : course_(course) {}
 
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
@@ -22,21 +22,21 @@ public:
     p[0] = Number(course_.at(m.t, m.by_history, history).value);
   }
 
-  int                      n_history() const override { return course_.n_history(); }
-  void                     start(const LocalMotion &motion, double *history) const override;
-  void                     resume(const LocalMotion &motion, double *history) const override;
-  Work                     work() const override { return Work::input; }
-  int                      n_guards(const double *history) const override { return course_.n_guards(history); }
-  std::vector<Guard>       guards(const double *history) const override;
-  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                     transition(int i, const LocalMotion &motion, double *history) const override;
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return Course::commands(); }
+  int                n_history() const override { return course_.n_history(); }
+  void               start(const LocalMotion &motion, double *history) const override;
+  void               resume(const LocalMotion &motion, double *history) const override;
+  Work               work() const override { return Work::input; }
+  int                n_guards(const double *history) const override { return course_.n_guards(history); }
+  std::vector<Guard> guards(const double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  Course course_;
+  CommandedProfile course_;
 };
 
 } // namespace gestell::mechanism

@@ -86,7 +86,7 @@ void SpeedDrive::transition(int i, const LocalMotion &motion, double *history) c
     history[0] = i == of_course ? 1. : -1.;
 }
 
-bool SpeedDrive::command(const Order &order, const LocalMotion &motion, double *history) const
+bool SpeedDrive::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   return parameters_.speed.command(order, motion.t, history + 1);
 }

@@ -29,10 +29,10 @@ class SpeedDrive : public DifferentiableElement<SpeedDrive, 2>
 public:
   struct Parameters
   {
-    double proportional_gain = 0.;                 ///< k_p [N m s/rad], > 0
-    double integral_gain     = 0.;                 ///< k_i [N m/rad], >= 0
-    double largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
-    Course speed;                                  ///< w_r [rad/s]
+    double           proportional_gain = 0.;                 ///< k_p [N m s/rad], > 0
+    double           integral_gain     = 0.;                 ///< k_i [N m/rad], >= 0
+    double           largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
+    CommandedProfile speed;                                  ///< w_r [rad/s]
   };
 
   explicit SpeedDrive(const Parameters &parameters);
@@ -50,16 +50,16 @@ public:
   }
 
   /// history: -1, 1 at a limit, 0 within; that of the course.
-  int                      n_history() const override { return 1 + parameters_.speed.n_history(); }
-  void                     start(const LocalMotion &motion, double *history) const override;
-  void                     resume(const LocalMotion &motion, double *history) const override;
-  Work                     work() const override { return Work::input; }
-  int                      n_guards(const double *history) const override;
-  std::vector<Guard>       guards(const double *history) const override;
-  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                     transition(int i, const LocalMotion &motion, double *history) const override;
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return Course::commands(); }
+  int                n_history() const override { return 1 + parameters_.speed.n_history(); }
+  void               start(const LocalMotion &motion, double *history) const override;
+  void               resume(const LocalMotion &motion, double *history) const override;
+  Work               work() const override { return Work::input; }
+  int                n_guards(const double *history) const override;
+  std::vector<Guard> guards(const double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 

@@ -5,14 +5,14 @@
 namespace gestell::mechanism
 {
 
-Course Course::waiting(double level) const
+CommandedProfile CommandedProfile::waiting(double level) const
 {
-  Course course   = *this;
-  course.waiting_ = level;
+  CommandedProfile course = *this;
+  course.waiting_         = level;
   return course;
 }
 
-std::vector<double> Course::levels() const
+std::vector<double> CommandedProfile::levels() const
 {
   std::vector<double> levels = profile_.levels();
   if (waiting_)
@@ -20,7 +20,7 @@ std::vector<double> Course::levels() const
   return levels;
 }
 
-void Course::begin(double t, double *history) const
+void CommandedProfile::begin(double t, double *history) const
 {
   const double since = t - history[origin];
   history[mode]      = follows;
@@ -29,7 +29,7 @@ void Course::begin(double t, double *history) const
     function_->start(since, 1., history + n_slots);
 }
 
-void Course::start(double t, double *history) const
+void CommandedProfile::start(double t, double *history) const
 {
   std::fill_n(history, n_history(), 0.);
   begin(t, history);
@@ -37,7 +37,7 @@ void Course::start(double t, double *history) const
     history[mode] = rests;
 }
 
-void Course::resume(double t, double *history) const
+void CommandedProfile::resume(double t, double *history) const
 {
   switch (mode_of(history))
   {
@@ -54,7 +54,7 @@ void Course::resume(double t, double *history) const
   history[piece] = ramp_piece_at(t, pieces, n);
 }
 
-int Course::ramp_piece_at(double t, const Pieces &pieces, int n)
+int CommandedProfile::ramp_piece_at(double t, const Pieces &pieces, int n)
 {
   int i = 0;
   while (i + 1 < n && pieces[i + 1].begin <= t)
@@ -62,13 +62,13 @@ int Course::ramp_piece_at(double t, const Pieces &pieces, int n)
   return i;
 }
 
-int Course::ramp_pieces(const double *history, Pieces &pieces)
+int CommandedProfile::ramp_pieces(const double *history, Pieces &pieces)
 {
   return Profile::pieces_of(history[from], {history[origin], history[to], history[rate], history[rate_of_rate]},
                             pieces);
 }
 
-Course::Value Course::at(double t, bool by_history, const double *history) const
+CommandedProfile::Value CommandedProfile::at(double t, bool by_history, const double *history) const
 {
   switch (mode_of(history))
   {
@@ -94,7 +94,7 @@ Course::Value Course::at(double t, bool by_history, const double *history) const
   return {profile_.value(i, since), profile_.rate(i, since)};
 }
 
-double Course::integral(double t, const double *history) const
+double CommandedProfile::integral(double t, const double *history) const
 {
   const double since = t - history[origin];
   if (mode_of(history) == rests)
@@ -110,7 +110,7 @@ double Course::integral(double t, const double *history) const
   return area + pieces[last].integral(t);
 }
 
-bool Course::is_zero(const double *history) const
+bool CommandedProfile::is_zero(const double *history) const
 {
   if (mode_of(history) == rests)
     return *waiting_ == 0.;
@@ -123,7 +123,7 @@ bool Course::is_zero(const double *history) const
 
 // --- corners and orders
 
-bool Course::has_corner(const double *history, double &t) const
+bool CommandedProfile::has_corner(const double *history, double &t) const
 {
   const auto now = static_cast<std::size_t>(history[piece]);
   if (mode_of(history) == follows)
@@ -143,7 +143,7 @@ bool Course::has_corner(const double *history, double &t) const
   return true;
 }
 
-int Course::n_guards(const double *history) const
+int CommandedProfile::n_guards(const double *history) const
 {
   double t = 0.;
   if (function_ && mode_of(history) == follows)
@@ -151,14 +151,14 @@ int Course::n_guards(const double *history) const
   return int(has_corner(history, t));
 }
 
-std::vector<Guard> Course::guards(const double *history) const
+std::vector<Guard> CommandedProfile::guards(const double *history) const
 {
   if (function_ && mode_of(history) == follows)
     return function_->guards(history + n_slots);
   return n_guards(history) > 0 ? std::vector<Guard>{{"next_segment", Crossing::rising}} : std::vector<Guard>{};
 }
 
-void Course::guard_values(double t, const double *history, double *g) const
+void CommandedProfile::guard_values(double t, const double *history, double *g) const
 {
   double corner = 0.;
   if (function_ && mode_of(history) == follows)
@@ -167,7 +167,7 @@ void Course::guard_values(double t, const double *history, double *g) const
     g[0] = t - corner;
 }
 
-void Course::transition(int i, double t, double *history) const
+void CommandedProfile::transition(int i, double t, double *history) const
 {
   if (function_ && mode_of(history) == follows)
     function_->transition(i, t - history[origin], 1., history + n_slots);
@@ -175,7 +175,7 @@ void Course::transition(int i, double t, double *history) const
     history[piece] += 1.;
 }
 
-bool Course::command(const Order &order, double t, double *history) const
+bool CommandedProfile::command(const SwitchCommand &order, double t, double *history) const
 {
   const auto known = commands();
   if (std::find(known.begin(), known.end(), order.name) == known.end())

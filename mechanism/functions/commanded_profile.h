@@ -20,16 +20,16 @@ namespace gestell::mechanism
  * Where it stands is history [n_history()] of the element that follows it; ends of its pieces are guards, as those of a
  * ForceElement: "next_segment", or the kinks of the formula.
  */
-class Course
+class CommandedProfile
 {
 public:
-  Course(double level = 0.) : Course(Profile(level)) {} // NOLINT: a level is a course
-  Course(const Profile &profile) : profile_(profile) {} // NOLINT: a profile is a course
-  explicit Course(const PositionFunction &of_time) : function_(of_time) {}
+  CommandedProfile(double level = 0.) : CommandedProfile(Profile(level)) {} // NOLINT: a level is a course
+  CommandedProfile(const Profile &profile) : profile_(profile) {}           // NOLINT: a profile is a course
+  explicit CommandedProfile(const PositionFunction &of_time) : function_(of_time) {}
 
   /// Waits at `level` for the order "start".
-  Course waiting(double level) const;
-  bool   waits() const { return waiting_.has_value(); }
+  CommandedProfile waiting(double level) const;
+  bool             waits() const { return waiting_.has_value(); }
 
   int  n_history() const { return n_slots + (function_ ? function_->n_history() : 0); }
   void start(double t, double *history) const;
@@ -50,7 +50,7 @@ public:
   void               guard_values(double t, const double *history, double *g) const;
   void               transition(int i, double t, double *history) const;
 
-  bool                            command(const Order &order, double t, double *history) const;
+  bool                            command(const SwitchCommand &order, double t, double *history) const;
   static std::vector<std::string> commands() { return {"start", "hold", "set", "brake"}; }
 
   /// The piece the history names is zero all along.

@@ -10,7 +10,7 @@ namespace gestell::mechanism
 {
 
 /**
- * Course of a quantity over time: ramps from level to level whose rate and rate of rate are limited.
+ * CommandedProfile of a quantity over time: ramps from level to level whose rate and rate of rate are limited.
  *
  * A ramp over the difference D with the largest rate a and the largest rate of rate j ("jerk" of a speed) begins and
  * ends with the time t_j of changing rate, between them the rate is a:

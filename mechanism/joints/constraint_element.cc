@@ -43,7 +43,7 @@ void ConstraintElement::transition(int i, const LocalMotion &motion, double *his
   law_->transition(i, motion.t, history);
 }
 
-bool ConstraintElement::command(const Order &order, const LocalMotion &motion, double *history) const
+bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   if (!law_)
     return false;
@@ -60,7 +60,7 @@ bool ConstraintElement::command(const Order &order, const LocalMotion &motion, d
   return true;
 }
 
-void ConstraintElement::check_order(const Order &order) const
+void ConstraintElement::check_order(const SwitchCommand &order) const
 {
   if (law_)
     law_->check_order(order);

@@ -26,15 +26,15 @@ public:
 
   Work work() const override { return law_ ? Work::input : Work::dissipated; }
 
-  int                      n_history() const override { return law_ ? law_->n_history() : 0; }
-  void                     start(const LocalMotion &motion, double *history) const override;
-  int                      n_guards(const double *history) const override { return law_ ? law_->n_guards(history) : 0; }
-  std::vector<Guard>       guards(const double *history) const override;
-  void                     guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                     transition(int i, const LocalMotion &motion, double *history) const override;
-  bool                     command(const Order &order, const LocalMotion &motion, double *history) const override;
+  int                n_history() const override { return law_ ? law_->n_history() : 0; }
+  void               start(const LocalMotion &motion, double *history) const override;
+  int                n_guards(const double *history) const override { return law_ ? law_->n_guards(history) : 0; }
+  std::vector<Guard> guards(const double *history) const override;
+  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
+  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
   std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
-  void                     check_order(const Order &order) const override;
+  void                     check_order(const SwitchCommand &order) const override;
 
 protected:
   explicit ConstraintElement(std::shared_ptr<const MotionLaw> law) : law_(std::move(law)) {}

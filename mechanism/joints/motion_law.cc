@@ -9,7 +9,7 @@
 namespace gestell::mechanism
 {
 
-bool MotionLaw::command(const Order &, double, double *) const
+bool MotionLaw::command(const SwitchCommand &, double, double *) const
 {
   return false;
 }
@@ -120,7 +120,7 @@ void BrakedMotion::transition(int, double, double *history) const
   history[passed] += 1.;
 }
 
-bool BrakedMotion::command(const Order &order, double t, double *history) const
+bool BrakedMotion::command(const SwitchCommand &order, double t, double *history) const
 {
   if (order.name != "brake")
     return false;
@@ -132,7 +132,7 @@ bool BrakedMotion::command(const Order &order, double t, double *history) const
   return true;
 }
 
-void BrakedMotion::check_order(const Order &order) const
+void BrakedMotion::check_order(const SwitchCommand &order) const
 {
   if (std::isfinite(order.rate) || std::isfinite(order.rate_of_rate))
     throw std::invalid_argument(
@@ -143,7 +143,7 @@ void BrakedMotion::check_order(const Order &order) const
 
 // --- a profile of the speed
 
-ProfileMotion::ProfileMotion(const Course &speed) : speed_(speed)
+ProfileMotion::ProfileMotion(const CommandedProfile &speed) : speed_(speed)
 {
   const Profile &profile = speed_.profile();
   double         largest = 0.;
@@ -187,7 +187,7 @@ void ProfileMotion::transition(int i, double t, double *history) const
   speed_.transition(i, t, history + 1);
 }
 
-bool ProfileMotion::command(const Order &order, double t, double *history) const
+bool ProfileMotion::command(const SwitchCommand &order, double t, double *history) const
 {
   const double now = history[0] + speed_.integral(t, history + 1);
   if (!speed_.command(order, t, history + 1))
@@ -198,13 +198,13 @@ bool ProfileMotion::command(const Order &order, double t, double *history) const
 
 std::vector<std::string> ProfileMotion::commands() const
 {
-  auto orders = Course::commands();
+  auto orders = CommandedProfile::commands();
   if (!speed_.waits()) // its speed would jump
     orders.erase(std::find(orders.begin(), orders.end(), "start"));
   return orders;
 }
 
-void ProfileMotion::check_order(const Order &order) const
+void ProfileMotion::check_order(const SwitchCommand &order) const
 {
   if ((order.name == "set" || order.name == "brake") && !std::isfinite(order.rate))
     throw std::invalid_argument("prescribed motion: the order \"" + order.name +

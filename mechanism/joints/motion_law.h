@@ -35,10 +35,10 @@ public:
   /// Goes on behind the corner of guard i at t.
   virtual void transition(int i, double t, double *history) const { (void)i, (void)t, (void)history; }
   /// Obeys an order of a switch ("brake") at t; false: the law knows no such order.
-  virtual bool                     command(const Order &order, double t, double *history) const;
+  virtual bool                     command(const SwitchCommand &order, double t, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
   /// @throws std::invalid_argument if the values of one of these orders are none for it
-  virtual void check_order(const Order &) const {}
+  virtual void check_order(const SwitchCommand &) const {}
 };
 
 /**
@@ -82,9 +82,9 @@ public:
   std::vector<Guard>       guards(const double *history) const override;
   void                     guard_values(double t, const double *history, double *g) const override;
   void                     transition(int i, double t, double *history) const override;
-  bool                     command(const Order &order, double t, double *history) const override;
+  bool                     command(const SwitchCommand &order, double t, double *history) const override;
   std::vector<std::string> commands() const override { return {"brake"}; }
-  void                     check_order(const Order &order) const override;
+  void                     check_order(const SwitchCommand &order) const override;
 
 private:
   bool brakes(const double *history) const; ///< and a corner is to come
@@ -100,7 +100,7 @@ class ProfileMotion : public MotionLaw
 public:
   /// @param speed  [m/s or rad/s], a level or a profile
   /// @throws std::invalid_argument if it jumps: no finite force makes a body do that
-  explicit ProfileMotion(const Course &speed);
+  explicit ProfileMotion(const CommandedProfile &speed);
 
   int                n_history() const override { return 1 + speed_.n_history(); } ///< what to add to the integral
   void               start(double t, double *history) const override;
@@ -110,12 +110,12 @@ public:
   void               guard_values(double t, const double *history, double *g) const override;
   void               transition(int i, double t, double *history) const override;
 
-  bool                     command(const Order &order, double t, double *history) const override;
+  bool                     command(const SwitchCommand &order, double t, double *history) const override;
   std::vector<std::string> commands() const override; ///< "start" if it waits for it
-  void                     check_order(const Order &order) const override;
+  void                     check_order(const SwitchCommand &order) const override;
 
 private:
-  Course speed_;
+  CommandedProfile speed_;
 };
 
 /// f(t) by a formula or a table of the time, whose kinks are events.

@@ -128,7 +128,7 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const P
       }
     return sum;
   }
-  case Form::mesh:
+  case Form::gear:
   case Form::ratio:
     break;
   }

@@ -17,7 +17,7 @@ namespace gestell::mechanism
  *     angle          atan2(b_1 . a_2, a_1 . a_2)   of body 2 against body 1 about a x b       [rad]
  *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
  *     spin           s' = a . (w_2 - w_1), angular velocities; s itself has no meaning, 0     [rad/s]
- *     mesh           sum c_i u_i - c psi + f (inv(alpha) - inv(alpha_0)), two wheels in mesh  [m]
+ *     gear           sum c_i u_i - c psi + f (inv(alpha) - inv(alpha_0)), two wheels in mesh  [m]
  *
  * of which psi is the inclination, continued over any number of turns, cos(alpha) = |c|/|d| in the plane of a, b and
  * inv(x) = tan(x) - x the involute function.
@@ -37,7 +37,7 @@ struct RelativeMeasure
     angle,
     ratio,
     spin,
-    mesh
+    gear
   };
   enum class Carrier
   {
@@ -53,10 +53,10 @@ struct RelativeMeasure
   Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
   Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of both angles at right angles to a
   Carrier             carrier = Carrier::space;   ///< of a in `along`
-  std::vector<double> ratios;                     ///< c_i [k] of `ratio` and `mesh`
-  double              reach          = 0.;        ///< c of `mesh` [m], not zero
-  double              flank          = 0.;        ///< f of `mesh`: c or -c by the flank that carries; 0: alpha_0 = 0
-  double              pressure_angle = 0.;        ///< alpha_0 of `mesh` [rad], 0 <= alpha_0 < pi/2
+  std::vector<double> ratios;                     ///< c_i [k] of `ratio` and `gear`
+  double              reach          = 0.;        ///< c of `gear` [m], not zero
+  double              flank          = 0.;        ///< f of `gear`: c or -c by the flank that carries; 0: alpha_0 = 0
+  double              pressure_angle = 0.;        ///< alpha_0 of `gear` [rad], 0 <= alpha_0 < pi/2
 
   /// s, s' = G u' and s'' = G u'' + bias.
   struct Value
@@ -72,7 +72,7 @@ struct RelativeMeasure
                  Eigen::Index stride = 1) const;
 
 private:
-  /// Of `mesh`: what the line of centres adds to the angles of the wheels.
+  /// Of `gear`: what the line of centres adds to the angles of the wheels.
   Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double turned, Vector3d &of_d) const;
 };
 

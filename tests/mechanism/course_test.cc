@@ -19,9 +19,9 @@ namespace gestell::tests
 namespace
 {
 
-using mechanism::Course;
-using mechanism::Order;
+using mechanism::CommandedProfile;
 using mechanism::Profile;
+using mechanism::SwitchCommand;
 using mechanism::SwitchedElement;
 
 constexpr double rounding = 1e-12;
@@ -29,7 +29,7 @@ constexpr double rounding = 1e-12;
 /// A course with its history, gone through in time.
 struct Followed
 {
-  Followed(const Course &c, double t) : course(c), history(c.n_history()) { course.start(t, history.data()); }
+  Followed(const CommandedProfile &c, double t) : course(c), history(c.n_history()) { course.start(t, history.data()); }
   double value(double t) const { return course.at(t, true, history.data()).value; }
   double free(double t) const { return course.at(t, false, history.data()).value; }
   /// Takes the corner that lies ahead and tells when it is.
@@ -41,14 +41,14 @@ struct Followed
     course.transition(0, -g, history.data());
     return -g;
   }
-  Course              course;
+  CommandedProfile    course;
   std::vector<double> history;
 };
 
 // From 3 to 1 within a rate of 4 and a rate of rate of 16: a/j = 0.25 s of each curve, |D|/a - a/j = 0.25 s between.
-TEST(Course, IsSetByARampOfItsLimits)
+TEST(CommandedProfile, IsSetByARampOfItsLimits)
 {
-  Followed motion(Course(3.), 0.);
+  Followed motion(CommandedProfile(3.), 0.);
   ASSERT_TRUE(motion.course.command({"set", 1., 4., 16.}, 2., motion.history.data()));
   EXPECT_EQ(motion.value(2.), 3.);
   EXPECT_NEAR(motion.free(2.25), 3. - 0.5, rounding); // j t^2/2
@@ -62,9 +62,9 @@ TEST(Course, IsSetByARampOfItsLimits)
   EXPECT_EQ(motion.course.n_guards(motion.history.data()), 0);
 }
 
-TEST(Course, HoldsAndBrakesFromWhereItIs)
+TEST(CommandedProfile, HoldsAndBrakesFromWhereItIs)
 {
-  Followed motion(Course(Profile("ramp", 0., {{1., 10., 2.}})), 0.);
+  Followed motion(CommandedProfile(Profile("ramp", 0., {{1., 10., 2.}})), 0.);
   EXPECT_NEAR(motion.pass_corner(), 1., rounding);
   motion.course.command({"hold"}, 3., motion.history.data());
   EXPECT_NEAR(motion.value(3.), 4., rounding);
@@ -75,9 +75,9 @@ TEST(Course, HoldsAndBrakesFromWhereItIs)
   EXPECT_TRUE(motion.course.is_zero(motion.history.data()));
 }
 
-TEST(Course, WaitsForItsStart)
+TEST(CommandedProfile, WaitsForItsStart)
 {
-  Followed motion(Course(Profile("ramp", 2., {{1., 10., 2.}})).waiting(2.), 0.);
+  Followed motion(CommandedProfile(Profile("ramp", 2., {{1., 10., 2.}})).waiting(2.), 0.);
   EXPECT_EQ(motion.value(50.), 2.);
   EXPECT_EQ(motion.course.n_guards(motion.history.data()), 0);
   motion.course.command({"start"}, 50., motion.history.data());
@@ -85,11 +85,11 @@ TEST(Course, WaitsForItsStart)
   EXPECT_NEAR(motion.value(52.), 4., rounding);
 }
 
-TEST(Course, FollowsAFormulaOfTheTime)
+TEST(CommandedProfile, FollowsAFormulaOfTheTime)
 {
   using mechanism::Formula;
   const Formula t = Formula::variable(0);
-  Followed      motion(Course(mechanism::PositionFunction(abs(t + -1.))), 0.);
+  Followed      motion(CommandedProfile(mechanism::PositionFunction(abs(t + -1.))), 0.);
   EXPECT_EQ(motion.value(0.25), 0.75);
   EXPECT_NEAR(motion.pass_corner(), 1., rounding);
   EXPECT_EQ(motion.value(3.), 2.);
@@ -99,7 +99,7 @@ TEST(Course, FollowsAFormulaOfTheTime)
 // The path is the integral of the speed and does not jump at an order.
 TEST(ProfileMotion, KeepsItsPathAtOrders)
 {
-  const mechanism::ProfileMotion law(Course(3.));
+  const mechanism::ProfileMotion law(CommandedProfile(3.));
   std::vector<double>            history(law.n_history());
   law.start(1., history.data());
   EXPECT_NEAR(law.at(2., history.data()).value, 3., rounding);

@@ -26,8 +26,8 @@ const Placement plate(Vector3d(1., 0., 0.5), Vector3d(0.2, 0., 0.1),
 std::shared_ptr<ProfileForce> thrust()
 {
   const auto t = Formula::variable(0);
-  return std::make_shared<ProfileForce>(
-      mechanism::Course(mechanism::PositionFunction(5. + 2. * applied(mechanism::Function::sin, 3. * t + 0.4))));
+  return std::make_shared<ProfileForce>(mechanism::CommandedProfile(
+      mechanism::PositionFunction(5. + 2. * applied(mechanism::Function::sin, 3. * t + 0.4))));
 }
 
 TEST(FollowerLoad, ItsPowerIsThatOfTheForceAtItsPoint)

@@ -151,7 +151,7 @@ TEST(RelativeMeasure, AMeshHasTheGradientAndTheBiasOfItsValue)
     for (const Placement &second : all)
     {
       RelativeMeasure mesh;
-      mesh.form = Form::mesh;
+      mesh.form = Form::gear;
       mesh.a    = Vector3d(2., -1., 2.) / 3.;
       mesh.b    = Vector3d(2., 2., -1.) / 3.;
       PlacedMeasure placed{Placement(Vector3d(-1., 0.5, -1.2), Vector3d(-1., 0.4, -1.), {}, axis), second, mesh};

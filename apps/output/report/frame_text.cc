@@ -83,7 +83,7 @@ std::string words_above(double limit, double before, double frequency)
          " Hz the reduced frame is not made to hold: these follow from too few modes (reduction.frequency raises it)";
 }
 
-std::vector<std::string> frame_lines(const ModelFacts &model)
+std::vector<std::string> frame_text(const ModelFacts &model)
 {
   std::vector<std::string> lines;
   if (model.frame.whole.mass > 0.)

@@ -10,7 +10,7 @@ namespace gestell::apps
 
 /// What is known about the frame, line by line for people: mass by parts, centre and inertia, the check of rigid
 /// motions, motions that are free, damping.
-std::vector<std::string> frame_lines(const ModelFacts &model);
+std::vector<std::string> frame_text(const ModelFacts &model);
 
 /// Some mode has a refined frequency.
 bool any_refined(const std::vector<coupling::Mode> &modes);

@@ -306,7 +306,7 @@ std::string numerics_section(const Result &result)
   std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
   if (!std::isnan(m.static_residual))
     html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
-  if (const auto lines = frame_lines(m); !lines.empty())
+  if (const auto lines = frame_text(m); !lines.empty())
   {
     html += "<h3>The frame</h3><ul>";
     for (const std::string &line : lines)

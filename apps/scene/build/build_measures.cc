@@ -34,7 +34,7 @@ mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::
                                 "with a carrier couples them");
   const double               angle = std::abs(request.pressure_angle), to = distance / std::abs(1. - request.ratio);
   mechanism::RelativeMeasure mesh;
-  mesh.form           = mechanism::RelativeMeasure::Form::mesh;
+  mesh.form           = mechanism::RelativeMeasure::Form::gear;
   mesh.a              = centres / distance;
   mesh.b              = axis.cross(mesh.a);
   mesh.pressure_angle = angle;

@@ -73,10 +73,10 @@ void refuse_in_space(const SceneTable &table, const std::string &key, const std:
 }
 
 /// The teeth of two wheels: the way along their line of action.
-MeasureRequest read_mesh(const SceneTable &table, const Names &names)
+MeasureRequest read_gear(const SceneTable &table, const Names &names)
 {
   MeasureRequest measure;
-  measure.form   = Form::mesh;
+  measure.form   = Form::gear;
   measure.unit   = "m";
   measure.first  = names.place(table, "from", "at_from");
   measure.second = names.place(table, "to", "at_to");
@@ -114,7 +114,7 @@ MeasureRequest read_measure(const SceneTable &table, const Names &names)
   {
     ScalarRequest x;
     measure       = type == "sum"         ? read_sum(table, names)
-                    : type == "gear mesh" ? read_mesh(table, names)
+                    : type == "gear mesh" ? read_gear(table, names)
                                           : read_position_function(table, names, x);
     measure.name  = table.name();
     measure.place = table.place();
@@ -265,7 +265,7 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
 
 void read_gear_mesh(const SceneTable &table, const Names &names, JointRequest &joint)
 {
-  joint.measure = read_mesh(table, names);
+  joint.measure = read_gear(table, names);
 }
 
 void read_prescribed(const SceneTable &table, const Names &names, JointRequest &joint)

@@ -47,7 +47,7 @@ Placement read_placement(const SceneTable &table)
   return placement;
 }
 
-void place(fem::Part &part, const Placement &placement)
+void place(fem::CadBody &part, const Placement &placement)
 {
   const auto moved = [&](const Vector3d &x) -> Vector3d { return placement.origin + placement.R * x; };
   part.centre      = moved(part.centre);
@@ -106,11 +106,11 @@ Vector3d clean(const Vector3d &x, double scale)
   return x.unaryExpr([&](double value) { return std::abs(value) > 1e-9 * scale ? value : 0.; });
 }
 
-std::string found(const BodyRequest &body, const PartRequest &part, const std::string &file)
+std::string found(const BodyRequest &body, const CadBodyRequest &part, const std::string &file)
 {
-  const fem::Part   &shape = part.shape;
-  const std::size_t  n     = shape.solids.size();
-  std::ostringstream text;
+  const fem::CadBody &shape = part.shape;
+  const std::size_t   n     = shape.solids.size();
+  std::ostringstream  text;
   text.precision(6);
   text << body.name << " from " << file << (n > 1 ? ", the sum of " + std::to_string(n) + " solids" : "") << ": "
        << body.mass << " kg (" << part.density << " kg/m^3), centre of mass "
@@ -165,7 +165,7 @@ void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &bo
   const std::string file = table.file("cad");
   check_keys(table, body.kind);
   const Placement placement = read_placement(table);
-  auto            part      = std::make_shared<PartRequest>();
+  auto            part      = std::make_shared<CadBodyRequest>();
   part->shape = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place(), scripts});
   place(part->shape, placement);
   part->density = read_density(table, scene, part->shape.volume);

@@ -66,31 +66,32 @@ mechanism::Profile read_profile(const SceneTable &table, const std::string &key,
 namespace
 {
 
-mechanism::Course begun(const SceneTable &table, const mechanism::Course &course, double from)
+mechanism::CommandedProfile begun(const SceneTable &table, const mechanism::CommandedProfile &course, double from)
 {
   return table.boolean("waits", false) ? course.waiting(from) : course;
 }
 
 } // namespace
 
-mechanism::Course read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from)
+mechanism::CommandedProfile read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                        double from)
 {
   return begun(table, read_profile(table, key, keys, from), from);
 }
 
-mechanism::Course read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
-                                   double from)
+mechanism::CommandedProfile read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                             double from)
 {
-  using mechanism::Course;
+  using mechanism::CommandedProfile;
   const Variable t{"t", "time", kind::time.dimension};
   if (table.is_array(key))
     return read_course(table, key, keys, from);
   if (table.is_table(key))
-    return begun(table, Course(*read_function(table.table(key), t, kind::time, keys.level)), from);
+    return begun(table, CommandedProfile(*read_function(table.table(key), t, kind::time, keys.level)), from);
   const auto formula = table.formula(key, {t}, keys.level);
   if (formula.is_constant())
     return begun(table, formula.constant(), from);
-  return begun(table, Course(mechanism::PositionFunction(formula)), from);
+  return begun(table, CommandedProfile(mechanism::PositionFunction(formula)), from);
 }
 
 } // namespace gestell::apps

@@ -27,10 +27,11 @@ ProfileKeys level_profile(const Kind &level, const std::string &); ///< `rate` a
 mechanism::Profile read_profile(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
 
 /// As read_profile(); with `waits` the course stays at the level `from` until the order "start".
-mechanism::Course read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from);
+mechanism::CommandedProfile read_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                        double from);
 
 /// As read_course(); besides a formula of the time t, or a table { function = ... } or { table = ... } of it.
-mechanism::Course read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
-                                   double from);
+mechanism::CommandedProfile read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
+                                             double from);
 
 } // namespace gestell::apps

@@ -124,7 +124,7 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
     if (switching ? !element.fixed : knows(element.element->commands()))
       obeying.push_back(element.name);
   for (const LoadRequest &load : scene.loads)
-    if (switching || knows(mechanism::Course::commands()))
+    if (switching || knows(mechanism::CommandedProfile::commands()))
       obeying.push_back(load.name);
   for (const LinearRequest &spring : scene.linear)
     if (switching)
@@ -137,7 +137,7 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
 std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)
 {
   std::vector<coupling::SwitchOrder> orders;
-  mechanism::Order                   order;
+  mechanism::SwitchCommand           order;
   order.name = table.text("order");
   for (const std::string &name : table.texts("tell"))
   {
@@ -257,8 +257,8 @@ ElementRequest element_of(const LoadRequest &load)
   const Formula t = Formula::variable(0);
   for (const coupling::Oscillation &part : load.oscillations)
     f = f + part.amplitude * applied(mechanism::Function::sin, part.omega * t + part.phase);
-  const auto course =
-      f.is_constant() ? mechanism::Course(f.constant()) : mechanism::Course(mechanism::PositionFunction(f));
+  const auto     course = f.is_constant() ? mechanism::CommandedProfile(f.constant())
+                                          : mechanism::CommandedProfile(mechanism::PositionFunction(f));
   ElementRequest element{load.name, std::make_shared<mechanism::ProfileForce>(course), {load.u}, "", {}};
   element.kind     = kind_of(load.force_unit);
   const Kind &kind = element.kind == coupling::MeasureKind::angle ? kind::torque : kind::force;

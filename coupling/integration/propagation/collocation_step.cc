@@ -20,7 +20,7 @@ constexpr double stalled       = 0.5;  ///< contraction above which corrections 
 
 } // namespace
 
-CollocationStep::CollocationStep(ExactContext &context, int stages)
+CollocationStep::CollocationStep(PropagationContext &context, int stages)
     : context_(context), s_(stages), n_u_(int(context.measures.put.cols())), basis_(ForceBasis::gauss(stages)),
       nodes_(hermite_nodes(basis_.points))
 {
@@ -243,7 +243,7 @@ bool CollocationStep::iterate(const StepTable &table)
   return false;
 }
 
-std::unique_ptr<ForceStep> make_collocation_step(ExactContext &context, int stages)
+std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages)
 {
   return std::make_unique<CollocationStep>(context, stages);
 }

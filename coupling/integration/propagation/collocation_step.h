@@ -29,7 +29,7 @@ namespace gestell::coupling
 class CollocationStep final : public ForceStep
 {
 public:
-  CollocationStep(ExactContext &context, int stages);
+  CollocationStep(PropagationContext &context, int stages);
 
   const ForceBasis &basis() const override { return basis_; }
 
@@ -104,7 +104,7 @@ private:
     double          way = 0.;
   };
 
-  ExactContext       &context_;
+  PropagationContext &context_;
   int                 s_, n_u_;
   ForceBasis          basis_;
   HermiteNodes        nodes_;

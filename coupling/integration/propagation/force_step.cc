@@ -23,7 +23,8 @@ Eigen::VectorXd energies(const SecondOrderSystem &system, const Eigen::MatrixXd 
 }
 } // namespace
 
-ExactContext::ExactContext(const SecondOrderSystem &machine, const ModalBlocks &modes, const NewtonOptions &options)
+PropagationContext::PropagationContext(const SecondOrderSystem &machine, const ModalBlocks &modes,
+                                       const NewtonOptions &options)
     : system(&machine), measures(modes, machine), newton(options)
 {
   const auto n_u = machine.directions().cols();
@@ -43,7 +44,7 @@ ExactContext::ExactContext(const SecondOrderSystem &machine, const ModalBlocks &
   time_ = 1. / omega_1;
 }
 
-void ExactContext::begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u)
+void PropagationContext::begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u)
 {
   x_begin_ = x;
   u_begin  = u;
@@ -52,14 +53,14 @@ void ExactContext::begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u)
   force.setZero();
 }
 
-double ExactContext::way(const Eigen::VectorXd &x) const
+double PropagationContext::way(const Eigen::VectorXd &x) const
 {
   const auto   moved = (x - x_begin_).array().square();
   const double q = (mass_of_q_.array() * moved).sum(), v = (mass_of_v_.array() * moved).sum();
   return std::sqrt(v > 0. ? std::min(q, v * time_ * time_) : q);
 }
 
-void ExactContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
+void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
 {
   for (int b = 0; b < measures.n_p; ++b)
   {
@@ -100,7 +101,7 @@ void ExactContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
 }
 
 /// W_h^T M^-1 W_h of the held measures.
-void ExactContext::factorise_delassus(double t)
+void PropagationContext::factorise_delassus(double t)
 {
   const auto &held = system->held();
   const int   n    = int(held.size());
@@ -116,7 +117,7 @@ void ExactContext::factorise_delassus(double t)
     fail_singular(*system, t);
 }
 
-void ExactContext::mobile_parts(double t, Eigen::VectorXd &part)
+void PropagationContext::mobile_parts(double t, Eigen::VectorXd &part)
 {
   constexpr double rounding = 1e-12; // of the difference of two mobilities
   const auto      &held     = system->held();
@@ -138,7 +139,7 @@ void ExactContext::mobile_parts(double t, Eigen::VectorXd &part)
   }
 }
 
-void ExactContext::project_held(Eigen::VectorXd &x, LocalState &local)
+void PropagationContext::project_held(Eigen::VectorXd &x, LocalState &local)
 {
   const auto &held = system->held();
   factorise_delassus(local.t);
@@ -152,8 +153,8 @@ void ExactContext::project_held(Eigen::VectorXd &x, LocalState &local)
   }
 }
 
-void ExactContext::grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
-                              const Eigen::Ref<const Eigen::VectorXd> &v, double h) const
+void PropagationContext::grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
+                                    const Eigen::Ref<const Eigen::VectorXd> &v, double h) const
 {
   constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < u.size(); ++i)

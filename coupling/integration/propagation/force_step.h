@@ -10,7 +10,7 @@ namespace gestell::coupling
 {
 
 /// What the steps of exact propagation share: the system, its measures in modes, scales and counts.
-struct ExactContext
+struct PropagationContext
 {
   const SecondOrderSystem *system = nullptr;
   ModalMeasures            measures;
@@ -25,7 +25,7 @@ struct ExactContext
   Eigen::MatrixXd mobility;      ///< u'' of a force p: read_v^T put = W^T M^-1 W [n_u x n_u]
   Eigen::VectorXd root_mobility; ///< sqrt of its diagonal: u_j is at most that times the energy norm of a motion [n_u]
 
-  ExactContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
+  PropagationContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
 
   /// A motion begins at x, u.
   void begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u);
@@ -85,9 +85,9 @@ public:
   virtual void forces(Eigen::VectorXd &p) const = 0;
 };
 
-std::unique_ptr<ForceStep> make_collocation_step(ExactContext &context, int stages);
+std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages);
 /// Linear force or step-averaged force.
-std::unique_ptr<ForceStep> make_fused_step(ExactContext &context, ForceRule rule);
+std::unique_ptr<ForceStep> make_fused_step(PropagationContext &context, ForceRule rule);
 
 /// Hermite's interpolation of u, v through nodes sigma_i of a step, at which both are known.
 class HermiteNodes

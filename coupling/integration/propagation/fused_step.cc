@@ -34,7 +34,7 @@ constexpr double noticeable          = 1e-2; ///< departure of a law from a para
 class FusedStep final : public ForceStep
 {
 public:
-  FusedStep(ExactContext &context, ForceRule rule)
+  FusedStep(PropagationContext &context, ForceRule rule)
       : context_(context), average_(rule == ForceRule::average), n_u_(int(context.measures.put.cols())),
         basis_(average_ ? ForceBasis::constant() : ForceBasis::linear()), nodes_({0., 1.})
   {
@@ -339,22 +339,22 @@ private:
     return false;
   }
 
-  ExactContext    &context_;
-  bool             average_;
-  int              n_u_;
-  ForceBasis       basis_;
-  HermiteNodes     nodes_;
-  const StepTable *table_ = nullptr;
-  double           h_ = 0., contraction_ = unknown_contraction;
-  VectorXd         y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, x_held_, column_, moved_;
-  MatrixXd         g_, F_, read_, S_u_, S_v_, dp_du_, dp_dv_, dp_of_u_, dp_of_v_;
-  LocalState       at_begin_, at_end_, node_, way_, first_, end_;
-  SmallLu          lu_;
+  PropagationContext &context_;
+  bool                average_;
+  int                 n_u_;
+  ForceBasis          basis_;
+  HermiteNodes        nodes_;
+  const StepTable    *table_ = nullptr;
+  double              h_ = 0., contraction_ = unknown_contraction;
+  VectorXd            y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, x_held_, column_, moved_;
+  MatrixXd            g_, F_, read_, S_u_, S_v_, dp_du_, dp_dv_, dp_of_u_, dp_of_v_;
+  LocalState          at_begin_, at_end_, node_, way_, first_, end_;
+  SmallLu             lu_;
 };
 
 } // namespace
 
-std::unique_ptr<ForceStep> make_fused_step(ExactContext &context, ForceRule rule)
+std::unique_ptr<ForceStep> make_fused_step(PropagationContext &context, ForceRule rule)
 {
   return std::make_unique<FusedStep>(context, rule);
 }

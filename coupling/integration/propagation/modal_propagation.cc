@@ -35,7 +35,7 @@ double natural_step(const ModalBlocks &modes)
 }
 } // namespace
 
-Exact::Exact(const SecondOrderSystem &system, const Options &options)
+ModalPropagation::ModalPropagation(const SecondOrderSystem &system, const Options &options)
     : system_(system), options_(options), modes_(modal_blocks(system)), context_(system, modes_, options.newton)
 {
   const auto n_u = system.directions().cols();
@@ -56,7 +56,7 @@ Exact::Exact(const SecondOrderSystem &system, const Options &options)
   now_.local.resize(system);
 }
 
-void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+void ModalPropagation::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   x_                 = reordered(modes_.state(t, q, v).transpose(), context_.measures.n_p).transpose();
   local_.t           = t;
@@ -71,13 +71,13 @@ void Exact::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   start_piece();
 }
 
-void Exact::expect(double way, double)
+void ModalPropagation::expect(double way, double)
 {
   context_.loads_way = way;
 }
 
 /// Harmonics of the load as they are at local_.t, in x_: what rounding did to them goes.
-void Exact::turn_harmonics()
+void ModalPropagation::turn_harmonics()
 {
   for (std::size_t j = 0; j < modes_.harmonics.size(); ++j)
   {
@@ -88,7 +88,7 @@ void Exact::turn_harmonics()
 }
 
 /// Forces and acceleration at x_; the first step from here knows no past.
-void Exact::start_piece()
+void ModalPropagation::start_piece()
 {
   t_begin_ = t_full_ = local_.t;
   last_error_        = options_.tolerance > 0. ? safety : 0.;
@@ -101,14 +101,14 @@ void Exact::start_piece()
   local_begin_ = local_;
 }
 
-void Exact::forget_inside()
+void ModalPropagation::forget_inside()
 {
   now_known_ = false;
   h_smooth_  = 0.;
   t_inside_  = t_begin_;
 }
 
-Exact::Target Exact::next_target() const
+ModalPropagation::Target ModalPropagation::next_target() const
 {
   Target target;
   int    rung = rung_;
@@ -134,7 +134,7 @@ Exact::Target Exact::next_target() const
   return target;
 }
 
-const StepTable &Exact::table_for(const Target &target)
+const StepTable &ModalPropagation::table_for(const Target &target)
 {
   if (target.on_grid)
   {
@@ -154,7 +154,7 @@ const StepTable &Exact::table_for(const Target &target)
   return partial_;
 }
 
-bool Exact::attempt(const Target &target)
+bool ModalPropagation::attempt(const Target &target)
 {
   ++context_.work.solves;
   try
@@ -168,7 +168,7 @@ bool Exact::attempt(const Target &target)
   }
 }
 
-void Exact::advance()
+void ModalPropagation::advance()
 {
   if (cut_)
     restart();
@@ -213,7 +213,7 @@ void Exact::advance()
   }
 }
 
-void Exact::cut(double t)
+void ModalPropagation::cut(double t)
 {
   forget_inside();
   cut_ = true;
@@ -236,7 +236,7 @@ void Exact::cut(double t)
     fail("Newton's method did not converge in the step to an event");
 }
 
-void Exact::restart()
+void ModalPropagation::restart()
 {
   if (cut_ && local_.t > t_begin_)
     force_->end_state(x_);
@@ -255,7 +255,7 @@ void Exact::restart()
   start_piece();
 }
 
-const Instant &Exact::instant() const
+const Instant &ModalPropagation::instant() const
 {
   if (!now_known_)
   {
@@ -269,7 +269,7 @@ const Instant &Exact::instant() const
   return now_;
 }
 
-void Exact::interpolate(double t, LocalState &state) const
+void ModalPropagation::interpolate(double t, LocalState &state) const
 {
   const double h = local_.t - t_begin_;
   if (!(h > 0.))
@@ -299,7 +299,7 @@ void Exact::interpolate(double t, LocalState &state) const
 
 /// The interpolation of the measures over the last step is as good as their integration: what modes that turn far move
 /// in them is small beside their largest excursions.
-bool Exact::is_smooth(double h) const
+bool ModalPropagation::is_smooth(double h) const
 {
   if (h_smooth_ == h)
     return smooth_;
@@ -324,7 +324,7 @@ bool Exact::is_smooth(double h) const
 }
 
 /// Collocation meets the rates that are held at its nodes only.
-void Exact::hold_rates(double t, Eigen::VectorXd &x) const
+void ModalPropagation::hold_rates(double t, Eigen::VectorXd &x) const
 {
   if (system_.held().empty())
     return;
@@ -333,7 +333,7 @@ void Exact::hold_rates(double t, Eigen::VectorXd &x) const
   context_.project_held(x, held_);
 }
 
-const Eigen::VectorXd &Exact::state_at(double t) const
+const Eigen::VectorXd &ModalPropagation::state_at(double t) const
 {
   const double h = local_.t - t_begin_;
   if (t >= local_.t || !(h > 0.))
@@ -357,14 +357,15 @@ const Eigen::VectorXd &Exact::state_at(double t) const
   return x_inside_;
 }
 
-void Exact::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+void ModalPropagation::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
 {
   const Eigen::VectorXd &x = state_at(t);
   q.noalias()              = Q_ * x;
   v.noalias()              = V_ * x;
 }
 
-void Exact::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const
+void ModalPropagation::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q,
+                                 Eigen::VectorXd &v) const
 {
   const Eigen::VectorXd &x = state_at(t);
   for (const int i : coordinates)
@@ -374,7 +375,7 @@ void Exact::motion_at(double t, const std::vector<int> &coordinates, Eigen::Vect
   }
 }
 
-void Exact::fail(const std::string &reason) const
+void ModalPropagation::fail(const std::string &reason) const
 {
   std::ostringstream message;
   message << reason << " at t = " << local_begin_.t << " s; the step was halved to " << spacing(rung_)

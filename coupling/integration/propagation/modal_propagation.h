@@ -33,7 +33,7 @@ namespace gestell::coupling
  * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
  * the grid allows.
  */
-class Exact : public TimeIntegrator, public ErrorControl
+class ModalPropagation : public TimeIntegrator, public ErrorControl
 {
 public:
   struct Options
@@ -47,7 +47,7 @@ public:
   };
 
   /// @throws std::invalid_argument as modal_blocks()
-  Exact(const SecondOrderSystem &system, const Options &options);
+  ModalPropagation(const SecondOrderSystem &system, const Options &options);
 
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
   void advance() override;
@@ -93,7 +93,7 @@ private:
   const SecondOrderSystem   &system_;
   Options                    options_;
   ModalBlocks                modes_;
-  mutable ExactContext       context_;
+  mutable PropagationContext context_;
   std::unique_ptr<ForceStep> force_;
   RowMatrix                  Q_, V_;  ///< [n x 2 n_p]
   std::map<int, StepTable>   tables_; ///< by rung

@@ -19,7 +19,7 @@ public:
     return mesh_report(frame, progress);
   }
 
-  fem::Part measure(const fem::CadSource &part) override { return fem::measure_part(part); }
+  fem::CadBody measure(const fem::CadSource &part) override { return fem::measure_part(part); }
 
   ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
                       const Progress &progress) override

@@ -44,7 +44,7 @@ Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double neg
 
 } // namespace
 
-std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
+std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refined, const fem::ModalRatios &zeta,
                                                         double highest)
 {
   const auto ratio = [&](int mode, double omega)
@@ -75,7 +75,7 @@ MatrixXcd Fractions::at(Complex s) const
 }
 
 InterfaceReceptance::InterfaceReceptance(const ReductionBasis &basis, const ReducedMatrices &star,
-                                         const InteriorResponse &response, const SupportedModes &refined,
+                                         const ResidualFlexibility &response, const RefinedModes &refined,
                                          const fem::ModalRatios &zeta, double highest)
     : omega0_(basis.omega0)
 {

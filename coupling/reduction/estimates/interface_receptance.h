@@ -23,7 +23,7 @@ struct ReceptanceFrequency
  *
  * @param zeta of the modes; 0.01 where there is none.
  */
-std::vector<ReceptanceFrequency> receptance_frequencies(const SupportedModes &refined, const fem::ModalRatios &zeta,
+std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refined, const fem::ModalRatios &zeta,
                                                         double highest);
 
 /// Coordinates of one interface, counted in q1.
@@ -63,7 +63,7 @@ struct InsideCount
  *     D(s) = C*_11 - s M*_11 - s^2 sum_j g_j g_j^T / (omega_0j^2 - s),       s = omega^2 / (1 + 2 i zeta),
  *
  * times 1 + 2 i zeta: damping by which a mode has the ratio zeta at resonance.  The model has the first m terms.  Those
- * beyond the modes known need no modes: their moments are static, with X and X2 of InteriorResponse
+ * beyond the modes known need no modes: their moments are static, with X and X2 of ResidualFlexibility
  *
  *     P_k = sum_(j > m) g_j g_j^T / omega_0j^(2k),    P_1 = Psi^T M X - ..,  P_2 = X^T M X - ..,  P_3 = X^T M X2 - ..,
  *
@@ -81,8 +81,8 @@ class InterfaceReceptance
 public:
   /// @param zeta     of the modes; 0.01 where there is none.
   /// @param highest  end of the range [rad/s], below the highest fixed-interface mode known unless all are.
-  InterfaceReceptance(const ReductionBasis &basis, const ReducedMatrices &star, const InteriorResponse &response,
-                      const SupportedModes &refined, const fem::ModalRatios &zeta, double highest);
+  InterfaceReceptance(const ReductionBasis &basis, const ReducedMatrices &star, const ResidualFlexibility &response,
+                      const RefinedModes &refined, const fem::ModalRatios &zeta, double highest);
 
   /// Largest error of the model with the first m modes, m up to those known.
   double error(int m, Inside inside) const;

@@ -28,7 +28,7 @@ constexpr double allowed_doubt   = 0.1; // of the receptance of the full frame, 
 
 } // namespace
 
-double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined)
+double highest_of_interest(const ReductionOptions &options, const RefinedModes &refined)
 {
   if (options.frequency > 0. || refined.omega.size() == 0)
     return two_pi * options.frequency;
@@ -39,7 +39,7 @@ namespace
 {
 
 /// Largest error of the model's frequencies whose refined value lies within the limit.
-double largest_error(const FrequencyEstimate &estimate, const SupportedModes &refined, double limit)
+double largest_error(const FrequencyEstimate &estimate, const RefinedModes &refined, double limit)
 {
   double largest = 0.;
   for (int j = 0; j < refined.omega.size() && refined.omega(j) <= limit; ++j)
@@ -52,7 +52,7 @@ double largest_error(const FrequencyEstimate &estimate, const SupportedModes &re
 }
 
 /// Fewest modes m whose model stays within the tolerance; the error falls with m.
-int smallest_number(const ReducedMatrices &star, int n1, const SupportedModes &refined, double tolerance, double limit)
+int smallest_number(const ReducedMatrices &star, int n1, const RefinedModes &refined, double tolerance, double limit)
 {
   int low = -1, high = int(star.M.rows()) - n1; // high is good, low is not
   while (high - low > 1)
@@ -72,7 +72,7 @@ struct Judgement
   std::string shortcoming; // if not good
 };
 
-Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &star, const SupportedModes &refined,
+Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &star, const RefinedModes &refined,
                             double tolerance, double limit)
 {
   const double error = largest_error(frequency_estimate(star, basis.n1(), basis.m(), refined), refined, limit);
@@ -132,7 +132,7 @@ std::string worst_interface(const std::vector<fem::Interface> &interfaces, const
 
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
                                  const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
-                                 double frequency_hz, const DamperShapes *dampers)
+                                 double frequency_hz, const DamperAttachmentModes *dampers)
 {
   const auto   within_rule = int((basis.omega0.array() <= two_pi * rule * frequency_hz).count());
   const auto   known       = within_rule < basis.m() || basis.m() == 0;
@@ -170,9 +170,9 @@ MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
 
 } // namespace
 
-EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
-                         const InteriorResponse &response, const fem::FrameMatrices &frame,
-                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+ModeSelection select_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, FixedInterfaceModes &fixed,
+                           const ResidualFlexibility &response, const fem::FrameMatrices &frame,
+                           const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
 {
   const int  n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
   const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
@@ -186,8 +186,8 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
     if (progress)
       progress("error estimate", -1.);
     const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
-    EnoughModes           found{supported_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
-    const SupportedModes &refined = found.refined;
+    ModeSelection         found{refined_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
+    const RefinedModes   &refined = found.refined;
     const double          within  = highest_of_interest(options, refined);
     const double          highest = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
     const bool            reaches = highest >= reach * within;
@@ -211,14 +211,14 @@ EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedMode
     {
       if (judgement.fewest.shapes > 0)
         found.shapes = inertia_shapes(held, basis);
-      std::optional<DamperShapes> dampers;
+      std::optional<DamperAttachmentModes> dampers;
       if (receptance && has_inner_dampers(basis, frame.B))
       {
         if (progress)
           progress("dampers inside the frame", -1.);
-        dampers      = damper_shapes(held, basis, highest, judgement.fewest.modes, found.shapes, frame,
-                                     receptance_frequencies(refined, frame.modal_damping_ratio, within),
-                                     groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
+        dampers      = damper_attachment_modes(held, basis, highest, judgement.fewest.modes, found.shapes, frame,
+                                               receptance_frequencies(refined, frame.modal_damping_ratio, within),
+                                               groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
         found.shapes = beside(found.shapes, dampers->W);
       }
       if (receptance)

@@ -14,19 +14,19 @@ namespace gestell::coupling
 
 /// Highest frequency of interest [rad/s]: options.frequency, or that of the twelfth elastic mode of the supported
 /// frame.
-double highest_of_interest(const ReductionOptions &options, const SupportedModes &refined);
+double highest_of_interest(const ReductionOptions &options, const RefinedModes &refined);
 
 /// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", which
 /// interface is worst by itself, and what the book's rule, modes up to 3.5 times the highest frequency, would take.
 /// @param dampers inside the frame, if there are any and their effect is known.
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
                                  const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
-                                 double frequency_hz, const DamperShapes *dampers = nullptr);
+                                 double frequency_hz, const DamperAttachmentModes *dampers = nullptr);
 
-/// What enough_modes() found.
-struct EnoughModes
+/// What select_modes() found.
+struct ModeSelection
 {
-  SupportedModes  refined;     // the choice rests on them
+  RefinedModes    refined;     // the choice rests on them
   Eigen::MatrixXd shapes;      // [n x k] to be appended to the modes
   std::string     statement{}; // within which error the receptance is, where that is what was asked
 };
@@ -36,8 +36,8 @@ struct EnoughModes
  *
  * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
  * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
- * are fewer together; where dampers act inside the frame their static shapes join them (damper_shapes()).  Without, or
- * without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
+ * are fewer together; where dampers act inside the frame their static shapes join them (damper_attachment_modes()).
+ * Without, or without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
  *
  * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
  * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is
@@ -46,8 +46,8 @@ struct EnoughModes
  *
  * @param held with its factor, unless `fixed` makes it anew.
  */
-EnoughModes enough_modes(ReductionBasis &basis, const HeldFrame &held, FixedModes &fixed,
-                         const InteriorResponse &response, const fem::FrameMatrices &frame,
-                         const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
+ModeSelection select_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, FixedInterfaceModes &fixed,
+                           const ResidualFlexibility &response, const fem::FrameMatrices &frame,
+                           const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
 
 } // namespace gestell::coupling

@@ -34,12 +34,12 @@ DenseModes elastic_modes(const MatrixXd &C, const MatrixXd &M, const MatrixXd &r
 
 } // namespace
 
-SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
-                               const InteriorResponse &response, const fem::FrameMatrices &frame)
+RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &star,
+                           const ResidualFlexibility &response, const fem::FrameMatrices &frame)
 {
   const int      n1 = basis.n1(), m = basis.m();
   const MatrixXd S = star.C.topLeftCorner(n1, n1);
-  SupportedModes modes;
+  RefinedModes   modes;
   modes.rigid          = motions_without_stiffness(S, basis, frame)(basis.q1, Eigen::all);
   modes.n_rigid        = int(modes.rigid.cols());
   const MatrixXd Phi_e = elastic_modes(star.C, star.M, modes.rigid).V;
@@ -73,7 +73,7 @@ SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrice
   return modes;
 }
 
-FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined)
+FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const RefinedModes &refined)
 {
   const int         n = n1 + m;
   const MatrixXd    C = star.C.topLeftCorner(n, n), M = star.M.topLeftCorner(n, n);

@@ -20,13 +20,13 @@ namespace gestell::coupling
  *
  *     C^-1 f = (0; C22^-1 f2) + Psi S^-1 Psi^T f,     S = C*_11 = C11 - C12 C22^-1 C21  [n1 x n1].
  *
- * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of InteriorResponse: all of it takes
- * place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
+ * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of ResidualFlexibility: all of it
+ * takes place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
  *
  * If the frame floats, S has its rigid motions as null space (motions_without_stiffness()); they are exact in the
  * reduced model and left out here.
  */
-struct SupportedModes
+struct RefinedModes
 {
   int             n_rigid = 0;
   Eigen::VectorXd omega;   // [p] elastic modes, refined, ascending [rad/s]
@@ -34,8 +34,8 @@ struct SupportedModes
   Eigen::MatrixXd rigid{}; // [n1 x n_rigid] the rigid motions on q1; none where they are known by number only
 };
 
-SupportedModes supported_modes(const ReductionBasis &basis, const ReducedMatrices &star,
-                               const InteriorResponse &response, const fem::FrameMatrices &frame);
+RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &star,
+                           const ResidualFlexibility &response, const fem::FrameMatrices &frame);
 
 /// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
 struct FrequencyEstimate
@@ -43,6 +43,6 @@ struct FrequencyEstimate
   Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)
   Eigen::VectorXd error; // (omega - refined) / refined, >= 0; NaN where nothing is refined
 };
-FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const SupportedModes &refined);
+FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const RefinedModes &refined);
 
 } // namespace gestell::coupling

@@ -25,7 +25,7 @@ VectorXd mass_of(const MatrixXd &W, const MatrixXd &MW)
 
 } // namespace
 
-int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, MatrixXd W)
+int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &frame, MatrixXd W)
 {
   if (W.cols() == 0)
     return 0;
@@ -51,7 +51,8 @@ int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, Matrix
   return int(kept);
 }
 
-MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+MatrixXd inertia_relief_shapes(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
+                               const std::vector<int> &q1)
 {
   MatrixXd load(frame.M.rows(), 0);
   if (frame.rigid_motions.cols() == 6)
@@ -66,7 +67,7 @@ MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &
   return load;
 }
 
-SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
+RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
 {
   const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
   const auto       elastic = ritz.omega.size() - n_rigid;

@@ -19,11 +19,11 @@ namespace gestell::coupling
  * @param W      [n x k] shapes, zero on q1.
  * @return       number of modes appended, at most k.
  */
-int append_shapes(ReductionBasis &basis, const fem::FrameMatrices &frame, Eigen::MatrixXd W);
+int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &frame, Eigen::MatrixXd W);
 
 /// The elastic modes of the reduced model itself, behind n_rigid rigid motions: where its shapes are no modes of the
 /// held frame, for damping and as what its frequencies are compared with.
-SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
+RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
 /**
  * Inertia relief: the static deflections of the inside under the inertia of rigid motions,
@@ -36,7 +36,7 @@ SupportedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
  *
  * @return shapes [n x 6 or 3 or 0], zero on q1.
  */
-Eigen::MatrixXd inertia_relief_shapes(const HeldFrame &held, const fem::FrameMatrices &frame,
+Eigen::MatrixXd inertia_relief_shapes(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
                                       const std::vector<int> &q1);
 
 } // namespace gestell::coupling

@@ -42,7 +42,7 @@ auto of(Kind kind, Index first, Index count)
 class DampedModel
 {
 public:
-  DampedModel(const HeldFrame &held, const ReductionBasis &basis, double highest, int m,
+  DampedModel(const FixedInterfaceFrame &held, const ReductionBasis &basis, double highest, int m,
               const fem::FrameMatrices &frame)
       : held_(held), basis_(basis), frame_(frame), n1_(basis.n1()), fixed_(n1_ + m), W_(frame.M.rows(), 0),
         slowest_beyond_(std::pow(highest, -2))
@@ -192,15 +192,15 @@ private:
     }
   }
 
-  const HeldFrame          &held_;
-  const ReductionBasis     &basis_; // with all modes known
-  const fem::FrameMatrices &frame_;
-  Index                     n1_, fixed_; // columns of Psi; and of V
-  MatrixXd                  W_;
-  double                    slowest_beyond_; // largest 1 / omega0^2 [s^2] of modes that are not known
-  VectorXd                  scale_;
-  MatrixXd                  M_, B_, C_; // T^T M T, ..
-  MatrixXd                  G_, Q_;     // F^T C22^-1 F; (all modes)^T F
+  const FixedInterfaceFrame &held_;
+  const ReductionBasis      &basis_; // with all modes known
+  const fem::FrameMatrices  &frame_;
+  Index                      n1_, fixed_; // columns of Psi; and of V
+  MatrixXd                   W_;
+  double                     slowest_beyond_; // largest 1 / omega0^2 [s^2] of modes that are not known
+  VectorXd                   scale_;
+  MatrixXd                   M_, B_, C_; // T^T M T, ..
+  MatrixXd                   G_, Q_;     // F^T C22^-1 F; (all modes)^T F
 };
 
 } // namespace
@@ -215,15 +215,16 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
   return false;
 }
 
-DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, double highest, int m, const MatrixXd &X,
-                           const fem::FrameMatrices &frame, const std::vector<ReceptanceFrequency> &frequencies,
-                           const Groups &groups, double tolerance, int most)
+DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const ReductionBasis &basis,
+                                              double highest, int m, const MatrixXd &X, const fem::FrameMatrices &frame,
+                                              const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups,
+                                              double tolerance, int most)
 {
   DampedModel model(held, basis, highest, m, frame);
   if (X.cols() > 0)
     model.append(X);
-  DamperShapes result;
-  Index        shapes = 0;
+  DamperAttachmentModes result;
+  Index                 shapes = 0;
   for (;;)
   {
     DampedModel::Answer worst;

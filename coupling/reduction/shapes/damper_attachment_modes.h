@@ -12,7 +12,7 @@ namespace gestell::coupling
 {
 
 /// Static shapes of the inside under its own dampers.
-struct DamperShapes
+struct DamperAttachmentModes
 {
   Eigen::MatrixXd W;         ///< [n x k], zero on q1
   double          left = 0.; ///< estimated relative error of the damped receptance with them, modes left out included
@@ -48,9 +48,10 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
  * @param groups       of q1, whose own errors are told.
  * Source: docs/theory/reduction.md (16e).
  */
-DamperShapes damper_shapes(const HeldFrame &held, const ReductionBasis &basis, double highest, int m,
-                           const Eigen::MatrixXd &X, const fem::FrameMatrices &frame,
-                           const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups, double tolerance,
-                           int most);
+DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const ReductionBasis &basis,
+                                              double highest, int m, const Eigen::MatrixXd &X,
+                                              const fem::FrameMatrices               &frame,
+                                              const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups,
+                                              double tolerance, int most);
 
 } // namespace gestell::coupling

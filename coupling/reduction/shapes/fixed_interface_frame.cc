@@ -91,7 +91,8 @@ bool wants_mumps()
 
 } // namespace
 
-HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1) : frame_(frame), q1_(q1)
+FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+    : frame_(frame), q1_(q1)
 {
   if (const Team *team = Team::of_this_run())
     team_ = held_by(*team, q1);
@@ -99,7 +100,7 @@ HeldFrame::HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1
 }
 
 /// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
-std::unique_ptr<HeldByRanks> HeldFrame::held_by(const Team &team, const std::vector<int> &q1) const
+std::unique_ptr<HeldByRanks> FixedInterfaceFrame::held_by(const Team &team, const std::vector<int> &q1) const
 {
   require_work_for_all(team.ranks().size(), frame_);
   if (wants_mumps())
@@ -107,7 +108,7 @@ std::unique_ptr<HeldByRanks> HeldFrame::held_by(const Team &team, const std::vec
   return std::make_unique<TeamFactor>(team, MatricesOnFirst{&frame_.C, &frame_.M, q1});
 }
 
-void HeldFrame::factorise()
+void FixedInterfaceFrame::factorise()
 {
   if (!team_)
   {
@@ -121,9 +122,9 @@ void HeldFrame::factorise()
     refuse_indefinite(team_->failed_at());
 }
 
-HeldFrame::~HeldFrame() = default;
+FixedInterfaceFrame::~FixedInterfaceFrame() = default;
 
-void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
+void FixedInterfaceFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
   if (team_)
     return team_->solve_in_place(X);
@@ -132,7 +133,7 @@ void HeldFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
   factor_->solve_in_place(X);
 }
 
-void HeldFrame::release()
+void FixedInterfaceFrame::release()
 {
   if (team_)
     team_->release();
@@ -140,7 +141,7 @@ void HeldFrame::release()
     factor_->release();
 }
 
-void HeldFrame::restore()
+void FixedInterfaceFrame::restore()
 {
   if (team_)
     team_->factorise();
@@ -148,14 +149,14 @@ void HeldFrame::restore()
     *factor_ = SparseCholesky(frame_.C, q1_);
 }
 
-Inertia HeldFrame::below(double omega) const
+Inertia FixedInterfaceFrame::below(double omega) const
 {
   if (team_)
     return team_->below(omega);
   return factor_->inertia(frame_.C, frame_.M, omega * omega);
 }
 
-Inertia HeldFrame::below_if_free(double omega)
+Inertia FixedInterfaceFrame::below_if_free(double omega)
 {
   if (team_)
   {
@@ -168,14 +169,15 @@ Inertia HeldFrame::below_if_free(double omega)
   return free_factor_->inertia(frame_.C, frame_.M, omega * omega);
 }
 
-std::unique_ptr<ModeSearch> HeldFrame::search(const BlockLanczos::Options &options, const LowestModes &known) const
+std::unique_ptr<ModeSearch> FixedInterfaceFrame::search(const BlockLanczos::Options &options,
+                                                        const LowestModes           &known) const
 {
   if (team_)
     return team_->search(options, known);
   return std::make_unique<BlockLanczos>(frame_.M, std::make_unique<InverseByFactor>(*factor_, q1_), options, known);
 }
 
-Eigen::MatrixXd HeldFrame::constraint_modes() const
+Eigen::MatrixXd FixedInterfaceFrame::constraint_modes() const
 {
   Eigen::MatrixXd Psi = Eigen::MatrixXd::Zero(frame_.C.rows(), q1_.size());
   for (std::size_t k = 0; k < q1_.size(); ++k)

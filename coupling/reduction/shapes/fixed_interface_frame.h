@@ -24,12 +24,12 @@ class Team;
  * Where mpirun started several ranks the factor lies on all of them, and they find the modes together: see
  * DividedFactor; with GESTELL_FACTOR=mumps in the environment by MUMPS, and the modes by SLEPc.
  */
-class HeldFrame
+class FixedInterfaceFrame
 {
 public:
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
-  HeldFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
-  ~HeldFrame();
+  FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  ~FixedInterfaceFrame();
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;

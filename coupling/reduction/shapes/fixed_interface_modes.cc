@@ -16,9 +16,9 @@ constexpr int dense_limit = 600; // internal coordinates that are solved densely
 
 } // namespace
 
-FixedModes::FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
-                       const BlockLanczos::Options &options)
-    : CountedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options, frame.C),
+FixedInterfaceModes::FixedInterfaceModes(FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
+                                         const std::vector<int> &q1, const BlockLanczos::Options &options)
+    : SturmCheckedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options, frame.C),
       held_(held), frame_(frame)
 {
   for (int i = 0; i < int(frame.M.rows()); ++i)
@@ -26,13 +26,13 @@ FixedModes::FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const s
       q2_.push_back(i);
 }
 
-int FixedModes::n() const
+int FixedInterfaceModes::n() const
 {
   return int(frame_.M.rows());
 }
 
 /// For few coordinates, where Krylov spaces run out of room.
-LowestModes FixedModes::all() const
+LowestModes FixedInterfaceModes::all() const
 {
   const MatrixXd M = frame_.M, C = frame_.C;
   const auto     modes = dense_modes(C(q2_, q2_), M(q2_, q2_));
@@ -41,7 +41,8 @@ LowestModes FixedModes::all() const
   return all;
 }
 
-std::unique_ptr<ModeSearch> FixedModes::search(const BlockLanczos::Options &options, const LowestModes &known) const
+std::unique_ptr<ModeSearch> FixedInterfaceModes::search(const BlockLanczos::Options &options,
+                                                        const LowestModes           &known) const
 {
   return held_.search(options, known);
 }

@@ -9,12 +9,12 @@ namespace gestell::coupling
 {
 
 /// The modes of a frame with its interface held.
-class FixedModes final : public CountedModes
+class FixedInterfaceModes final : public SturmCheckedModes
 {
 public:
   /// Both must outlive this; the frame's factor may be released while nothing is searched for.
-  FixedModes(HeldFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
-             const BlockLanczos::Options &options = {});
+  FixedInterfaceModes(FixedInterfaceFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                      const BlockLanczos::Options &options = {});
 
 private:
   int                         n() const override;
@@ -24,7 +24,7 @@ private:
   Inertia                     below(double omega) override { return held_.below(omega); }
   std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const override;
 
-  HeldFrame                &held_;
+  FixedInterfaceFrame      &held_;
   const fem::FrameMatrices &frame_;
   std::vector<int>          q2_;
 };

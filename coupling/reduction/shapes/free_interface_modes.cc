@@ -50,7 +50,7 @@ void find_enough(FreeInterfaceModes &modes, const ReductionOptions &options, int
 
 } // namespace
 
-FreeInverse::FreeInverse(const HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame)
+FreeInverse::FreeInverse(const FixedInterfaceFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame)
     : held_(held), Psi_(basis.T), S_inverse_(0, 0), R_(basis.T.rows(), 0)
 {
   const MatrixXd S = reduced_matrices(basis, frame.B, frame.C).C;
@@ -73,9 +73,9 @@ void FreeInverse::operator()(Eigen::Ref<MatrixXd> X) const
   X -= R_ * MatrixXd(MR_.transpose() * X);
 }
 
-FreeInterfaceModes::FreeInterfaceModes(HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
-                                       const BlockLanczos::Options &options)
-    : CountedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options, frame.C),
+FreeInterfaceModes::FreeInterfaceModes(FixedInterfaceFrame &held, const ReductionBasis &basis,
+                                       const fem::FrameMatrices &frame, const BlockLanczos::Options &options)
+    : SturmCheckedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options, frame.C),
       held_(held), frame_(frame), inverse_(held, basis, frame)
 {
 }
@@ -107,7 +107,7 @@ std::unique_ptr<ModeSearch> FreeInterfaceModes::search(const BlockLanczos::Optio
       known);
 }
 
-FreeModes free_modes(const ReductionBasis &basis, HeldFrame &held, const fem::FrameMatrices &frame,
+FreeModes free_modes(const ReductionBasis &basis, FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
                      const ReductionOptions &options)
 {
   FreeInterfaceModes modes(held, basis, frame);

@@ -23,7 +23,7 @@ class FreeInverse
 {
 public:
   /// @param basis  constraint modes only.  It and the held frame must outlive this.
-  FreeInverse(const HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame);
+  FreeInverse(const FixedInterfaceFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame);
 
   const Eigen::MatrixXd &rigid() const { return R_; } ///< motions R [n x k], R^T M R = E
 
@@ -31,18 +31,18 @@ public:
   void operator()(Eigen::Ref<Eigen::MatrixXd> X) const;
 
 private:
-  const HeldFrame       &held_;
-  const Eigen::MatrixXd &Psi_;
-  Eigen::MatrixXd        S_inverse_, R_, MR_;
+  const FixedInterfaceFrame &held_;
+  const Eigen::MatrixXd     &Psi_;
+  Eigen::MatrixXd            S_inverse_, R_, MR_;
 };
 
 /// The elastic modes of a frame as it is supported, its interface free; those of a floating one are M-orthogonal to its
 /// rigid motions.
-class FreeInterfaceModes final : public CountedModes
+class FreeInterfaceModes final : public SturmCheckedModes
 {
 public:
   /// @param basis  constraint modes only.  All three must outlive this.
-  FreeInterfaceModes(HeldFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
+  FreeInterfaceModes(FixedInterfaceFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame,
                      const BlockLanczos::Options &options = {});
 
   int n_rigid() const { return int(inverse_.rigid().cols()); }
@@ -55,7 +55,7 @@ private:
   Inertia                     below(double omega) override;
   std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const override;
 
-  HeldFrame                &held_;
+  FixedInterfaceFrame      &held_;
   const fem::FrameMatrices &frame_;
   FreeInverse               inverse_;
 };
@@ -80,7 +80,7 @@ struct FreeModes
  * @param options  n_modes; < 0: all up to 1.5 times the highest frequency of interest.
  * @throws ConvergenceFailure (eigenvalue solver, or modes that are missing and not found).
  */
-FreeModes free_modes(const ReductionBasis &basis, HeldFrame &held, const fem::FrameMatrices &frame,
+FreeModes free_modes(const ReductionBasis &basis, FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
                      const ReductionOptions &options);
 
 } // namespace gestell::coupling

@@ -3,8 +3,8 @@
 namespace gestell::coupling
 {
 
-InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &basis,
-                                   const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads)
+ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const ReductionBasis &basis,
+                                         const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads)
 {
   const auto      symmetric = [](const Eigen::MatrixXd &A) -> Eigen::MatrixXd { return 0.5 * (A + A.transpose()); };
   Eigen::MatrixXd both(M.rows(), basis.n1() + loads.cols());
@@ -19,7 +19,7 @@ InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &
   return {first, second, symmetric(M_X.transpose() * both), under_loads};
 }
 
-Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis)
+Eigen::MatrixXd inertia_shapes(const FixedInterfaceFrame &held, const ReductionBasis &basis)
 {
   Eigen::MatrixXd X = basis.M_Psi;
   held.solve_in_place(X);

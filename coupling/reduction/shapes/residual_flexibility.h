@@ -18,7 +18,7 @@ namespace gestell::coupling
  * diag(1 / omega0^2) M*_21.  Thus a round of inverse iteration for all Ritz vectors of the reduced model costs no
  * solution but these n1.  A third product, with X2 = C22^-1 (M X)_2, serves InterfaceReceptance.
  */
-struct InteriorResponse
+struct ResidualFlexibility
 {
   Eigen::MatrixXd Psi_M_X; // Psi^T M X [n1 x n1]
   Eigen::MatrixXd X_M_X;   // X^T M X [n1 x n1]
@@ -27,10 +27,10 @@ struct InteriorResponse
 };
 
 /// @param loads f [n x k]; its part on q1 has no meaning here.
-InteriorResponse interior_response(const HeldFrame &held, const ReductionBasis &basis,
-                                   const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
+ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const ReductionBasis &basis,
+                                         const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
 
 /// X itself: the shapes that complete few modes (reduction.md (16d)).
-Eigen::MatrixXd inertia_shapes(const HeldFrame &held, const ReductionBasis &basis);
+Eigen::MatrixXd inertia_shapes(const FixedInterfaceFrame &held, const ReductionBasis &basis);
 
 } // namespace gestell::coupling

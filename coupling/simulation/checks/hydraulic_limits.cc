@@ -14,7 +14,7 @@ namespace
 constexpr double last_part = 0.01; // of both oil columns together: as near to an end as a piston gets
 } // namespace
 
-CylinderWatch::CylinderWatch(const Machine &machine, const TimeIntegrator &integrator)
+HydraulicLimits::HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator)
     : machine_(machine), integrator_(integrator)
 {
   for (const ElementPlacement &placement : machine.elements())
@@ -45,7 +45,7 @@ CylinderWatch::CylinderWatch(const Machine &machine, const TimeIntegrator &integ
   }
 }
 
-void CylinderWatch::step()
+void HydraulicLimits::step()
 {
   if (limits_.empty())
     return;
@@ -66,7 +66,7 @@ void CylinderWatch::step()
   }
 }
 
-std::vector<std::string> CylinderWatch::warnings() const
+std::vector<std::string> HydraulicLimits::warnings() const
 {
   std::vector<std::string> warnings;
   for (const Limit &limit : limits_)

@@ -11,10 +11,10 @@ namespace gestell::coupling
 
 /// Looks at the hydraulic cylinders of a machine after every step: for pressures below zero, at which oil cavitates,
 /// and pistons at the end of their stroke, none of which their law knows.
-class CylinderWatch
+class HydraulicLimits
 {
 public:
-  CylinderWatch(const Machine &machine, const TimeIntegrator &integrator);
+  HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator);
 
   void begin() { step(); }
   void step();

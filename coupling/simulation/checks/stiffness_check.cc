@@ -29,7 +29,7 @@ double stored(const mechanism::ForceElement &element, const Eigen::VectorXd &u, 
 
 } // namespace
 
-StiffnessWatch::StiffnessWatch(const Machine &machine, const InitialState &start, const MethodOptions &options)
+StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start, const MethodOptions &options)
     : machine_(machine), options_(options)
 {
   if (!has_step_weights(options) || options.tolerance > 0. || is_large(machine))
@@ -75,7 +75,7 @@ StiffnessWatch::StiffnessWatch(const Machine &machine, const InitialState &start
   last_.v    = machine.directions().transpose() * start.v;
 }
 
-Eigen::MatrixXd StiffnessWatch::stiffness(const Watched &watched, const Eigen::VectorXd &u) const
+Eigen::MatrixXd StiffnessCheck::stiffness(const Watched &watched, const Eigen::VectorXd &u) const
 {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(watched.size, watched.size), D = K;
   watched.placement->element->stiffest(u.data() + watched.first, K.data(), D.data());
@@ -83,7 +83,7 @@ Eigen::MatrixXd StiffnessWatch::stiffness(const Watched &watched, const Eigen::V
 }
 
 /// Largest eigenvalue of K F, or its trace where that is below 1; `most` is the element with most part in it.
-double StiffnessWatch::largest(const Eigen::VectorXd &u, std::size_t &most) const
+double StiffnessCheck::largest(const Eigen::VectorXd &u, std::size_t &most) const
 {
   double sum = 0., highest = 0.;
   for (std::size_t i = 0; i < watched_.size(); ++i)
@@ -105,7 +105,7 @@ double StiffnessWatch::largest(const Eigen::VectorXd &u, std::size_t &most) cons
   return Eigen::EigenSolver<Eigen::MatrixXd>(K * F_, false).eigenvalues().real().maxCoeff();
 }
 
-void StiffnessWatch::step(const LocalState &state)
+void StiffnessCheck::step(const LocalState &state)
 {
   if (watched_.empty())
     return;
@@ -119,7 +119,7 @@ void StiffnessWatch::step(const LocalState &state)
 
 /// Circular frequency [rad/s] of the masses of one element's measures on it where the motion of the step before will
 /// have turned: all their kinetic energy is stored in it then.  Where that is not found, at `u`.
-double StiffnessWatch::frequency_at_peak(const Watched &watched, const Eigen::VectorXd &now) const
+double StiffnessCheck::frequency_at_peak(const Watched &watched, const Eigen::VectorXd &now) const
 {
   const auto &[placement, first, k, row] = watched;
   const Eigen::VectorXd u = last_.u.segment(first, k), v = last_.v.segment(first, k);
@@ -142,7 +142,7 @@ double StiffnessWatch::frequency_at_peak(const Watched &watched, const Eigen::Ve
   return std::sqrt(stiffness(watched, peak).cwiseProduct(lightness).sum());
 }
 
-void StiffnessWatch::fail(const LocalState &state, double share, const Watched &watched) const
+void StiffnessCheck::fail(const LocalState &state, double share, const Watched &watched) const
 {
   // A motion that meets the element inside a step goes on without its force for v h at most, which makes energy of the
   // share (omega h)^2 at constant stiffness and less at one that grows: a third keeps it below 1/9.

@@ -21,11 +21,11 @@ namespace gestell::coupling
  *
  * Its trace is a bound, which in most steps is all that is looked at.  Source: docs/stability.md.
  */
-class StiffnessWatch
+class StiffnessCheck
 {
 public:
   /// Looks at nothing under other methods, and on machines too large for dense matrices.
-  StiffnessWatch(const Machine &machine, const InitialState &start, const MethodOptions &options);
+  StiffnessCheck(const Machine &machine, const InitialState &start, const MethodOptions &options);
 
   /// After every step.
   /// @throws ConvergenceFailure naming the element, its stiffness and a step that stands what it will come to

@@ -11,8 +11,8 @@ namespace gestell
 namespace
 {
 
-using coupling::TallMatrix;
-using coupling::TallSpace;
+using coupling::KrylovBasis;
+using coupling::MultiVector;
 using Eigen::MatrixXd;
 
 /// Most that rounding adds to a sum of so many products of at most this size.
@@ -36,16 +36,16 @@ std::vector<int> mixed(int n)
   return order;
 }
 
-TallMatrix tall(const MatrixXd &X)
+MultiVector tall(const MatrixXd &X)
 {
-  TallMatrix       result(int(X.rows()), int(X.cols()));
+  MultiVector      result(int(X.rows()), int(X.cols()));
   std::vector<int> order(X.rows());
   std::iota(order.begin(), order.end(), 0);
   result.take(X, order);
   return result;
 }
 
-MatrixXd matrix(const TallMatrix &X)
+MatrixXd matrix(const MultiVector &X)
 {
   MatrixXd         result(X.rows(), X.columns());
   std::vector<int> order(X.rows());
@@ -66,7 +66,7 @@ TEST_P(TallProducts, AreThoseOfDenseMatrices)
   const MatrixXd X = irregular(n, columns, 1.), Y = irregular(n, columns, 2.),
                  F = irregular(columns, columns / 2 + 1, 3.);
   EXPECT_LT((gram(tall(X), tall(Y)) - X.transpose() * Y).cwiseAbs().maxCoeff(), rounding(n));
-  TallMatrix transformed = tall(X);
+  MultiVector transformed = tall(X);
   transformed.transform(F);
   ASSERT_EQ(transformed.columns(), F.cols());
   EXPECT_LT((matrix(transformed) - X * F).cwiseAbs().maxCoeff(), rounding(columns));
@@ -74,9 +74,9 @@ TEST_P(TallProducts, AreThoseOfDenseMatrices)
 
 TEST_P(TallProducts, WithASpaceAreThoseOfDenseMatrices)
 {
-  MatrixXd   Q(n, 0);
-  TallSpace  space(n);
-  const auto append = [&](const MatrixXd &X)
+  MatrixXd    Q(n, 0);
+  KrylovBasis space(n);
+  const auto  append = [&](const MatrixXd &X)
   {
     space.append(tall(X));
     Q.conservativeResize(Eigen::NoChange, Q.cols() + X.cols());
@@ -88,7 +88,7 @@ TEST_P(TallProducts, WithASpaceAreThoseOfDenseMatrices)
     EXPECT_EQ(space.columns(), Q.cols());
     EXPECT_LT((space.project(tall(X), from) - part.transpose() * X).cwiseAbs().maxCoeff(),
               rounding(n, Q.cwiseAbs().maxCoeff()));
-    TallMatrix rest = tall(X);
+    MultiVector rest = tall(X);
     space.subtract(rest, H, from);
     EXPECT_LT((matrix(rest) - (X - part * H)).cwiseAbs().maxCoeff(),
               rounding(part.cols() + 1, std::max(1., Q.cwiseAbs().maxCoeff())));
@@ -129,7 +129,7 @@ TEST(ReorderedMatrix, LeavesHeldCoordinatesOut)
   dense(held, Eigen::all).setZero();
   dense(Eigen::all, held).setZero();
   const MatrixXd X = irregular(n, 20, 3.);
-  TallMatrix     x(n, 20), y(n, 20);
+  MultiVector    x(n, 20), y(n, 20);
   x.take(X, order);
   coupling::ReorderedMatrix(A, order, held).multiply(x, y);
   MatrixXd Y(n, 20);
@@ -158,7 +158,7 @@ TEST(ReorderedMatrix, MultipliesRowsOfANodeThatAreAlikeAndOthersBesideThem)
   for (const auto &order : {as_they_are, later, mixed(n)})
   {
     const MatrixXd X = irregular(n, 20, 3.);
-    TallMatrix     x(n, 20), y(n, 20);
+    MultiVector    x(n, 20), y(n, 20);
     x.take(X, order);
     coupling::ReorderedMatrix(A, order, {}).multiply(x, y);
     MatrixXd Y(n, 20);

@@ -309,7 +309,7 @@ Trial driven_shaft(const std::function<double(double)> &disturbance)
   mechanism::SpeedDrive::Parameters p;
   p.proportional_gain = 40.;
   p.integral_gain     = 300.;
-  p.speed             = mechanism::Course(50.);
+  p.speed             = mechanism::CommandedProfile(50.);
   const auto drive    = std::make_shared<mechanism::SpeedDrive>(p);
   const int  integral = m.add_lag("drive.integral", drive->lag());
   m.attach("drive", drive, {{{near, 1.}}, {{integral, 1.}}});

@@ -35,14 +35,14 @@ struct FailingSpring
   }
 };
 
-struct Course
+struct CommandedProfile
 {
   std::vector<std::array<double, 4>> motion;   ///< t, q, q', p after each step
   std::vector<long>                  calls;    ///< of the law up to there
   std::vector<long>                  rejected; ///< steps, up to there
 };
 
-Course course(long failing_call)
+CommandedProfile course(long failing_call)
 {
   auto       spring = std::make_shared<FailingSpring>(FailingSpring{failing_call});
   const auto law    = [spring](double u, double v, double &p, double &du, double &dv) { (*spring)(u, v, p, du, dv); };
@@ -53,7 +53,7 @@ Course course(long failing_call)
   options.max_order    = 2;
   BdfControlled bdf(system, options);
   bdf.begin(0., Vector::Constant(1, 2.), Vector::Zero(1));
-  Course result;
+  CommandedProfile result;
   for (int i = 0; i < 400; ++i)
   {
     bdf.advance();
@@ -68,14 +68,14 @@ Course course(long failing_call)
 // the same, bit by bit.
 TEST(BdfControlled, NothingOfARejectedStepSurvives)
 {
-  const Course plain = course(0);
-  int          step  = 20; // one of two iterations, taken at once
+  const CommandedProfile plain = course(0);
+  int                    step  = 20; // one of two iterations, taken at once
   while (plain.calls[step] < plain.calls[step - 1] + 2 || plain.rejected[step] > plain.rejected[step - 1])
     ASSERT_LT(++step, 399);
-  const Course first = course(plain.calls[step - 1] + 1), second = course(plain.calls[step - 1] + 2);
+  const CommandedProfile first = course(plain.calls[step - 1] + 1), second = course(plain.calls[step - 1] + 2);
   EXPECT_EQ(first.motion, second.motion);
   EXPECT_TRUE(std::equal(plain.motion.begin(), plain.motion.begin() + step, first.motion.begin()));
-  const auto length = [&](const Course &c) { return c.motion[step][0] - c.motion[step - 1][0]; };
+  const auto length = [&](const CommandedProfile &c) { return c.motion[step][0] - c.motion[step - 1][0]; };
   EXPECT_DOUBLE_EQ(length(first), 0.5 * length(plain));
 }
 

@@ -21,9 +21,9 @@ Matrix one(double x)
   return Matrix::Constant(1, 1, x);
 }
 
-Exact::Options fixed(double h, ForceRule force = ForceRule::collocation, int order = 6)
+ModalPropagation::Options fixed(double h, ForceRule force = ForceRule::collocation, int order = 6)
 {
-  Exact::Options options;
+  ModalPropagation::Options options;
   options.force = force;
   options.order = order;
   options.step  = h;
@@ -53,9 +53,9 @@ TEST(Exact, FreeVibrationHasNoErrorAtAnyStep)
   for (const double zeta : {0., 0.01, 0.9, 1.5})
     for (const double h : {0.01, 1., 50.})
     {
-      const double w = 3.;
-      SmallSystem  system(one(2.), one(2. * 2. * zeta * w), one(2. * w * w));
-      Exact        exact(system, fixed(h));
+      const double     w = 3.;
+      SmallSystem      system(one(2.), one(2. * 2. * zeta * w), one(2. * w * w));
+      ModalPropagation exact(system, fixed(h));
       exact.begin(0., Vector::Constant(1, 0.3), Vector::Constant(1, -0.4));
       for (int k = 0; k < 10; ++k)
         exact.advance();
@@ -67,9 +67,9 @@ TEST(Exact, FreeVibrationHasNoErrorAtAnyStep)
 
 TEST(Exact, CriticalDampingLosesNoMoreThanItsEigenvectorsDo)
 {
-  const double w = 3., h = 0.1;
-  SmallSystem  system(one(1.), one(2. * w), one(w * w));
-  Exact        exact(system, fixed(h));
+  const double     w = 3., h = 0.1;
+  SmallSystem      system(one(1.), one(2. * w), one(w * w));
+  ModalPropagation exact(system, fixed(h));
   exact.begin(0., Vector::Constant(1, 1.), Vector::Constant(1, 0.));
   run_to(exact, 1., h);
   // sqrt of the distance kept from critical damping, 1e-6, divides the rounding
@@ -102,7 +102,7 @@ TEST(Exact, CoupledDampingAndHarmonicsAreExact)
   };
   Vector q, v;
   forced(0.2, q, v);
-  Exact exact(system, fixed(0.13));
+  ModalPropagation exact(system, fixed(0.13));
   exact.begin(0.2, q, v);
   for (int k = 0; k < 20; ++k)
     exact.advance();
@@ -122,7 +122,7 @@ TEST(Exact, FreeDrivesTurnExactly)
   system.loads().add_constant(0, 4.);
   system.loads().add_constant(1, 6.);
   system.loads().add_constant(2, 1.4);
-  Exact exact(system, fixed(0.5));
+  ModalPropagation exact(system, fixed(0.5));
   // the torque 4 / 2 = 6 / 3 accelerates both alike
   exact.begin(0., Eigen::Vector3d(0.1, 0.1, 1.), Eigen::Vector3d(3., 3., 0.));
   run_to(exact, 10., 0.5);
@@ -139,7 +139,7 @@ TEST(Exact, AMasslessCoordinateIsRefusedByName)
   SmallSystem system(Vector(Eigen::Vector2d(1., 0.)).asDiagonal(), Matrix::Identity(2, 2), Matrix::Identity(2, 2));
   try
   {
-    Exact(system, fixed(0.1));
+    ModalPropagation(system, fixed(0.1));
     FAIL();
   }
   catch (const std::invalid_argument &error)
@@ -152,7 +152,7 @@ TEST(Exact, UndampedResonanceIsRefused)
 {
   SmallSystem system(one(1.), one(0.), one(9.));
   system.loads().add_harmonic(0, 3., 1., 0.);
-  EXPECT_THROW(Exact(system, fixed(0.1)), std::invalid_argument);
+  EXPECT_THROW(ModalPropagation(system, fixed(0.1)), std::invalid_argument);
 }
 
 // --- forces of elements: order
@@ -179,10 +179,10 @@ SmallSystem duffing_chain()
 /// States at t = 0.4, 0.8, ... 4, one below the other.
 Vector states(ForceRule force, int order, double h)
 {
-  const SmallSystem system  = duffing_chain();
-  Exact::Options    options = fixed(h, force, order);
-  options.newton.tolerance  = 1e-14;
-  Exact exact(system, options);
+  const SmallSystem         system  = duffing_chain();
+  ModalPropagation::Options options = fixed(h, force, order);
+  options.newton.tolerance          = 1e-14;
+  ModalPropagation exact(system, options);
   exact.begin(0., Eigen::Vector2d(0.5, -0.3), Eigen::Vector2d(0., 1.));
   Vector all(40);
   for (int k = 0; k < 10; ++k)
@@ -222,7 +222,7 @@ TEST(Exact, DenseOutputOfTheWholeMotionIsThatOfAStepEndingThere)
   const SmallSystem system = duffing_chain();
   for (const ForceRule force : {ForceRule::linear, ForceRule::average, ForceRule::collocation})
   {
-    Exact exact(system, fixed(0.05, force));
+    ModalPropagation exact(system, fixed(0.05, force));
     exact.begin(0., Eigen::Vector2d(0.5, -0.3), Eigen::Vector2d(0., 1.));
     for (int k = 0; k < 7; ++k)
       exact.advance();
@@ -254,7 +254,7 @@ double energy_after(ForceRule force, double omega_h, int steps)
                    du = -omega_h * omega_h;
                    dv = 0.;
                  });
-  Exact exact(system, fixed(1., force));
+  ModalPropagation exact(system, fixed(1., force));
   exact.begin(0., Vector::Constant(1, 1e-3), Vector::Constant(1, 1.));
   for (int k = 0; k < steps; ++k)
     exact.advance();
@@ -275,7 +275,7 @@ TEST(Exact, DenseOutputOfAShortStepLosesNothingToRounding)
                      dp_du = -100.;
                      dp_dv = 0.;
                    });
-    Exact exact(system, fixed(0.01, rule));
+    ModalPropagation exact(system, fixed(0.01, rule));
     exact.begin(0., Vector::Constant(1, 1.1), Vector::Constant(1, 0.1));
     exact.advance();
     exact.cut(1e-13);
@@ -312,7 +312,7 @@ TEST(Exact, AverageForceKeepsTheEnergyOfARattlingMassWithoutEvents)
                      du             = d > 0. ? -k : 0.;
                      dv             = 0.;
                    });
-    Exact exact(system, fixed(1., ForceRule::average));
+    ModalPropagation exact(system, fixed(1., ForceRule::average));
     exact.begin(0., Vector::Zero(1), Vector::Ones(1));
     double largest = 0.;
     for (int i = 0; i < 4000; ++i)
@@ -335,7 +335,7 @@ TEST(Exact, LinearForceIsStableUpToTwoRootThree)
 // --- Newton
 
 /// End of x'' + x + x^3 = 0 from x = 1.
-double end_of_duffing(const Exact::Options &options)
+double end_of_duffing(const ModalPropagation::Options &options)
 {
   SmallSystem system(one(1.), one(0.), one(1.));
   system.set_law(Vector::Ones(1),
@@ -345,7 +345,7 @@ double end_of_duffing(const Exact::Options &options)
                    dp_du = -3. * u * u;
                    dp_dv = 0.;
                  });
-  Exact exact(system, options);
+  ModalPropagation exact(system, options);
   exact.begin(0., Vector::Ones(1), Vector::Zero(1));
   run_to(exact, 40., options.step);
   return exact.instant().q[0];
@@ -357,13 +357,13 @@ TEST(Exact, NewtonLeavesLittleBesideTheErrorOfFixedSteps)
   for (const int order : {6, 8})
     for (const double h : {0.1, 0.05, 0.025})
     {
-      Exact::Options fine      = fixed(0.02, ForceRule::collocation, 8);
-      fine.newton.tolerance    = 1e-13;
-      Exact::Options tight     = fixed(h, ForceRule::collocation, order);
-      tight.newton.tolerance   = 1e-13;
-      const double truth       = end_of_duffing(fine);
-      const double own         = std::abs(end_of_duffing(tight) - truth);
-      const double as_it_comes = std::abs(end_of_duffing(fixed(h, ForceRule::collocation, order)) - truth);
+      ModalPropagation::Options fine  = fixed(0.02, ForceRule::collocation, 8);
+      fine.newton.tolerance           = 1e-13;
+      ModalPropagation::Options tight = fixed(h, ForceRule::collocation, order);
+      tight.newton.tolerance          = 1e-13;
+      const double truth              = end_of_duffing(fine);
+      const double own                = std::abs(end_of_duffing(tight) - truth);
+      const double as_it_comes        = std::abs(end_of_duffing(fixed(h, ForceRule::collocation, order)) - truth);
       EXPECT_LT(as_it_comes, 2. * own + 1e-9) << order << " " << h;
     }
 }

@@ -152,7 +152,7 @@ TEST(FreeFrame, OfGreatSlendernessHasItsRigidMotionsApartFromTheModesWithTheInte
   options.inner            = coupling::InnerModes::interface_free;
   const auto reduced       = coupling::craig_bampton(frame, options);
 
-  coupling::HeldFrame full(frame, frame.interface_coordinates());
+  coupling::FixedInterfaceFrame full(frame, frame.interface_coordinates());
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 6);
   // The inertia counts the frequencies of C + E, |E| ~ growth eps diag(C), which moves omega^2 of a mode v^T M v = 1 by
   // at most growth eps max C_ii/M_ii: so far beside a frequency it tells how many lie below, on every processor.

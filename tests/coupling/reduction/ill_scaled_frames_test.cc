@@ -131,10 +131,10 @@ TEST(ModalDamping, OfAFloatingFrameThatIsNotReducedIsRefusedWithTheWayOut)
 }
 
 /// One mode at 100 rad/s that moves a coordinate of 1e20 N/m by 1e-4, the next at 101; a factor of a given growth.
-class OneStiffCoordinate : public coupling::CountedModes
+class OneStiffCoordinate : public coupling::SturmCheckedModes
 {
 public:
-  explicit OneStiffCoordinate(double growth) : CountedModes("modes", false, {}, stiffness()), growth_(growth) {}
+  explicit OneStiffCoordinate(double growth) : SturmCheckedModes("modes", false, {}, stiffness()), growth_(growth) {}
 
 private:
   struct Search : coupling::ModeSearch

@@ -133,7 +133,7 @@ TEST(FreeInterfaceModes, PassedOverAreCountedSearchedForAndFound)
   const auto exact = cube_frequencies(9);
 
   const auto                      basis = coupling::craig_bampton_basis(frame, 0);
-  coupling::HeldFrame             held(frame, {0});
+  coupling::FixedInterfaceFrame   held(frame, {0});
   coupling::BlockLanczos::Options options;
   options.block = 1;
   coupling::FreeInterfaceModes modes(held, basis, frame, options);

@@ -48,7 +48,7 @@ TEST(FixedInterfaceModes, FoundInTwoBatchesAreThoseFoundInOne)
     EXPECT_NEAR(reduced.omega0(j) / at_once.omega0(j), 1., 1e-9);
 }
 
-TEST(SupportedModes, OfALargeFrameAreThoseOfSubspaceIteration)
+TEST(RefinedModes, OfALargeFrameAreThoseOfSubspaceIteration)
 {
   auto       frame          = large_frame();
   const auto exact          = coupling::subspace_modes(frame.C, frame.M, 10);

@@ -14,7 +14,7 @@ namespace
 {
 
 using coupling::BlockLanczos;
-using coupling::FixedModes;
+using coupling::FixedInterfaceModes;
 using coupling::LowestModes;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -197,7 +197,7 @@ TEST(BlockLanczos, OfNoModesIsEmpty)
 }
 
 /// Single vectors pass over repeated frequencies; the inertia tells.
-TEST(FixedModes, PassedOverAreCountedSearchedForAndFound)
+TEST(FixedInterfaceModes, PassedOverAreCountedSearchedForAndFound)
 {
   fem::FrameMatrices frame;
   frame.C            = test::cube_stiffness(9);
@@ -210,8 +210,8 @@ TEST(FixedModes, PassedOverAreCountedSearchedForAndFound)
       error = std::max(error, std::abs(omega(j) / exact[j] - 1.));
     return error;
   };
-  coupling::HeldFrame held(frame, {});
-  FixedModes          modes(held, frame, {}, blocks_of(1));
+  coupling::FixedInterfaceFrame held(frame, {});
+  FixedInterfaceModes           modes(held, frame, {}, blocks_of(1));
   modes.find(20);
   modes.finish();
   EXPECT_GT(largest(modes.found().omega), 1e-3);
@@ -223,28 +223,28 @@ TEST(FixedModes, PassedOverAreCountedSearchedForAndFound)
   EXPECT_NE(modes.statement().find("passed over"), std::string::npos) << modes.statement();
 }
 
-TEST(FixedModes, AreAllFoundInOneCall)
+TEST(FixedInterfaceModes, AreAllFoundInOneCall)
 {
   fem::FrameMatrices frame;
   frame.C          = test::cube_stiffness(9);
   frame.M          = test::unit_mass(729);
   const auto exact = test::cube_frequencies(9);
 
-  coupling::HeldFrame held(frame, {});
-  const LowestModes   modes = FixedModes(held, frame, {}, blocks_of(1)).find_all(20);
+  coupling::FixedInterfaceFrame held(frame, {});
+  const LowestModes             modes = FixedInterfaceModes(held, frame, {}, blocks_of(1)).find_all(20);
   ASSERT_EQ(modes.omega.size(), 20);
   ASSERT_EQ(modes.V.cols(), 20);
   for (int j = 0; j < 20; ++j)
     EXPECT_NEAR(modes.omega(j), exact[j], 1e-10 * exact[j]) << j;
 }
 
-TEST(FixedModes, AllFoundAreConfirmedAtOnce)
+TEST(FixedInterfaceModes, AllFoundAreConfirmedAtOnce)
 {
   fem::FrameMatrices frame;
   frame.C = test::cube_stiffness(9);
   frame.M = test::unit_mass(729);
-  coupling::HeldFrame held(frame, {});
-  FixedModes          modes(held, frame, {});
+  coupling::FixedInterfaceFrame held(frame, {});
+  FixedInterfaceModes           modes(held, frame, {});
   modes.find(20);
   modes.finish();
   EXPECT_TRUE(modes.confirm());

@@ -17,15 +17,15 @@
 namespace
 {
 
-using gestell::coupling::Order;
+using gestell::coupling::RankTask;
 using gestell::coupling::Team;
 using gestell::fem::Ranks;
 
 struct Trial
 {
-  static constexpr Order order = Order(1000);
-  std::string            how;
-  int                    sum = 0;
+  static constexpr RankTask order = RankTask(1000);
+  std::string               how;
+  int                       sum = 0;
 
   void run(const Ranks &ranks)
   {
@@ -195,7 +195,7 @@ void follow(const Ranks &ranks)
     try
     {
       Trial trial;
-      if (Order(order) == Trial::order)
+      if (RankTask(order) == Trial::order)
         Team::carry_out(trial, ranks);
       else
         gestell::coupling::obey(order);

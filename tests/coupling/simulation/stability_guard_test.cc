@@ -360,7 +360,7 @@ RunResult thrown(const MethodOptions &method, bool forced = false)
                   {machine.signal("v", "ball.velocity")});
 }
 
-TEST(StiffnessWatch, EndsARunInAContactThatBecomesTooStiffForItsStep)
+TEST(StiffnessCheck, EndsARunInAContactThatBecomesTooStiffForItsStep)
 {
   const auto                 rebound = [](const RunResult &run) { return std::abs(run.signals.at(0).final); };
   std::vector<MethodOptions> methods(3, of(Method::central_difference, 1e-4));

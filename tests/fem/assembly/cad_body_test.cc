@@ -27,7 +27,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-Part measured(const std::string &path, double unit = 0.)
+CadBody measured(const std::string &path, double unit = 0.)
 {
   return measure_part({path, unit, "scene.toml:7: body.rod"});
 }
@@ -51,7 +51,7 @@ Matrix3d cuboid(double a, double b, double c)
   return a * b * c / 12. * Vector3d(b * b + c * c, a * a + c * c, a * a + b * b).asDiagonal();
 }
 
-void expect_body(const Part &part, double volume, const Vector3d &centre, const Matrix3d &inertia, double tolerance)
+void expect_body(const CadBody &part, double volume, const Vector3d &centre, const Matrix3d &inertia, double tolerance)
 {
   EXPECT_NEAR(part.volume, volume, tolerance * volume);
   EXPECT_LE((part.centre - centre).norm(), tolerance * std::cbrt(volume));
@@ -59,7 +59,7 @@ void expect_body(const Part &part, double volume, const Vector3d &centre, const 
 }
 
 /// The skin encloses the part, from outside: exactly if its faces are plane.
-double skin_volume(const Part &part)
+double skin_volume(const CadBody &part)
 {
   const TriangleSurface skin{part.points, part.triangles};
   EXPECT_EQ(unmatched_edges(skin), 0);
@@ -69,80 +69,80 @@ double skin_volume(const Part &part)
 /// OpenCASCADE's Gauss points are exact on polynomials; the STEP file has 15 digits.
 constexpr double rounding = 1e-10;
 
-TEST(Part, CuboidOffTheOriginHasItsClosedForm)
+TEST(CadBody, CuboidOffTheOriginHasItsClosedForm)
 {
-  const Part part = measured(draw("cuboid.step", [] { occ::addBox(1000., 200., -300., 400., 100., 50.); }));
+  const CadBody part = measured(draw("cuboid.step", [] { occ::addBox(1000., 200., -300., 400., 100., 50.); }));
   expect_body(part, 0.4 * 0.1 * 0.05, {1.2, 0.25, -0.275}, cuboid(0.4, 0.1, 0.05), rounding);
   EXPECT_NEAR(skin_volume(part), part.volume, 1e-9 * part.volume);
   EXPECT_EQ(part.solids.size(), 1u);
 }
 
-TEST(Part, TurnedCuboidHasTheTurnedTensor)
+TEST(CadBody, TurnedCuboidHasTheTurnedTensor)
 {
   const Vector3d axis  = Vector3d(1., 2., 3.).normalized();
   const double   angle = 0.7;
-  const Part     part  = measured(draw("turned.step",
+  const CadBody  part  = measured(draw("turned.step",
                                        [&]
                                        {
-                                    const int box = occ::addBox(0., 0., 0., 400., 100., 50.);
-                                    occ::rotate({{3, box}}, 0., 0., 0., axis.x(), axis.y(), axis.z(), angle);
-                                  }));
+                                       const int box = occ::addBox(0., 0., 0., 400., 100., 50.);
+                                       occ::rotate({{3, box}}, 0., 0., 0., axis.x(), axis.y(), axis.z(), angle);
+                                     }));
   const Matrix3d R     = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
   expect_body(part, 0.4 * 0.1 * 0.05, R * Vector3d(0.2, 0.05, 0.025), R * cuboid(0.4, 0.1, 0.05) * R.transpose(),
               rounding);
 }
 
-TEST(Part, HollowCylinderHasItsClosedFormAndASkinThatIsClosed)
+TEST(CadBody, HollowCylinderHasItsClosedFormAndASkinThatIsClosed)
 {
-  const double R = 0.12, r = 0.05, l = 0.3, V = pi * (R * R - r * r) * l;
-  const Part   part = measured(draw("hollow.step",
-                                    []
-                                    {
-                                    const int        outer = occ::addCylinder(50., 0., 0., 0., 300., 0., 120.);
-                                    const int        inner = occ::addCylinder(50., 0., 0., 0., 300., 0., 50.);
-                                    gmsh::vectorpair out;
-                                    std::vector<gmsh::vectorpair> map;
-                                    occ::cut({{3, outer}}, {{3, inner}}, out, map);
-                                  }));
-  const double Jy = 0.5 * V * (R * R + r * r), Jx = V * ((R * R + r * r) / 4. + l * l / 12.);
+  const double  R = 0.12, r = 0.05, l = 0.3, V = pi * (R * R - r * r) * l;
+  const CadBody part = measured(draw("hollow.step",
+                                     []
+                                     {
+                                       const int        outer = occ::addCylinder(50., 0., 0., 0., 300., 0., 120.);
+                                       const int        inner = occ::addCylinder(50., 0., 0., 0., 300., 0., 50.);
+                                       gmsh::vectorpair out;
+                                       std::vector<gmsh::vectorpair> map;
+                                       occ::cut({{3, outer}}, {{3, inner}}, out, map);
+                                     }));
+  const double  Jy = 0.5 * V * (R * R + r * r), Jx = V * ((R * R + r * r) / 4. + l * l / 12.);
   expect_body(part, V, {0.05, 0.15, 0.}, Vector3d(Jx, Jy, Jx).asDiagonal(), rounding);
   // Of a circle in n = 16 edges the share sin(2 pi/n)/(2 pi/n) = 0.975 remains, of the difference of two likewise.
   EXPECT_NEAR(skin_volume(part), V, 0.03 * V);
 }
 
-TEST(Part, CavityIsNotFilled)
+TEST(CadBody, CavityIsNotFilled)
 {
-  const double R = 0.1, r = 0.06, V = 4. / 3. * pi * (R * R * R - r * r * r);
-  const Part   part = measured(draw("shell.step",
-                                    []
-                                    {
-                                    const int                     outer = occ::addSphere(0., 0., 0., 100.);
-                                    const int                     inner = occ::addSphere(0., 0., 0., 60.);
-                                    gmsh::vectorpair              out;
-                                    std::vector<gmsh::vectorpair> map;
-                                    occ::cut({{3, outer}}, {{3, inner}}, out, map);
-                                  }));
-  const double J    = 8. / 15. * pi * (std::pow(R, 5) - std::pow(r, 5));
+  const double  R = 0.1, r = 0.06, V = 4. / 3. * pi * (R * R * R - r * r * r);
+  const CadBody part = measured(draw("shell.step",
+                                     []
+                                     {
+                                       const int                     outer = occ::addSphere(0., 0., 0., 100.);
+                                       const int                     inner = occ::addSphere(0., 0., 0., 60.);
+                                       gmsh::vectorpair              out;
+                                       std::vector<gmsh::vectorpair> map;
+                                       occ::cut({{3, outer}}, {{3, inner}}, out, map);
+                                     }));
+  const double  J    = 8. / 15. * pi * (std::pow(R, 5) - std::pow(r, 5));
   expect_body(part, V, {0., 0., 0.}, J * Matrix3d::Identity(), rounding);
   EXPECT_NEAR(skin_volume(part), V, 0.1 * V); // the inner sphere counts against the outer one
 }
 
-TEST(Part, SeveralSolidsAreSummedByTheParallelAxisTheorem)
+TEST(CadBody, SeveralSolidsAreSummedByTheParallelAxisTheorem)
 {
-  const Part part = measured(draw("dumbbell.step",
-                                  []
-                                  {
-                                    occ::addBox(-250., -50., -50., 100., 100., 100.);
-                                    occ::addBox(150., -50., -50., 100., 100., 100.);
-                                  }));
-  Matrix3d   J    = 2. * cuboid(0.1, 0.1, 0.1);
+  const CadBody part = measured(draw("dumbbell.step",
+                                     []
+                                     {
+                                       occ::addBox(-250., -50., -50., 100., 100., 100.);
+                                       occ::addBox(150., -50., -50., 100., 100., 100.);
+                                     }));
+  Matrix3d      J    = 2. * cuboid(0.1, 0.1, 0.1);
   J(1, 1) += 2. * 1e-3 * 0.04;
   J(2, 2) += 2. * 1e-3 * 0.04;
   expect_body(part, 2e-3, Vector3d::Zero(), J, rounding);
   EXPECT_EQ(part.solids.size(), 2u);
 }
 
-TEST(Part, UnitIsThatOfTheFileOrTheOneGiven)
+TEST(CadBody, UnitIsThatOfTheFileOrTheOneGiven)
 {
   const std::string step = draw("two.step", [] { occ::addBox(0., 0., 0., 2., 1., 1.); });
   EXPECT_NEAR(measured(step).volume, 2e-9, 1e-18);
@@ -173,19 +173,19 @@ std::string pyramid_stl(const std::string &name, std::size_t n_faces)
   return write_text(name, text + "endsolid pyramid\n");
 }
 
-TEST(Part, PyramidOfTetrahedraOrTrianglesHasItsClosedForm)
+TEST(CadBody, PyramidOfTetrahedraOrTrianglesHasItsClosedForm)
 {
   // Square side a = 2, height h = 3: V = a^2 h/3, centre at h/4, J_z = V a^2/10, J_x = V (a^2/20 + 3 h^2/80).
   const double   V = 4., unit = 0.1, u5 = std::pow(unit, 5);
   const Matrix3d J = u5 * V * Vector3d(0.2 + 27. / 80., 0.2 + 27. / 80., 0.4).asDiagonal();
-  for (const Part &part : {measured(pyramid_mesh(), unit), measured(pyramid_stl("pyramid.stl", 6), unit)})
+  for (const CadBody &part : {measured(pyramid_mesh(), unit), measured(pyramid_stl("pyramid.stl", 6), unit)})
   {
     expect_body(part, 4e-3, {0.1, 0.1, 0.075}, J, 1e-12);
     EXPECT_NEAR(skin_volume(part), 4e-3, 1e-15);
   }
 }
 
-TEST(Part, ThatIsNoClosedBodyIsRefused)
+TEST(CadBody, ThatIsNoClosedBodyIsRefused)
 {
   EXPECT_THAT(complaint("/no/such/rod.step"), AllOf(StartsWith("scene.toml:7: body.rod"), HasSubstr("does not exist")));
   const std::string sheet = draw("sheet.step", [] { occ::addRectangle(0., 0., 0., 100., 100.); });
@@ -194,7 +194,7 @@ TEST(Part, ThatIsNoClosedBodyIsRefused)
   EXPECT_THAT(complaint(pyramid_stl("plain.stl", 6)), HasSubstr("unit = \"1 mm\""));
 }
 
-TEST(Part, WhoseSolidsOverlapIsRefused)
+TEST(CadBody, WhoseSolidsOverlapIsRefused)
 {
   const auto two = [](double x)
   {

@@ -61,8 +61,9 @@ VectorXd nodal(const fem::Mesh &mesh, const Field &field)
 }
 
 /// Largest difference between the recovered stress and one that is known, over all points or over some.
-template <typename Exact, typename Counts>
-double largest_error(const fem::FrameMatrices &frame, const VectorXd &q, const Exact &exact, const Counts &counts)
+template <typename ModalPropagation, typename Counts>
+double largest_error(const fem::FrameMatrices &frame, const VectorXd &q, const ModalPropagation &exact,
+                     const Counts &counts)
 {
   const VectorXd sigma = fem::stresses(frame.stress, q, StressOf::mean);
   double         error = 0.;
@@ -72,8 +73,8 @@ double largest_error(const fem::FrameMatrices &frame, const VectorXd &q, const E
   return error;
 }
 
-template <typename Exact>
-double largest_error(const fem::FrameMatrices &frame, const VectorXd &q, const Exact &exact)
+template <typename ModalPropagation>
+double largest_error(const fem::FrameMatrices &frame, const VectorXd &q, const ModalPropagation &exact)
 {
   return largest_error(frame, q, exact, [](const Vector3d &) { return true; });
 }
