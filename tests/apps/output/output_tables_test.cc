@@ -265,7 +265,9 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndIsIncomplete)
     EXPECT_FALSE(fs::exists(cut / "summary.json"));
     for (const auto &entry : fs::recursive_directory_iterator(cut))
       if (entry.is_regular_file())
+      {
         EXPECT_EQ(entry.file_size(), fs::file_size(all / fs::relative(entry.path(), cut))) << entry.path();
+      }
   }
   std::ofstream(cut / "history.csv") << "t [s]\n";
   EXPECT_TRUE(incomplete(cut));
