@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
-#include "fem/assembly/cad_body.h"
+#include "fem/values/cad_body.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 

@@ -1,8 +1,8 @@
 #include "fem/assembly/attached_masses.h"
 
 #include "fem/assembly/rigid_motions.h"
-#include "fem/geometry/face.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -17,6 +17,9 @@ struct CellMaterials
   const Material &operator[](std::size_t cell) const { return materials[of_cell[cell]]; }
 };
 
+/// @throws std::invalid_argument unless E > 0, -1 < nu < 0.5, rho > 0, all finite.
+void require_valid(const Material &material);
+
 /**
  * The material of each solid: the last of specification.materials whose pattern fits its name, else
  * specification.material.

@@ -6,8 +6,6 @@
 #include <Eigen/LU>
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace gestell::fem
 {
@@ -24,32 +22,6 @@ Eigen::Matrix3d jacobian(const QuadraticMesh &mesh, const std::array<int, 10> &n
       J(d, k) = mesh.points[nodes[k + 1]][d] - mesh.points[nodes[0]][d];
   return J;
 }
-
-void require_range(const Material &material, bool holds, const char *quantity, double value, const char *needed,
-                   const char *remedy)
-{
-  if (holds)
-    return;
-  std::ostringstream message;
-  message << (material.place.empty() ? "material" : material.place) << ": " << quantity << " = " << value << ", but "
-          << needed << " is needed; " << remedy << ".";
-  throw std::invalid_argument(message.str());
-}
-
-} // namespace
-
-void require_valid(const Material &material)
-{
-  const auto &[E, nu, rho, place, name] = material;
-  require_range(material, std::isfinite(E) && E > 0., "Young's modulus E", E, "E > 0 Pa", "steel has 210 GPa");
-  require_range(material, std::isfinite(nu) && nu > -1. && nu < 0.5, "Poisson's ratio nu", nu, "-1 < nu < 0.5",
-                "steel has 0.3; an incompressible material (0.5) locks these elements, take 0.49 at most");
-  require_range(material, std::isfinite(rho) && rho > 0., "density rho", rho, "rho > 0 kg/m^3",
-                "steel has 7850 kg/m^3");
-}
-
-namespace
-{
 
 CellStiffness tetrahedron_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
 {

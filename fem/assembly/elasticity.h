@@ -54,9 +54,6 @@ CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material
 /// Consistent mass rho int N_a N_b dV [kg], the same for all three directions.
 CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material);
 
-/// @throws std::invalid_argument unless E > 0, -1 < nu < 0.5, rho > 0, all finite.
-void require_valid(const Material &material);
-
 /// C of the free frame, blocks of 3 x 3 between nodes.
 BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fem/values/cad_source.h"
+
 #include <optional>
 #include <string>
 
@@ -14,22 +16,6 @@ enum class CadFile
   mesh,     ///< .msh of gmsh
   abaqus,   ///< .inp, mesh of Abaqus or CalculiX
   triangles ///< .stl, a surface
-};
-
-/// Whether scripts of gmsh may do all that its language allows: run programs, write files, read any.
-enum class Scripts
-{
-  harmless, ///< no: they are judged first
-  trusted
-};
-
-/// A file with the geometry of a frame or a part.
-struct CadSource
-{
-  std::string path;
-  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
-  std::string place;     ///< heads messages
-  Scripts     scripts = Scripts::harmless;
 };
 
 /// By the extension of its name; nothing if such files are not read.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "fem/geometry/cad_model.h"
+#include "fem/geometry/gmsh_session.h"
+#include "fem/values/frame_specification.h"
 
 namespace gestell::fem
 {

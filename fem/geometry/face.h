@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fem/values/frame_specification.h"
+#include "fem/values/number_text.h"
+#include "fem/values/vector3.h"
 
 #include <string>
 #include <vector>
@@ -48,10 +49,6 @@ struct Face
  * spline is known as a plane.  A point is on the surface if it is off by less than the tolerance [m].
  */
 void recognise(Face &face, double tolerance);
-
-/// Number for messages: five digits, without noise around zero.
-std::string text(double value);
-std::string text(const Vector3 &v); ///< "(0 0 0.9)"
 
 /// One line a selector can be written from: "face 12: plane, normal (0 0 1), through (0 0 0.9), area 0.21 m^2".
 std::string describe(const Face &face);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/geometry/cad_model.h"
+#include "fem/values/cad_source.h"
 
 namespace gestell::fem
 {

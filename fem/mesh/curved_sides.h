@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fem/mesh/mesh_extraction.h"
+#include "fem/geometry/cad_model.h"
+#include "fem/mesh/extracted_mesh.h"
 
 #include <vector>
 

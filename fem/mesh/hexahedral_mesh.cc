@@ -1,8 +1,8 @@
 #include "fem/mesh/hexahedral_mesh.h"
 
-#include "fem/geometry/face.h"
 #include "fem/mesh/hexahedron.h"
 #include "fem/mesh/mesh_quality.h"
+#include "fem/values/number_text.h"
 #include "fem/values/vector3.h"
 
 #include <algorithm>

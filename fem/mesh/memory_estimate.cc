@@ -1,6 +1,6 @@
 #include "fem/mesh/memory_estimate.h"
 
-#include "fem/geometry/face.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

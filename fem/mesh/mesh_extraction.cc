@@ -22,7 +22,6 @@ namespace
 {
 
 constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
-constexpr double same_place    = 1e-8; // of the model: nodes that close lie upon each other
 
 using Triangle = std::array<int, 3>;
 
@@ -192,18 +191,6 @@ std::vector<CellFace> join(const std::vector<CellFace> &faces, std::vector<int> 
   return skin;
 }
 
-double extent(const Mesh &mesh)
-{
-  Vector3 low = mesh.points.front(), high = low;
-  for (const Point3 &point : mesh.points)
-    for (int d = 0; d < 3; ++d)
-    {
-      low[d]  = std::min(low[d], point[d]);
-      high[d] = std::max(high[d], point[d]);
-    }
-  return norm(high - low);
-}
-
 void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)
 {
   std::map<int, std::pair<std::size_t, std::set<int>>> bodies; // root to number of cells, solids
@@ -237,31 +224,6 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
 }
 
 } // namespace
-
-std::string touching_nodes(const Mesh &mesh)
-{
-  const double size  = extent(mesh);
-  const auto   pairs = coincident(mesh.points, same_place * size);
-  if (pairs.empty())
-    return "";
-  return ". " + std::to_string(pairs.size()) + " nodes lie upon others, one at " +
-         text(mesh.points[pairs.front().first]) +
-         " m: solids touch there without being joined. Merge them where they are meant to be one (mesh.gap = \"" +
-         text(1e3 * 10. * same_place * size) + " mm\"), or set mesh.bodies where they are not";
-}
-
-void note_nodes(Mesh &mesh, const MeshNodes &nodes)
-{
-  if (nodes.n_merged() > 0)
-    mesh.statements.push_back(std::to_string(nodes.n_merged()) +
-                              " nodes are taken for one with another, as mesh.gap says");
-  if (const auto n_unused = nodes.n_unused(); n_unused > 0)
-    mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
-  if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())
-    mesh.notes.push_back(std::to_string(pairs.size()) + " nodes lie upon others, one at " +
-                         text(mesh.points[pairs.front().first]) +
-                         " m: the cells there are not joined (a slit); mesh.gap merges them");
-}
 
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {

@@ -1,9 +1,6 @@
 #include "fem/mesh/mesh_groups.h"
 
-#include "fem/geometry/inp_file.h"
 #include "fem/values/vector3.h"
-
-#include <gmsh.h>
 
 #include <algorithm>
 #include <array>
@@ -111,29 +108,6 @@ std::vector<std::size_t> pieces_of(const ExtractedMesh &extracted, const std::ve
 }
 
 } // namespace
-
-MeshGroups load_inp(CadModel &model, const CadSource &source)
-{
-  const InpMesh mesh = read_inp(source);
-  model.notes        = mesh.notes;
-  if (mesh.elements.empty())
-    return {};
-  std::map<std::string, int> volume;
-  for (const auto &elements : mesh.elements)
-  {
-    const auto [entry, is_new] = volume.try_emplace(elements.solid, static_cast<int>(volume.size()) + 1);
-    if (!is_new)
-      continue;
-    gmsh::model::addDiscreteEntity(3, entry->second);
-    gmsh::model::setEntityName(3, entry->second, elements.solid);
-    if (entry->second == 1)
-      gmsh::model::mesh::addNodes(3, 1, mesh.numbers, mesh.coordinates);
-  }
-  for (const auto &elements : mesh.elements)
-    gmsh::model::mesh::addElementsByType(volume.at(elements.solid), elements.gmsh_type, elements.numbers,
-                                         elements.nodes);
-  return {mesh.node_sets, mesh.faces};
-}
 
 std::map<int, std::vector<std::string>> divide_skin(ExtractedMesh &extracted, const MeshGroups &groups)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fem/mesh/mesh_extraction.h"
+#include "fem/geometry/cad_model.h"
+#include "fem/mesh/extracted_mesh.h"
 
 #include <map>
 #include <string>
@@ -8,10 +9,6 @@
 
 namespace gestell::fem
 {
-
-/// Loads the mesh of an .inp file into gmsh, a volume for every solid.
-/// @throws std::invalid_argument as read_inp()
-MeshGroups load_inp(CadModel &model, const CadSource &source);
 
 /**
  * Gives surfaces to a skin that has none, or not enough: where the file names no surface, triangles hang together

@@ -2,6 +2,7 @@
 
 #include "fem/geometry/gmsh_faces.h"
 #include "fem/geometry/gmsh_session.h"
+#include "fem/geometry/read_cad.h"
 #include "fem/geometry/shared_faces.h"
 #include "fem/geometry/small_features.h"
 #include "fem/geometry/solid_materials.h"

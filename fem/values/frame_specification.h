@@ -1,7 +1,8 @@
 #pragma once
 
-#include "fem/geometry/cad_file.h"
+#include "fem/values/cad_source.h"
 #include "fem/values/modal_ratios.h"
+#include "fem/values/vector3.h"
 
 #include <Eigen/Core>
 
@@ -14,8 +15,6 @@
 
 namespace gestell::fem
 {
-
-using Vector3 = std::array<double, 3>;
 
 /// Surface of the CAD model, by what a user can see of it.  All given conditions must hold.
 struct SurfaceSelector

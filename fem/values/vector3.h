@@ -1,11 +1,12 @@
 #pragma once
 
-#include "fem/values/frame_specification.h"
-
+#include <array>
 #include <cmath>
 
 namespace gestell::fem
 {
+
+using Vector3 = std::array<double, 3>;
 
 inline Vector3 operator+(const Vector3 &a, const Vector3 &b)
 {

@@ -8,9 +8,9 @@
 #include "fem/mesh/hexahedral_mesh.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesher.h"
-#include "fem/mesh/size_field.h"
 #include "fem/recovery/discretisation.h"
 #include "fem/recovery/mesh_error.h"
+#include "fem/recovery/refinement.h"
 #include "fem/values/two_pi.h"
 #include "fem/values/vector3.h"
 

@@ -4,6 +4,7 @@
 #include "coupling/plugin/frame/make_mesh_report.h"
 #include "coupling/plugin/mesh_report.h"
 #include "coupling/reduction/craig_bampton.h"
+#include "fem/mesh/measure_body.h"
 
 namespace gestell::coupling
 {

@@ -1,7 +1,7 @@
 #include "fem/mesh/hexahedral_mesh.h"
-#include "fem/mesh/size_field.h"
 #include "fem/mesh/wall_thickness.h"
 #include "fem/recovery/discretisation.h"
+#include "fem/recovery/refinement.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
 #include "tests/support/lowest_modes.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "fem/geometry/cad_file.h"
-
 #include <Eigen/Core>
 
 #include <array>
@@ -23,15 +21,5 @@ struct CadBody
   std::vector<std::array<double, 3>> points;    ///< [m]
   std::vector<std::array<int, 3>>    triangles; ///< outside counter-clockwise
 };
-
-/**
- * Volume, centre and inertia of the solids in a .step, .stp, .brep, .geo, .msh or .stl file.
- *
- * Of CAD by OpenCASCADE's integrals over the faces, of tetrahedra and of closed triangles by exact sums; the unit is as
- * in open_cad(), for a .stl it must be given.
- *
- * @throws std::invalid_argument as open_cad(), or if a surface of triangles is open or solids overlap.
- */
-CadBody measure_part(const CadSource &source);
 
 } // namespace gestell::fem

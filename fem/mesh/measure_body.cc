@@ -1,7 +1,8 @@
-#include "fem/assembly/cad_body.h"
+#include "fem/mesh/measure_body.h"
 
-#include "fem/geometry/cad_model.h"
+#include "fem/geometry/cad_file.h"
 #include "fem/geometry/gmsh_session.h"
+#include "fem/geometry/read_cad.h"
 #include "fem/mesh/hexahedral_mesh.h"
 #include "fem/mesh/mesh_extraction.h"
 #include "fem/mesh/mesh_quality.h"

@@ -1,6 +1,6 @@
 // Mass, centre and inertia of parts against closed forms; bad parts are refused.
 
-#include "fem/assembly/cad_body.h"
+#include "fem/mesh/measure_body.h"
 #include "fem/values/triangle_surface.h"
 #include "tests/support/cad_samples.h"
 

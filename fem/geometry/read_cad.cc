@@ -1,0 +1,244 @@
+#include "fem/geometry/read_cad.h"
+
+#include "fem/geometry/cad_file.h"
+#include "fem/geometry/defeature.h"
+#include "fem/geometry/gmsh_faces.h"
+#include "fem/geometry/harmless_files.h"
+#include "fem/geometry/load_inp.h"
+#include "fem/geometry/shells.h"
+#include "fem/geometry/solid_union.h"
+#include "fem/geometry/step_attributes.h"
+#include "fem/values/vector3.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double smallest_diagonal = 1e-3; // [m]
+constexpr double largest_diagonal  = 200.; // [m]
+constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
+constexpr double largest_likely    = 50.;  // [m]
+
+std::string last_part(const std::string &label)
+{
+  return label.substr(label.rfind('/') + 1);
+}
+
+std::string physical_name(int dim, int tag)
+{
+  std::vector<int> groups;
+  gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+  std::string name;
+  if (!groups.empty())
+    gmsh::model::getPhysicalName(dim, groups.front(), name);
+  return name;
+}
+
+std::string name_of_solid(int tag)
+{
+  std::string name;
+  gmsh::model::getEntityName(3, tag, name);
+  name = name.empty() ? physical_name(3, tag) : last_part(name);
+  return name.empty() ? "solid " + std::to_string(tag) : name;
+}
+
+Solid solid_of(int tag, double unit, bool meshed)
+{
+  Solid solid;
+  if (!meshed)
+    solid = measured_solid(tag, unit);
+  solid.tag  = tag;
+  solid.name = name_of_solid(tag);
+  return solid;
+}
+
+/// A script may mesh by itself ("Mesh 3;"): then it is a mesh, whatever kernel drew it.
+bool has_cells()
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 3);
+  return !types.empty();
+}
+
+void check_kernel(const CadSource &source)
+{
+  gmsh::vectorpair of_model, of_opencascade;
+  gmsh::model::getEntities(of_model, 3);
+  gmsh::model::occ::getEntities(of_opencascade, 3);
+  if (of_model.size() != of_opencascade.size())
+    throw std::invalid_argument(
+        source.place + ": " + source.path +
+        " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
+        "it with SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" to mesh by itself.");
+}
+
+/// Cells of surfaces in a mesh file.
+std::size_t shell_cells(const CadModel &model)
+{
+  std::vector<int>                      types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  std::size_t n = 0;
+  for (const auto &of_type : elements)
+    n += of_type.size();
+  for (const auto &[name, faces] : model.groups.faces) // of an .inp
+    n += faces.size();
+  return n;
+}
+
+void check_solids(const CadModel &model, const CadSource &source, const GmshSession &session)
+{
+  const std::string head = source.place + ": " + source.path;
+  if (model.solids.empty())
+  {
+    gmsh::vectorpair faces;
+    gmsh::model::getEntities(faces, 2);
+    const std::string said    = session.errors();
+    const std::string what    = faces.empty() ? "no shape"
+                                              : "no closed solid, only " + std::to_string(faces.size()) +
+                                                 " faces (shells or surfaces)" +
+                                                 (model.meshed ? "" : open_edges_of_faces(model.unit));
+    const std::size_t n_shell = model.meshed ? shell_cells(model) : 0;
+    const std::string cells   = n_shell == 0 ? " holds no tetrahedra"
+                                             : " holds " + std::to_string(n_shell) +
+                                                 " triangles and quadrilaterals (a shell or a skin), but no tetrahedra";
+    throw std::invalid_argument(head + (model.meshed ? cells : " holds " + what) +
+                                (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
+                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving; a plate "
+                                                "is taken as a solid of its thickness."
+                                              : "closed solid: sew the faces into a solid and export it as a solid."));
+  }
+  for (const Solid &solid : model.solids)
+    if (!model.meshed && !(solid.volume > 0.))
+      throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has the volume " + text(solid.volume) +
+                                  " m^3; it is open or turned inside out: repair it in the CAD program.");
+}
+
+/// How another unit is given, if lengths are wrong by a factor of a thousand.
+std::string way_to_another_unit(const CadModel &model, const CadSource &source)
+{
+  const double diagonal = model.diagonal(), likely = diagonal > 1. ? 1e-3 : 1e3;
+  return (is_step(source.path) ? "export it again with the right unit, or set unit to the true length of what the file "
+                                 "calls a millimetre"
+                               : "set unit to the length of the file's unit, such as \"mm\"") +
+         (" (unit = " + text(likely * (is_step(source.path) && source.unit == 0. ? 1e-3 : model.unit))) +
+         " m would make it " + text(diagonal * likely) + " m)";
+}
+
+void check_size(const CadModel &model, const CadSource &source)
+{
+  const double diagonal = model.diagonal();
+  if (diagonal < smallest_diagonal || diagonal > largest_diagonal)
+    throw std::invalid_argument(
+        source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " +
+        text(smallest_diagonal) + " m to " + text(largest_diagonal) +
+        " m are expected, so its unit is probably wrong: " + way_to_another_unit(model, source) + ".");
+}
+
+} // namespace
+
+std::string suspect_size(const CadModel &model, const CadSource &source)
+{
+  const double diagonal = model.diagonal();
+  if (diagonal >= smallest_likely && diagonal <= largest_likely)
+    return "";
+  return source.path + " is " + text(diagonal) + " m across, which few frames are: are its lengths in " +
+         (diagonal > 1. ? "millimetres, taken for metres" : "metres, taken for millimetres") + "? If so, " +
+         way_to_another_unit(model, source);
+}
+
+namespace
+{
+
+/// Reads `opened` in place of source.path.
+CadModel read_model(const CadSource &source, CadFile file, const std::string &opened, const GmshSession &session)
+{
+  CadModel model;
+  model.meshed = is_mesh(file) || file == CadFile::triangles;
+  model.unit   = source.unit > 0. ? source.unit : 1.;
+  if (file == CadFile::step && source.unit > 0.)
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+
+  name_faces_of_step();
+  session.run([&] { file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened); },
+              source.place + ": gmsh cannot read " + source.path + ": ",
+              "; it may be damaged: export the model again, and see whether gmsh opens it.");
+  model.meshed = model.meshed || (file == CadFile::geo && has_cells());
+  if (!model.meshed)
+    check_kernel(source);
+
+  gmsh::vectorpair solids;
+  gmsh::model::getEntities(solids, 3);
+  for (const auto &[dim, tag] : solids)
+    model.solids.push_back(solid_of(tag, model.unit, model.meshed));
+  if (file != CadFile::triangles)
+    check_solids(model, source, session);
+
+  auto &[x0, y0, z0] = model.min;
+  auto &[x1, y1, z1] = model.max;
+  gmsh::model::getBoundingBox(-1, -1, x0, y0, z0, x1, y1, z1);
+  model.min = model.unit * model.min;
+  model.max = model.unit * model.max;
+  check_size(model, source);
+  return model;
+}
+
+} // namespace
+
+CadModel open_cad(const CadSource &source, const GmshSession &session)
+{
+  const CadFile       file = check_cad_file(source);
+  const HarmlessFiles harmless(source, file);
+  try
+  {
+    return read_model(source, file, harmless.path(), session);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(harmless.in_own_names(error.what()));
+  }
+}
+
+CadSource source_of(const FrameSpecification &specification)
+{
+  return {specification.cad, specification.unit, specification.place, specification.scripts};
+}
+
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+{
+  const CadSource source = source_of(specification);
+  const CadFile   file   = check_cad_file(source);
+  if (file == CadFile::triangles)
+    throw std::invalid_argument(source.place + ": " + source.path +
+                                " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "
+                                "or give a mesh of tetrahedra as .msh.");
+  if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
+    gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
+  CadModel model = open_cad(source, session);
+  if (model.meshed) // judged by its cells
+    return model;
+  if (file == CadFile::geo && specification.mesh.defeature > 0.)
+    throw std::invalid_argument(specification.mesh.place + ": defeature is for STEP and BREP files; " + source.path +
+                                " is a script that can do it itself: HealShapes, or leave the feature out.");
+  check_shells(model, source);
+  join_solids(model, specification, session);
+  model.faces = outer_faces(model.unit, model.diagonal());
+  if (file == CadFile::step && attributes == FaceAttributes::read)
+    add_step_attributes(model.faces, source);
+  check_bodies(model, specification);
+  if (file != CadFile::geo)
+    defeature(model, specification, session);
+  return model;
+}
+
+} // namespace gestell::fem

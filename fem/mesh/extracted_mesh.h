@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fem/mesh/mesh_nodes.h"
+#include "fem/values/mesh.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// gmsh's mesh as a value, and where its skin comes from.
+struct ExtractedMesh
+{
+  Mesh                     mesh;         ///< without named surfaces
+  std::vector<int>         skin_surface; ///< for each triangle of the skin the tag of gmsh's surface, 0 if it has none
+  std::vector<std::size_t> node;         ///< for each point gmsh's tag
+};
+
+struct ExtractionOptions
+{
+  int    bodies = 1;  ///< expected number of bodies whose cells hang together by common faces; 0: any
+  double gap    = 0.; ///< nodes no further apart are taken for one [m]
+};
+
+/// What can be said where bodies of a mesh only touch: how many of their nodes lie upon each other; "" for none.
+std::string touching_nodes(const Mesh &mesh);
+
+/// Notes on nodes that were merged, lie upon others, or belong to no cell.
+void note_nodes(Mesh &mesh, const MeshNodes &nodes);
+
+} // namespace gestell::fem
