@@ -1,6 +1,6 @@
 #include "apps/atlas/atlas.h"
 
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <cmath>
 

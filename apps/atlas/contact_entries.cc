@@ -3,8 +3,8 @@
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
 #include "apps/output/charts/log_chart.h"
-#include "apps/output/text/number_text.h"
 #include "coupling/integration/events/event_driver.h"
+#include "fem/values/number_text.h"
 #include "mechanism/elements/clearance.h"
 
 #include <algorithm>

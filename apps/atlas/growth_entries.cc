@@ -3,7 +3,7 @@
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
 #include "apps/output/charts/log_chart.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
 #include "apps/output/charts/log_chart.h"
-#include "apps/output/text/number_text.h"
 #include "coupling/integration/bdf/bdf_formula.h"
 #include "coupling/integration/step/implicit_step.h"
+#include "fem/values/number_text.h"
 #include "mechanism/elements/cubic_spring.h"
 
 #include <cmath>

@@ -1,11 +1,11 @@
 // Ideal joints: held by their accelerations they drift open, and of index 3 the first multiplier is half of itself.
 
 #include "apps/atlas/atlas.h"
-#include "apps/output/text/number_text.h"
 #include "coupling/integration/method.h"
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/machine/machine.h"
+#include "fem/values/number_text.h"
 #include "mechanism/joints/ideal_joint.h"
 
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/progress.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/text/write_file.h"
 
 #include <cmath>
 #include <iostream>

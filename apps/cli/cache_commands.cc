@@ -1,8 +1,8 @@
 #include "apps/cli/cache_commands.h"
 
 #include "apps/cli/prepared_machine.h"
-#include "apps/output/text/number_text.h"
 #include "coupling/frame/frame_cache.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

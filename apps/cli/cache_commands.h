@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/cli/commands.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 namespace gestell::apps
 {

@@ -9,6 +9,8 @@
 #include "apps/output/charts/work_precision_chart.h"
 #include "apps/output/report/work_precision_page.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/text/write_file.h"
+#include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/version.h"
 #include "fem/values/nearest_name.h"

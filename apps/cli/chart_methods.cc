@@ -1,7 +1,7 @@
 #include "apps/cli/chart_methods.h"
 
-#include "apps/output/text/number_text.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <stdexcept>
 

@@ -1,9 +1,9 @@
 #include "apps/cli/commands.h"
-#include "apps/output/text/number_text.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
+#include "fem/values/number_text.h"
 
 #include <iostream>
 #include <set>

@@ -1,5 +1,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/progress.h"
+#include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/scene/read/read_material.h"
 #include "coupling/plugin/frame_service_loader.h"

@@ -5,7 +5,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <cmath>
 #include <iomanip>

@@ -1,8 +1,10 @@
 #include "apps/cli/modes_along.h"
 
 #include "apps/output/report/modes_along_report.h"
-#include "apps/output/text/number_text.h"
+#include "apps/output/tables/modes_along_table.h"
+#include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "apps/cli/prepared_machine.h"
 
-#include "apps/commit.h"
+#include "apps/cli/commit.h"
 #include "apps/scene/build/carried_bodies.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/free_bodies.h"
-#include "apps/scene/language/matrix_units.h"
+#include "apps/scene/read/matrix_units.h"
 #include "apps/version.h"
 #include "coupling/equilibrium/static_expansion.h"
 #include "coupling/frame/frame_cache.h"

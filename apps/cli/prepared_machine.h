@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/cli/progress.h"
-#include "apps/output/result.h"
+#include "apps/output/values/result.h"
 #include "apps/scene/build/build_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
 

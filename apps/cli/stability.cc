@@ -4,8 +4,9 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/number_text.h"
+#include "apps/output/text/write_file.h"
 #include "apps/version.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

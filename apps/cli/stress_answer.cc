@@ -1,7 +1,7 @@
 #include "apps/cli/stress_answer.h"
 
-#include "apps/output/text/number_text.h"
 #include "coupling/frame/stress_search.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <stdexcept>

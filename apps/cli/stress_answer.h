@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/output/tables/stress_result.h"
-#include "apps/scene/scene.h"
+#include "apps/output/values/stress_result.h"
+#include "apps/scene/values/requests.h"
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/simulation/simulation.h"
 

@@ -3,7 +3,9 @@
 #include "apps/output/paraview/paraview.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
+#include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/result_tables.h"
+#include "apps/output/text/write_file.h"
 #include "coupling/frame/whole_file.h"
 
 #include <algorithm>
@@ -78,14 +80,6 @@ void write_along_tables(const Write &write, const Result &result)
 }
 
 } // namespace
-
-void write_file(const fs::path &path, const std::string &content)
-{
-  fs::create_directories(path.parent_path());
-  coupling::WholeFile file(path.string());
-  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.finish();
-}
 
 bool incomplete(const fs::path &folder)
 {

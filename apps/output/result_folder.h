@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/result.h"
+#include "apps/output/values/result.h"
 
 #include <filesystem>
 #include <string>
@@ -38,8 +38,5 @@ void write_modes(const std::filesystem::path &folder, const Result &result);
 bool incomplete(const std::filesystem::path &folder);
 
 std::string incomplete_words(const std::filesystem::path &folder); ///< a warning of such a folder
-
-/// Makes a file that is whole or not there.  @throws std::runtime_error with path and reason.
-void write_file(const std::filesystem::path &path, const std::string &content);
 
 } // namespace gestell::apps

@@ -1,7 +1,7 @@
 #include "coupling/eigensolvers/sturm_check.h"
 
-#include "coupling/algebra/rounded.h"
 #include "coupling/integration/system/second_order_system.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "coupling/reduction/craig_bampton.h"
 
-#include "coupling/algebra/rounded.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/estimates/mode_selection.h"
 #include "coupling/reduction/shapes/attachment_modes.h"
@@ -9,6 +8,7 @@
 #include "coupling/reduction/shapes/residual_flexibility.h"
 #include "fem/assembly/rigid_body_modes.h"
 #include "fem/assembly/rigid_motions.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <Eigen/QR>

@@ -74,6 +74,25 @@ TEST(Search, SeesTheWholeHouse)
   EXPECT_FALSE(includes_matching(tree(), {"coupling/"}, {}, "fem/").empty()) << "coupling is built on fem's values";
 }
 
+TEST(Includes, OfScenesGoDownFromTheMachineToTheLanguage)
+{
+  const std::vector<std::string> folders = {"language/", "file/", "values/", "read/", "elements/", "scene", "build/"};
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    for (std::size_t j = i + 1; j < folders.size(); ++j)
+      EXPECT_TRUE(none(includes_matching(tree(), {"apps/scene/" + folders[i]}, {}, "apps/scene/" + folders[j])));
+  EXPECT_TRUE(none(includes_matching(tree(), {"apps/scene/"}, {}, "apps/(?!scene/)")));
+}
+
+TEST(Includes, OfOutputGoDownFromTheFolderToTheText)
+{
+  const std::vector<std::string> folders = {"text/",   "values/", "tables/",   "pictures/",
+                                            "charts/", "report/", "paraview/", "result_folder"};
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    for (std::size_t j = i + 1; j < folders.size(); ++j)
+      EXPECT_TRUE(none(includes_matching(tree(), {"apps/output/" + folders[i]}, {}, "apps/output/" + folders[j])));
+  EXPECT_TRUE(none(includes_matching(tree(), {"apps/output/"}, {}, "apps/(?!output/)")));
+}
+
 TEST(Includes, OfFemStayWithinFem)
 {
   EXPECT_TRUE(none(includes_matching(tree(), {"fem/"}, {}, "mechanism/|coupling/|apps/|tests/")));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/result.h"
+#include "apps/output/values/result.h"
 
 namespace gestell::apps
 {

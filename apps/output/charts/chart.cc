@@ -1,7 +1,7 @@
 #include "apps/output/charts/chart.h"
 
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "apps/output/charts/log_chart.h"
 
 #include "apps/output/charts/chart.h"
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "apps/output/charts/chart.h"
 #include "apps/output/pictures/skin_picture.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

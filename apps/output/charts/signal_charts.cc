@@ -1,7 +1,7 @@
 #include "apps/output/charts/signal_charts.h"
 
 #include "apps/output/charts/chart.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cctype>

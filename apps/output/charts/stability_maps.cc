@@ -1,7 +1,7 @@
 #include "apps/output/charts/stability_maps.h"
 
 #include "apps/output/charts/log_chart.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

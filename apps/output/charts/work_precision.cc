@@ -1,6 +1,6 @@
 #include "apps/output/charts/work_precision.h"
 
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "apps/output/charts/work_precision_chart.h"
 
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <array>

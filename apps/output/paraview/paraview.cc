@@ -1,8 +1,8 @@
 #include "apps/output/paraview/paraview.h"
 
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/result_folder.h"
-#include "apps/output/text/number_text.h"
+#include "apps/output/text/write_file.h"
+#include "fem/values/number_text.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

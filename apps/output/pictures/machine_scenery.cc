@@ -1,5 +1,5 @@
 // Alone in this file, so that all else of the output can be linked and tested without a machine.
-#include "apps/output/pictures/scenery.h"
+#include "apps/output/values/scenery.h"
 
 namespace gestell::apps
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/output/pictures/scenery.h"
 #include "apps/output/pictures/shape.h"
+#include "apps/output/values/scenery.h"
 
 namespace gestell::apps
 {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/scenery.h"
 #include "apps/output/pictures/skin.h"
-#include "apps/output/text/number_text.h"
+#include "apps/output/values/scenery.h"
+#include "fem/values/number_text.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "apps/output/report/frame_text.h"
 
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

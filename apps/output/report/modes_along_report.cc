@@ -1,9 +1,10 @@
 #include "apps/output/report/modes_along_report.h"
 
 #include "apps/output/charts/mode_charts.h"
+#include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/html.h"
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace
 {
 
 constexpr double      widest_chart = 3., least_span = 0.1; ///< highest to lowest frequency; of the height, relative
-constexpr double      no_damping  = 1e-12;                 ///< what rounding leaves
 constexpr double      seen_change = 0.02;                  ///< of a frequency, from which on shapes are drawn
 constexpr std::size_t most_lines = 7, most_shapes = 4;
 
@@ -178,7 +178,7 @@ std::string meetings_table(const AlongResult &along)
 }
 
 /// Shapes of the lines that change most, where their frequencies are lowest and highest.
-std::string extreme_shapes(const Result &result, Report &report)
+std::string extreme_shapes(const Result &result, Pictures &pictures)
 {
   const ModesAlong        &modes = result.along->modes;
   std::vector<std::size_t> lines;
@@ -202,9 +202,9 @@ std::string extreme_shapes(const Result &result, Report &report)
         {
           const std::string title = "Line " + std::to_string(i + 1) + " at " + at_text(modes, at.x) + ": " +
                                     short_text(at.modes[i].frequency_hz) + " Hz";
-          report.charts.emplace_back("shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
-                                     shape_svg(result, title, at.modes[i]));
-          html += figure(report.charts.back().second);
+          pictures.emplace_back("shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
+                                shape_svg(result, title, at.modes[i]));
+          html += figure(pictures.back().second);
         }
     }
   return html.empty() ? ""
@@ -232,39 +232,6 @@ std::string statement(const AlongResult &along)
 }
 
 } // namespace
-
-LineExtremes line_extremes(const ModesAlong &along, std::size_t line)
-{
-  LineExtremes own;
-  own.min = own.least_damping = own.largest_damping = own.least_assurance = std::nan("");
-  for (const ModesAt &at : along.positions)
-  {
-    if (line >= at.modes.size())
-      continue;
-    const coupling::Mode &mode = at.modes[line];
-    if (std::isnan(own.min) || mode.frequency_hz < own.min)
-    {
-      own.min   = mode.frequency_hz;
-      own.x_min = at.x;
-    }
-    if (mode.frequency_hz > own.max)
-    {
-      own.max   = mode.frequency_hz;
-      own.x_max = at.x;
-    }
-    if (mode.growth > own.growth)
-    {
-      own.growth   = mode.growth;
-      own.x_growth = at.x;
-    }
-    const double damping = std::abs(mode.damping_ratio) < no_damping ? 0. : mode.damping_ratio;
-    own.least_damping    = std::fmin(own.least_damping, damping); // nan gives way
-    own.largest_damping  = std::fmax(own.largest_damping, damping);
-    if (line < at.assurance.size())
-      own.least_assurance = std::fmin(own.least_assurance, at.assurance[line]);
-  }
-  return own;
-}
 
 std::vector<LineChart> along_charts(const AlongResult &along)
 {
@@ -295,9 +262,9 @@ std::vector<LineChart> along_charts(const AlongResult &along)
   return charts;
 }
 
-std::vector<std::pair<std::string, std::string>> along_pictures(const AlongResult &along)
+Pictures along_pictures(const AlongResult &along)
 {
-  std::vector<std::pair<std::string, std::string>> pictures;
+  Pictures pictures;
   for (const LineChart &chart : along_charts(along))
     pictures.emplace_back("modes-along" +
                               (pictures.empty() ? std::string() : "-" + std::to_string(pictures.size() + 1)),
@@ -305,7 +272,7 @@ std::vector<std::pair<std::string, std::string>> along_pictures(const AlongResul
   return pictures;
 }
 
-std::string along_section(const Result &result, Report &report)
+std::string along_section(const Result &result, Pictures &pictures)
 {
   if (!result.along)
     return "";
@@ -313,51 +280,14 @@ std::string along_section(const Result &result, Report &report)
   std::string        html  = statement(along);
   for (const auto &picture : along_pictures(along))
   {
-    report.charts.push_back(picture);
+    pictures.push_back(picture);
     html += figure(picture.second);
   }
   if (!along.meetings.empty())
     html += "<p class=\"soft\">Rings: an order of the excitation comes near a frequency.</p>\n";
-  html +=
-      meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) + extreme_shapes(result, report);
+  html += meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) +
+          extreme_shapes(result, pictures);
   return section("along", "Natural frequencies along " + escape_xml(along.modes.coordinate.name), html);
-}
-
-std::string modes_along_csv(const AlongResult &along)
-{
-  std::string csv = along.modes.coordinate.name + " [" + along.modes.coordinate.unit +
-                    "],line,frequency [Hz],damped frequency [Hz],damping ratio,mac,configuration,growth [1/s]\n";
-  for (const ModesAt &at : along.modes.positions)
-    for (std::size_t i = 0; i < at.modes.size(); ++i)
-    {
-      append_exact(csv, at.x);
-      csv += ',' + std::to_string(i + 1);
-      for (const double value : {at.modes[i].frequency_hz, at.modes[i].damped_frequency_hz, at.modes[i].damping_ratio,
-                                 i < at.assurance.size() ? at.assurance[i] : std::nan("")})
-        append_exact(csv += ',', value);
-      csv += at.configuration == coupling::Configuration::equilibrium ? ",equilibrium," : ",undeformed,";
-      append_exact(csv, at.modes[i].growth);
-      csv += '\n';
-    }
-  return csv;
-}
-
-std::string modes_along_shapes_csv(const AlongResult &along, const std::vector<std::string> &coordinates)
-{
-  std::string csv = along.modes.coordinate.name + " [" + along.modes.coordinate.unit + "],line";
-  for (const std::string &name : coordinates)
-    csv += ',' + name;
-  csv += '\n';
-  for (const ModesAt &at : along.modes.positions)
-    for (std::size_t i = 0; i < at.modes.size(); ++i)
-    {
-      append_exact(csv, at.x);
-      csv += ',' + std::to_string(i + 1);
-      for (const double value : at.modes[i].shape)
-        append_exact(csv += ',', value);
-      csv += '\n';
-    }
-  return csv;
 }
 
 } // namespace gestell::apps

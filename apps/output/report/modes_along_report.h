@@ -1,7 +1,8 @@
 #pragma once
 
 #include "apps/output/charts/chart.h"
-#include "apps/output/report/report.h"
+#include "apps/output/text/svg.h"
+#include "apps/output/values/result.h"
 
 #include <string>
 #include <vector>
@@ -14,26 +15,10 @@ namespace gestell::apps
 /// horizontal lines, rings mark where one comes near a frequency.  Lines without frequency are left out.
 std::vector<LineChart> along_charts(const AlongResult &along);
 
-/// The same as pictures, each (file name without ending, SVG).
-std::vector<std::pair<std::string, std::string>> along_pictures(const AlongResult &along);
+/// The same as pictures.
+Pictures along_pictures(const AlongResult &along);
 
-/// The section of the report; adds its charts.  "" without such a result.
-std::string along_section(const Result &result, Report &report);
-
-/// modes_along.csv: one row per position and line, full precision, SI.
-std::string modes_along_csv(const AlongResult &along);
-
-/// modes_along_shapes.csv: the shapes to these rows, mass normalised, one column per coordinate of the machine.
-std::string modes_along_shapes_csv(const AlongResult &along, const std::vector<std::string> &coordinates);
-
-/// What a line does over all positions.
-struct LineExtremes
-{
-  double min = 0., x_min = 0., max = 0., x_max = 0.; ///< undamped frequency [Hz]
-  double least_damping = 0., largest_damping = 0.;   ///< ratios; nan where it never vibrates
-  double growth = 0., x_growth = 0.;                 ///< largest [1/s], and where
-  double least_assurance = 0.;                       ///< of the tracking; nan with one position
-};
-LineExtremes line_extremes(const coupling::ModesAlong &along, std::size_t line);
+/// The section of the report; adds its pictures.  "" without such a result.
+std::string along_section(const Result &result, Pictures &pictures);
 
 } // namespace gestell::apps

@@ -7,9 +7,9 @@
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/report_style.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -357,12 +357,13 @@ Report make_report(const Result &full)
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body = answer_section(result, report) + stress_section(result, report) +
+  const std::string body = answer_section(result, report) + stress_section(result, report.charts) +
                            chart_section(charts, ChartTopic::force, "forces", "Forces") +
                            chart_section(charts, ChartTopic::motion, "motion", "Motion") +
                            chart_section(charts, ChartTopic::other, "signals", "Other signals") +
-                           events_section(result) + energy_section(result, charts) + along_section(result, report) +
-                           modes_section(result, report) + numerics_section(result);
+                           events_section(result) + energy_section(result, charts) +
+                           along_section(result, report.charts) + modes_section(result, report) +
+                           numerics_section(result);
 
   const std::string title = escape_xml(result.scene);
   report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "

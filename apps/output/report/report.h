@@ -1,19 +1,19 @@
 #pragma once
 
-#include "apps/output/result.h"
+#include "apps/output/text/svg.h"
+#include "apps/output/values/result.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gestell::apps
 {
 
-/// The report and its pictures, each (file name without ending, SVG).
+/// The report and its pictures.
 struct Report
 {
-  std::string                                      html;
-  std::vector<std::pair<std::string, std::string>> charts;
+  std::string html;
+  Pictures    charts;
 };
 
 /**

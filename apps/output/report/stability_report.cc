@@ -1,8 +1,8 @@
 #include "apps/output/report/stability_report.h"
 
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/report_style.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/text/html.h"
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 
@@ -77,7 +77,7 @@ double top_of(const StressAt &at)
 
 } // namespace
 
-std::string stress_section(const Result &result, Report &report)
+std::string stress_section(const Result &result, Pictures &pictures)
 {
   if (!result.stress || result.stress->instants.empty())
     return "";
@@ -101,10 +101,10 @@ std::string stress_section(const Result &result, Report &report)
     field.unit = unit;
     if (at.peak)
       field.mark = at.peak->at;
-    report.charts.emplace_back("stress-" + std::to_string(k + 1),
-                               field_picture_svg(field, at.label.empty() ? "t = " + time_text(at.t) : at.label,
-                                                 "σᵥ [" + unit.unit + "], t = " + time_text(at.t)));
-    html += figure(report.charts.back().second);
+    pictures.emplace_back("stress-" + std::to_string(k + 1),
+                          field_picture_svg(field, at.label.empty() ? "t = " + time_text(at.t) : at.label,
+                                            "σᵥ [" + unit.unit + "], t = " + time_text(at.t)));
+    html += figure(pictures.back().second);
   }
   return section("stress", "Stress in the frame", html + "</div>\n");
 }

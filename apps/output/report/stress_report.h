@@ -1,15 +1,15 @@
 #pragma once
 
-#include "apps/output/report/report.h"
-#include "apps/output/result.h"
+#include "apps/output/text/svg.h"
+#include "apps/output/values/result.h"
 
 #include <string>
 
 namespace gestell::apps
 {
 
-/// Stresses for the page: table of the largest and a picture of each instant, which joins the report's charts; "" if
+/// Stresses for the page: table of the largest and a picture of each instant, which joins `pictures`; "" if
 /// there are none.
-std::string stress_section(const Result &result, Report &report);
+std::string stress_section(const Result &result, Pictures &pictures);
 
 } // namespace gestell::apps

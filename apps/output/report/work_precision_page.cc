@@ -3,9 +3,9 @@
 #include "apps/output/charts/work_precision_chart.h"
 #include "apps/output/report/work_precision_script.h"
 #include "apps/output/text/json.h"
-#include "apps/output/text/number_text.h"
 #include "apps/output/text/report_style.h"
 #include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
 
 #include <cmath>
 

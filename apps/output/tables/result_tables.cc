@@ -1,8 +1,8 @@
 #include "apps/output/tables/result_tables.h"
 
-#include "apps/output/report/modes_along_report.h"
+#include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/json.h"
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>

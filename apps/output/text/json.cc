@@ -1,6 +1,6 @@
 #include "apps/output/text/json.h"
 
-#include "apps/output/text/number_text.h"
+#include "fem/values/number_text.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gestell::apps
 {
+
+using Pictures = std::vector<std::pair<std::string, std::string>>; ///< file name without ending, SVG
 
 /// Text made safe inside XML and HTML, in elements and in quoted attributes.
 std::string escape_xml(const std::string &text);

@@ -3,6 +3,7 @@
 #include "apps/scene/build/build_joint_friction.h"
 #include "apps/scene/build/build_measures.h"
 #include "apps/scene/build/joint_equations.h"
+#include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "mechanism/joints/compliant_joint.h"
 #include "mechanism/transmitted_element.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 #include "coupling/machine/machine.h"
 
 namespace gestell::apps

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 #include "mechanism/joints/ideal_joint.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 #include "coupling/frame/reduced_frame.h"
 
 namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/kloss_motor.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_share.h"
 #include "apps/scene/read/relative_motion.h"
 

@@ -1,5 +1,6 @@
 #include "mechanism/elements/drawing_force.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/dynamic_motor.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 #include <cmath>

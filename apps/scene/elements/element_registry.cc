@@ -1,5 +1,7 @@
 #include "apps/scene/elements/element_registry.h"
 
+#include "apps/scene/read/read_switches.h"
+
 namespace gestell::apps
 {
 
@@ -65,6 +67,26 @@ const std::vector<ElementType> &element_types()
       {"drawing force", read_drawing_force},
   };
   return types;
+}
+
+void read_elements(const SceneTable &table, const Names &names, Scene &scene)
+{
+  std::vector<std::string> types;
+  for (const auto &type : element_types())
+    types.push_back(type.name);
+  for (const auto &element : table.tables("element"))
+  {
+    check_thing_name(element);
+    if (names.find_body(element.name()))
+      throw element.error("a body has the name '" + element.name() + "' too; signals could not tell them apart");
+    scene.element_places[element.name()] = element.place();
+    const std::string type               = element.choice("type", types, "");
+    for (const auto &known : element_types())
+      if (known.name == type)
+        known.read(element, names, scene);
+    if (element.choice("initially", {"on", "off"}, "on") == "off")
+      begin_off(element, scene);
+  }
 }
 
 } // namespace gestell::apps

@@ -2,7 +2,7 @@
 
 #include "apps/scene/file/scene_table.h"
 #include "apps/scene/read/names.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 #include <string>
 #include <vector>
@@ -21,5 +21,8 @@ struct ElementType
 
 /// All types of elements; to add one, write elements/x.cc and its line here.
 const std::vector<ElementType> &element_types();
+
+/// Reads all [element.NAME] into the scene.
+void read_elements(const SceneTable &table, const Names &names, Scene &scene);
 
 } // namespace gestell::apps

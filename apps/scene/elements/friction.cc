@@ -1,6 +1,7 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/regularised_friction.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 

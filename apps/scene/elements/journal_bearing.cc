@@ -1,5 +1,6 @@
 #include "mechanism/elements/journal_bearing.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
 

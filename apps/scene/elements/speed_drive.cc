@@ -1,5 +1,6 @@
 #include "mechanism/elements/speed_drive.h"
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 

@@ -1,5 +1,7 @@
 #include "apps/scene/file/parameters.h"
 
+#include "apps/scene/language/parse_quantity.h"
+#include "apps/scene/language/tokens.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>

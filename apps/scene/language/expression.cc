@@ -234,4 +234,12 @@ Expression called(const std::string &name, const std::vector<Expression> &x)
   return elementary(name, elementary_functions().at(name), x[0]);
 }
 
+mechanism::Formula formula_as(const Expression &e, const Kind &kind, const std::string &text)
+{
+  if (e.is_value())
+    return value_as({e.formula.constant(), e.dimension, e.checked, e.counts}, kind, text);
+  check_kind({0., e.dimension, e.checked, e.counts}, false, kind, text, "which is in " + describe(e.dimension));
+  return e.formula * per_radian(e.counts, kind);
+}
+
 } // namespace gestell::apps

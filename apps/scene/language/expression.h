@@ -45,6 +45,9 @@ Expression compared(const Expression &a, const Expression &b);
 Expression chosen(const Expression &argument, mechanism::Relation relation, const Expression &then,
                   const Expression &otherwise);
 
+/// The formula of an expression that must be of `kind`, as value_as() for values.
+mechanism::Formula formula_as(const Expression &expression, const Kind &kind, const std::string &text);
+
 /// Value of the function; `name` is one of function_names() other than "if".
 Expression called(const std::string &name, const std::vector<Expression> &arguments);
 

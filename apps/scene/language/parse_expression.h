@@ -2,6 +2,8 @@
 
 #include "apps/scene/language/expression.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ struct Variable
   Counts      counts = Counts::nothing;
 };
 
+/// Value of a name in an expression; empty if there is no such parameter.
+using NameLookup = std::function<std::optional<Quantity>(const std::string &name)>;
+
 /**
  * Reads an expression by the grammar of parse_quantity(), which is this one without variables.
  *
@@ -28,8 +33,5 @@ struct Variable
 Expression parse_expression(const std::string &text, const std::vector<Variable> &variables,
                             const NameLookup &parameters, const std::vector<std::string> &names,
                             const Kind *kind = nullptr);
-
-/// The formula of an expression that must be of `kind`, as value_as() for values.
-mechanism::Formula formula_as(const Expression &expression, const Kind &kind, const std::string &text);
 
 } // namespace gestell::apps

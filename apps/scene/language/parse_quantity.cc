@@ -1,4 +1,4 @@
-#include "apps/scene/language/parse_expression.h"
+#include "apps/scene/language/parse_quantity.h"
 
 namespace gestell::apps
 {

@@ -1,9 +1,10 @@
-#include "apps/scene/language/parse_expression.h"
+#include "apps/scene/language/quantity.h"
 
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -80,13 +81,13 @@ void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_
     throw std::invalid_argument(needs_and_text + ", which counts turns of a shaft (1/min, rpm)");
 }
 
-/// The part of a turn of a shaft that is one of the kind.
+} // namespace
+
 double per_radian(Counts counts, const Kind &kind)
 {
   return counts == Counts::shaft_turns && kind.refused == Counts::radians ? 1. / full_turn : 1.;
 }
 
-/// `shown`: the quantity as messages tell it behind its text, "3 kg".
 void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::string &text, const std::string &shown)
 {
   const std::string needs = "needs " + with_article(kind) + " such as \"" + kind.example + "\", got ";
@@ -104,20 +105,10 @@ void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::st
     check_counts(q.counts, kind, needs + "\"" + text + "\"");
 }
 
-} // namespace
-
 double value_as(const Quantity &q, const Kind &kind, const std::string &text)
 {
   check_kind(q, q.value == 0., kind, text, printed(q.value) + " " + describe(q.dimension));
   return q.value * per_radian(q.counts, kind);
-}
-
-mechanism::Formula formula_as(const Expression &e, const Kind &kind, const std::string &text)
-{
-  if (e.is_value())
-    return value_as({e.formula.constant(), e.dimension, e.checked, e.counts}, kind, text);
-  check_kind({0., e.dimension, e.checked, e.counts}, false, kind, text, "which is in " + describe(e.dimension));
-  return e.formula * per_radian(e.counts, kind);
 }
 
 } // namespace gestell::apps

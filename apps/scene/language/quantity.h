@@ -1,10 +1,7 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace gestell::apps
 {
@@ -79,47 +76,17 @@ bool equal(const Dimension &a, const Dimension &b);
 std::string describe(const Dimension &dimension);
 std::string with_article(const Kind &kind); ///< "a length", "an angle"
 
-/// Value of a name in an expression; empty if there is no such parameter.
-using NameLookup = std::function<std::optional<Quantity>(const std::string &name)>;
-
-/**
- * Reads "40 mm", "2*crank_radius - 8 mm", "600 kN s/m", "1/2 * 3 kg".
- *
- *     sum     = product { (+|-) product }
- *     product = factor { (*|/) factor }
- *     factor  = (+|-) factor | power
- *     power   = operand [ ^ factor ]
- *     operand = number [units] | ( sum ) [units] | function ( sum {, sum} ) | if ( sum (<|<=|>|>=) sum , sum , sum )
- *             | pi | parameter | units
- *     units   = unit[^n] { unit[^n] | / unit[^n] | 1/unit[^n] }
- *
- * The units that follow a number belong to it more tightly than any operator; "N s/m" is (N s)/m and "kg m^2" squares
- * the metre only.  What reads in two ways is refused: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  Where
- * an operand is expected a parameter comes before a unit of the same name.  A full list of units is in docs/scene.md.
- *
- * A number per minute or hour counts the turns of a shaft, as on every name plate, however it is written: "1500 1/min",
- * "1500/min", "1500/(1 min)", "1500 min^-1", "1500 r/min", "1500 rpm".  It is 2 pi 25 rad/s as an angular speed and
- * 25 Hz as a frequency.  Multiplied or divided by anything but plain numbers and times it could be meant in either way,
- * and is refused.
- *
- * Formulas, expressions with variables, have the same grammar: parse_expression().
- *
- * @param names  of all parameters, `kind` what is needed, for proposals.
- * @throws std::invalid_argument with what was expected and where in the text.
- */
-Quantity parse_quantity(const std::string &text, const NameLookup &parameters,
-                        const std::vector<std::string> &names = {}, const Kind *kind = nullptr);
-
 /// Value of `quantity` if it is of `kind`, in the unit of the kind: of turns of a shaft rad/s or, as a frequency, Hz.
 /// @throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
 double value_as(const Quantity &quantity, const Kind &kind, const std::string &text);
 
-/// True for names that parameters cannot have: functions and pi.
-bool is_reserved_name(const std::string &name);
+/// @param is_zero  zero of anything is of every kind; `shown`: the quantity as messages tell it behind its text, "3
+/// kg".
+/// @throws std::invalid_argument if `quantity` is not of `kind`
+void check_kind(const Quantity &quantity, bool is_zero, const Kind &kind, const std::string &text,
+                const std::string &shown);
 
-/// True for a letter or underscore followed by letters, digits, underscores.
-bool is_identifier(const std::string &name);
-
-std::vector<std::string> unit_names();
+/// 1, or for turns of a shaft that are needed as a frequency 1 / 2 pi.
+double per_radian(Counts counts, const Kind &kind);
 
 } // namespace gestell::apps

@@ -1,7 +1,5 @@
 #include "apps/scene/language/tokens.h"
 
-#include "apps/scene/language/quantity.h"
-
 #include <cctype>
 #include <charconv>
 #include <cmath>

@@ -26,6 +26,9 @@ struct Token
 /// @throws std::invalid_argument at any other character.
 std::vector<Token> tokens_of(const std::string &text);
 
+/// True for a letter or underscore followed by letters, digits, underscores.
+bool is_identifier(const std::string &name);
+
 /// " (character 12)", as messages end that are about a place in a text.
 std::string character(int place);
 

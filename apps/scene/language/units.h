@@ -12,6 +12,8 @@ namespace gestell::apps
 /// All units of scene files by name, as SI values.
 const std::map<std::string, Quantity> &units();
 
+std::vector<std::string> unit_names();
+
 /// "r", "rev", "U": a turn of a shaft; a unit in front of "/min" and other times only, where it is nothing else.
 const std::map<std::string, Quantity> &turn_units();
 

@@ -1,6 +1,7 @@
 #include "apps/scene/read/read_contact.h"
 
 #include "apps/scene/language/quantity.h"
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps

@@ -1,4 +1,4 @@
-#include "apps/scene/language/matrix_units.h"
+#include "apps/scene/read/matrix_units.h"
 #include "apps/scene/read/names.h"
 #include "apps/scene/read/read_damping.h"
 #include "apps/scene/read/read_frame.h"

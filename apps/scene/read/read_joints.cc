@@ -2,7 +2,9 @@
 
 #include "apps/scene/read/joint_axes.h"
 #include "apps/scene/read/read_compliance.h"
+#include "apps/scene/read/read_function.h"
 #include "apps/scene/read/read_joint_friction.h"
+#include "apps/scene/read/read_motion.h"
 #include "apps/scene/read/read_scalars.h"
 #include "apps/scene/read/relative_motion.h"
 #include "fem/values/nearest_name.h"

@@ -2,7 +2,7 @@
 
 #include "apps/scene/file/scene_table.h"
 #include "apps/scene/read/names.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 namespace gestell::apps
 {

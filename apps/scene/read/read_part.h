@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/file/scene_table.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 namespace gestell::apps
 {

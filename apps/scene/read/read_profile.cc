@@ -1,6 +1,6 @@
 #include "apps/scene/read/read_profile.h"
 
-#include "apps/scene/read/read_scalars.h"
+#include "apps/scene/read/read_function.h"
 
 namespace gestell::apps
 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/file/scene_table.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 namespace gestell::apps
 {
@@ -11,8 +11,5 @@ RunRequest read_run(const SceneTable &scene);
 
 /// "0.5 s", for messages.
 std::string seconds(double t);
-
-/// [output]: signals, and the times between rows and pictures.
-void read_output(const SceneTable &scene, Scene &result);
 
 } // namespace gestell::apps

@@ -1,7 +1,5 @@
 #include "apps/scene/read/relative_motion.h"
 
-#include "apps/scene/read/read_scalars.h"
-
 #include <cmath>
 
 namespace gestell::apps
@@ -61,6 +59,21 @@ MotionMeasure difference(const std::string &from, const std::string &to, const V
   if (to != "ground")
     u.push_back({to, rotation, axis, -1.});
   return u;
+}
+
+void refuse_turning_point(const SceneTable &table, const Names &names, const PlaceRequest &from, const PlaceRequest &to)
+{
+  for (const auto &[key, place] : {std::pair{"from", &from}, std::pair{"to", &to}})
+  {
+    const BodyRequest *body = names.find_body(place->marker);
+    if (body && body->kind == coupling::BodyKind::point)
+      throw table.error(key, "'" + place->marker +
+                                 "' is a point, which has no rotation; make it a body of "
+                                 "type \"planar\" or \"rigid\", or take a displacement");
+  }
+  for (const char *key : {"at_from", "at_to"})
+    if (table.has(key))
+      throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
 }
 
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)

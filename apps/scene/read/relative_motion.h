@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/read/names.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/values/requests.h"
 
 #include <string>
 
@@ -29,26 +29,17 @@ struct RelativeMotion
   }
 };
 
+/// Refuses an angle of a point, which has no rotation: a torque on it would be lost; and points of bodies, whose angle
+/// is that of the whole.
+void refuse_turning_point(const SceneTable &table, const Names &names, const PlaceRequest &from,
+                          const PlaceRequest &to);
+
 /**
  * Reads `on`, a measure, or `from`, `to` and `direction` or `about`.  Without either the bodies tell: the axis of the
  * slider, or that of the rotor if the partner is one too or the ground; rotors must share it.  `from` and `to` may be
  * places, or points `at_from`, `at_to` of bodies: then u is the displacement of these points, however bodies turn.
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
-
-/// Runs `make`, and heads what the element says against its parameters with the place of the table.
-template <typename Make>
-auto checked(const SceneTable &table, Make make)
-{
-  try
-  {
-    return make();
-  }
-  catch (const std::invalid_argument &e)
-  {
-    throw table.error(e.what());
-  }
-}
 
 /// As above; of a load, whose direction may turn with `from`: `carried_by`.
 RelativeMotion read_load_motion(const SceneTable &table, const Names &names);

@@ -1,6 +1,5 @@
 #include "coupling/plugin/mesh_service.h"
 
-#include "coupling/algebra/rounded.h"
 #include "coupling/eigensolvers/blas_threads.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/reduction/craig_bampton.h"
@@ -8,6 +7,7 @@
 #include "fem/assembly/attached_masses.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <optional>

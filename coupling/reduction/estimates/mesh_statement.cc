@@ -1,13 +1,13 @@
 #include "coupling/reduction/estimates/mesh_statement.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/algebra/rounded.h"
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/modes/modes.h"
 #include "coupling/reduction/estimates/raised_modes.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/wall_thickness.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>

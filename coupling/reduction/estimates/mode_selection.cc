@@ -1,7 +1,7 @@
 #include "coupling/reduction/estimates/mode_selection.h"
 
-#include "coupling/algebra/rounded.h"
 #include "coupling/reduction/shapes/damper_attachment_modes.h"
+#include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>

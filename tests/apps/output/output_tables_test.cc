@@ -1,7 +1,8 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/text/json.h"
-#include "apps/output/text/number_text.h"
+#include "apps/output/text/write_file.h"
+#include "fem/values/number_text.h"
 #include "tests/support/output_example.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@
 #include <random>
 #include <sstream>
 
+using namespace gestell;
 using namespace gestell::apps;
 namespace fs = std::filesystem;
 

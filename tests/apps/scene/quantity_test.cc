@@ -1,6 +1,6 @@
 // Values of scenes: "40 mm", "2*crank_radius - 8 mm", "600 kN s/m".
 
-#include "apps/scene/language/quantity.h"
+#include "apps/scene/language/parse_quantity.h"
 
 #include <gtest/gtest.h>
 

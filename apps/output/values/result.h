@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/output/pictures/scenery.h"
-#include "apps/output/tables/stress_result.h"
+#include "apps/output/values/scenery.h"
+#include "apps/output/values/stress_result.h"
 #include "coupling/modes/excitation_orders.h"
 #include "coupling/modes/modes.h"
 #include "coupling/simulation/simulation.h"

@@ -1,11 +1,15 @@
+#include "apps/scene/scene.h"
+
+#include "apps/scene/elements/element_registry.h"
+#include "apps/scene/file/scene_file.h"
 #include "apps/scene/read/node_interfaces.h"
 #include "apps/scene/read/read_bodies.h"
 #include "apps/scene/read/read_frame.h"
 #include "apps/scene/read/read_joints.h"
+#include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_run.h"
 #include "apps/scene/read/read_share.h"
 #include "apps/scene/read/read_switches.h"
-#include "apps/scene/scene.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "apps/output/pictures/scenery.h"
+#include "apps/output/values/scenery.h"
 
 #include <Eigen/Geometry>
 

@@ -1,0 +1,17 @@
+#include "apps/output/text/write_file.h"
+
+#include "coupling/frame/whole_file.h"
+
+namespace gestell::apps
+{
+namespace fs = std::filesystem;
+
+void write_file(const fs::path &path, const std::string &content)
+{
+  fs::create_directories(path.parent_path());
+  coupling::WholeFile file(path.string());
+  file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.finish();
+}
+
+} // namespace gestell::apps

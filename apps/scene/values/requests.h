@@ -1,0 +1,342 @@
+#pragma once
+
+#include "apps/scene/language/quantity.h"
+#include "coupling/machine/machine.h"
+#include "coupling/plugin/frame_service.h"
+#include "coupling/simulation/simulation.h"
+#include "fem/assembly/cad_body.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
+#include "mechanism/joints/motion_law.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::apps
+{
+
+using Vector3 = std::array<double, 3>;
+
+enum class FrameSource
+{
+  none,
+  geometry,    ///< CAD or mesh, made by the FrameService
+  matrices,    ///< M, B, C inline or from files
+  reduced_file ///< a reduced frame saved by an earlier run
+};
+
+struct FrameRequest
+{
+  FrameSource             source = FrameSource::none;
+  fem::FrameSpecification geometry;
+  fem::FrameMatrices      matrices;
+  bool                    has_translations = false; ///< of `matrices`
+  std::string             reduced_file;             ///< absolute path
+  std::string             place;
+};
+
+enum class ReductionMethod
+{
+  none,
+  craig_bampton
+};
+
+struct ReductionRequest
+{
+  ReductionMethod            method = ReductionMethod::none;
+  coupling::ReductionOptions options;
+};
+
+/// The shape of a body from CAD, placed as the scene describes it.
+struct CadBodyRequest
+{
+  fem::CadBody shape;        ///< in the scene's coordinates; its inertia is for density one
+  double       density = 0.; ///< [kg/m^3]
+  std::string  found;        ///< for people: file, mass, centre of mass, inertia
+};
+
+struct BodyRequest
+{
+  std::string        name;
+  coupling::BodyKind kind = coupling::BodyKind::rotor;
+  Vector3            axis{};                           ///< unit vector
+  std::string        carrier;                          ///< marker a rotor sits on, or a slider is guided by
+  double             inertia = 0., mass = 0.;          ///< kg m^2, kg
+  Eigen::Matrix3d    tensor = Eigen::Matrix3d::Zero(); ///< inertia of a rigid body in global axes [kg m^2]
+  Vector3            position{}, size{};               ///< [m], for pictures
+  double             radius = 0.;                      ///< [m], for pictures
+  std::string        place;
+
+  std::shared_ptr<const CadBodyRequest> part; ///< inertia, mass and position come from it; null if they are given
+};
+
+/// A point of a body, an interface or the ground, in the position the scene describes.
+struct PlaceRequest
+{
+  std::string            marker;
+  std::optional<Vector3> at; ///< [m]; none: the body's own reference point
+};
+
+/// A point with a name, whose motion signals tell.
+struct NamedPlace
+{
+  std::string  name;
+  PlaceRequest point;
+  std::string  place; ///< in the scene file
+};
+
+/// weight * (motion of a marker along or about an axis).
+struct MotionTerm
+{
+  std::string marker;
+  bool        rotation = false;
+  Vector3     axis{}; ///< unit vector
+  double      weight = 1.;
+};
+using MotionMeasure = std::vector<MotionTerm>;
+
+struct MeasureRequest;
+
+/// weight * (a motion of markers, or a scalar of two places).
+struct TermRequest
+{
+  double                                weight = 1.;
+  MotionMeasure                         motion;
+  std::shared_ptr<const MeasureRequest> placed; ///< without terms of its own; null: `motion`
+};
+
+/// Two wheels about parallel axes, whose teeth mesh.
+struct MeshRequest
+{
+  Vector3 axis{};              ///< of both, unit vector
+  double  ratio          = 0.; ///< turns of the second per turn of the first, against the line of centres
+  double  pressure_angle = 0.; ///< [rad], negative: the other flank carries
+};
+
+/// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene.md, measures.
+struct MeasureRequest
+{
+  std::string                         name;
+  mechanism::RelativeMeasure::Form    form = mechanism::RelativeMeasure::Form::along;
+  PlaceRequest                        first, second;
+  Vector3                             a{}, b{}; ///< unit vectors
+  mechanism::RelativeMeasure::Carrier carrier = mechanism::RelativeMeasure::Carrier::space;
+  std::string                         unit;
+  std::string                         place;
+
+  std::vector<TermRequest>                           terms; ///< with any, the sum of them counts, not the two places
+  std::shared_ptr<const mechanism::PositionFunction> function;
+  TermRequest                                        argument; ///< of the function
+
+  std::optional<MeshRequest> mesh; ///< of `form` mesh
+};
+
+enum class JointType
+{
+  revolute,    ///< the two places stay together, turning freely about one axis
+  spherical,   ///< the two places stay together
+  universal,   ///< the two places stay together, and an axis of each body at right angles to the other's
+  cylindrical, ///< turns about an axis of the first body and slides along it
+  rigid,       ///< the two places stay together and do not turn against each other
+  prismatic,   ///< moves along an axis of the first body and does not turn against it
+  in_plane,    ///< stays in the plane across an axis of the first body
+  distance,    ///< the two places keep their distance, or it follows a law
+  gear,        ///< the angles (or displacements) of two bodies keep a ratio
+  measure      ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
+};
+
+struct JointFrictionRequest; // apps/scene/read/joint_friction_request.h
+
+/// Of a joint that yields.
+struct ComplianceRequest
+{
+  Vector3               stiffness{}, damping{}; ///< [N/m], [N s/m] along the global axes as described
+  bool                  directed = false;       ///< the three differ and turn with the first body
+  std::optional<double> rotational_stiffness;   ///< [N m/rad]; demanded if the joint holds rotations
+  std::optional<double> rotational_damping;     ///< [N m s/rad]
+};
+
+struct JointRequest
+{
+  std::string                                 name;
+  JointType                                   type = JointType::revolute;
+  PlaceRequest                                from, to;
+  Vector3                                     axis{};        ///< zero for a revolute joint of bodies without a choice
+  Vector3                                     axis_to{};     ///< of `universal`, on the second body
+  std::optional<double>                       length;        ///< of `distance` [m]; none: as described
+  double                                      ratio = 1.;    ///< of `gear`
+  std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and `measure`
+  MeasureRequest                              measure;       ///< of `measure`
+  std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
+  std::string                                 reaction_unit; ///< of what acts on the argument of its function
+  std::shared_ptr<const JointFrictionRequest> friction;      ///< or null; of joints that slide
+  std::optional<ComplianceRequest>            compliance;    ///< of those without `measure`, `distance`, `gear`
+  std::string                                 place;
+};
+
+struct SwitchRequest
+{
+  coupling::Switch        request;
+  Quantity                level; ///< with its unit
+  std::optional<Quantity> hysteresis;
+  std::string             place;
+};
+
+struct ProfileKeys;
+
+struct LinearRequest
+{
+  std::string   name;
+  MotionMeasure u;
+  double        stiffness = 0., damping = 0., preload = 0., rest = 0.;
+  std::string   force_unit;
+};
+
+/// External load constant + sum amplitude sin(omega t + phase) on u.
+struct LoadRequest
+{
+  std::string                        name;
+  MotionMeasure                      u;
+  double                             constant = 0.;
+  std::vector<coupling::Oscillation> oscillations;
+  std::string                        force_unit;
+};
+
+/// Virtual coordinate T x' + x = p of an element.
+struct LagRequest
+{
+  std::string name; ///< "motor.torque"
+  double      time_constant = 0.;
+};
+
+/// Motion of place `to` as seen from the body of `from`: displacements along directions fixed to it, then its rotation
+/// about an axis, if any.
+struct PairRequest
+{
+  PlaceRequest           from, to;
+  std::vector<Vector3>   along; ///< unit vectors
+  std::optional<Vector3> about; ///< unit vector
+};
+
+struct ElementRequest
+{
+  std::string                              name;
+  std::shared_ptr<mechanism::ForceElement> element;
+  std::vector<MotionMeasure>               measures;
+  std::string                              on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::vector<LagRequest>                  lags;   ///< the element's last measures
+  std::optional<PairRequest>               pair{}; ///< the element is a law of these measures
+  /// A measure without a name that the element acts on, counted from the position described.
+  std::shared_ptr<const MeasureRequest> own{};
+  bool follows = false; ///< of `own`: the element is a load on its second place along a direction that turns with it
+
+  coupling::MeasureKind              kind = coupling::MeasureKind::displacement;
+  std::shared_ptr<const ProfileKeys> levels{};      ///< what the order "set" tells; null: nothing
+  bool                               fixed = false; ///< cannot be switched off: its state would go on without it
+};
+
+struct PointMassRequest
+{
+  std::string name, marker;
+  double      mass = 0.;
+  Vector3     inertia{}, offset{};
+};
+
+/// Value of a coordinate or of its rate, by the name of the coordinate.
+struct NamedValue
+{
+  std::string name;
+  double      value;
+  std::string place;
+  bool        measure = false; ///< of a MeasureRequest
+};
+
+enum class StartRule
+{
+  given, ///< q and q' as listed, zero for the rest
+  rest,  ///< coupling::static_equilibrium near `given`
+  steady ///< coupling::steady_start
+};
+
+struct StartRequest
+{
+  StartRule               rule = StartRule::given;
+  std::vector<NamedValue> q, v; ///< given
+  coupling::SteadyStart   steady;
+  bool                    drift          = false; ///< rest: with the quasi-static velocity
+  bool                    inertia_relief = false; ///< rest: inertia takes loads along motions that nothing holds
+  std::string             place;
+};
+
+struct SignalRequest
+{
+  std::string name, path, place;
+  std::string from; ///< event from which on its extremes count
+};
+
+/// An instant of the run at which stresses are told.
+struct StressInstant
+{
+  enum When
+  {
+    time,              ///< coupling::StateRequest::at
+    extreme_of_signal, ///< coupling::StateRequest::extremes
+    largest_stress
+  };
+  std::string label; ///< for people; empty: the time tells
+  When        when  = largest_stress;
+  int         index = 0;
+};
+
+struct StressRequest
+{
+  bool                       given = false; ///< there is an [output.stress]
+  std::vector<StressInstant> instants;
+  std::string                place;
+};
+
+struct ModesRequest
+{
+  std::vector<NamedValue>  at;   ///< configuration of the bodies; zero for the rest
+  std::vector<std::string> open; ///< elements that are not engaged
+  int                      number = 20;
+};
+
+struct RunRequest
+{
+  bool                 given = false; ///< there is a [run]
+  coupling::RunOptions options;
+  std::string          place;
+};
+
+/// A scene file as a plain value: checked in itself, nothing computed.
+struct Scene
+{
+  std::string                        file, name, description;
+  Vector3                            gravity{};
+  FrameRequest                       frame;
+  ReductionRequest                   reduction;
+  std::vector<BodyRequest>           bodies;
+  std::vector<LinearRequest>         linear;
+  std::vector<LoadRequest>           loads;
+  std::vector<ElementRequest>        elements;
+  std::vector<NamedPlace>            places;
+  std::vector<MeasureRequest>        measures;
+  std::vector<JointRequest>          joints;
+  std::vector<SwitchRequest>         switches;
+  std::vector<PointMassRequest>      point_masses;
+  std::vector<coupling::DrawnRod>    rods;
+  std::map<std::string, std::string> element_places; ///< by the element's name
+  StartRequest                       start;
+  RunRequest                         run;
+  ModesRequest                       modes;
+  std::vector<SignalRequest>         signals;
+  StressRequest                      stress;
+  std::vector<std::string>           warnings; ///< of what is allowed and probably not meant
+};
+
+} // namespace gestell::apps
