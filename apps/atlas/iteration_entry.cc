@@ -45,7 +45,7 @@ double measured_contraction(const coupling::Machine &machine)
   double       before = 0., ratio = 0.;
   for (int k = 0; k < 3; ++k) // later corrections of a good contraction are rounding
   {
-    machine.local_force(local, local.p);
+    machine.forces().force(local, local.p);
     const double next = u_free + condensed.S(0, 0) * local.p[0], correction = next - local.u[0];
     ratio      = k > 0 ? std::abs(correction / before) : 0.;
     before     = correction;
@@ -88,7 +88,7 @@ AtlasEntry fixed_point_of_forces()
     const auto           newton = coupling::make_integrator(machine, options);
     coupling::LocalState local;
     machine.gather(0., Eigen::VectorXd::Constant(1, 1e-3), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), local);
-    machine.start(local);
+    machine.events().start(local);
     newton->begin(0., Eigen::VectorXd::Constant(1, 1e-3), Eigen::VectorXd::Zero(1));
     for (int k = 0; k < 100; ++k)
       newton->advance();

@@ -105,7 +105,7 @@ double stretched_by_bdf(double h, int n)
   const auto           bdf = coupling::make_integrator(machine, options);
   coupling::LocalState local;
   machine.gather(0., VectorXd::Zero(3), tangential_speed(), VectorXd::Zero(3), local);
-  machine.start(local);
+  machine.events().start(local);
   bdf->begin(0., VectorXd::Zero(3), tangential_speed());
   for (int k = 0; k < n; ++k)
     bdf->advance();
@@ -122,9 +122,9 @@ double first_multiplier(double h)
   coupling::LocalState      base, local;
   base.resize(machine);
   local.resize(machine);
-  const VectorXd v = tangential_speed(), u_rate = machine.directions().transpose() * v;
+  const VectorXd v = tangential_speed(), u_rate = machine.forces().directions().transpose() * v;
   VectorXd       f(3), x                        = VectorXd::Zero(3);
-  machine.mass_times(h * v, f);
+  machine.linear().mass_times(h * v, f);
   base.a  = -u_rate / h;
   local.u = h * u_rate;
   implicit.solve(implicit.condensed(euler, work), f, base, x, local, work);

@@ -158,7 +158,7 @@ ModelFacts model_facts(const PreparedMachine &prepared)
 {
   ModelFacts facts;
   facts.dofs      = prepared.machine.size();
-  facts.nonlinear = static_cast<int>(prepared.machine.directions().cols());
+  facts.nonlinear = static_cast<int>(prepared.machine.forces().directions().cols());
   if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
   {
     facts.interface  = frame->n_interface;

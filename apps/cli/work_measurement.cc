@@ -152,18 +152,18 @@ void time_unsampled(const WorkProblem &problem, WorkRun &run, const Once &once)
 SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &result, bool events)
 {
   coupling::Machine    &machine = problem.machine;
-  const auto           &W       = machine.directions();
-  const Eigen::VectorXd kept    = machine.save_history();
+  const auto           &W       = machine.forces().directions();
+  const Eigen::VectorXd kept    = machine.events().save_history();
   coupling::LocalState  local;
   SignalSamples         values(problem.signals.size(), result.samples.size());
   auto                  accelerations = coupling::accelerations_for(problem.signals, machine);
   Eigen::VectorXd       a;
   local.resize(machine);
-  machine.follow_history(events);
+  machine.events().follow_history(events);
   for (std::size_t k = 0; k < result.samples.size(); ++k)
   {
     const peers::MotionSample &sample = result.samples[k];
-    machine.restore_history(sample.history);
+    machine.events().restore_history(sample.history);
     local.t = sample.t;
     local.u = W.transpose() * sample.q;
     local.v = W.transpose() * sample.v;
@@ -173,7 +173,7 @@ SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &re
     for (std::size_t i = 0; i < problem.signals.size(); ++i)
       values(i, k) = machine.evaluate(problem.signals[i], sample.q, sample.v, a, local);
   }
-  machine.restore_history(kept);
+  machine.events().restore_history(kept);
   return values;
 }
 
@@ -192,7 +192,7 @@ void share_scale(Eigen::VectorXd &x, const std::vector<int> &kind)
 double longest_step(const WorkProblem &problem)
 {
   double longest = (problem.samples.back() - problem.begin) / 50.;
-  for (const auto &harmonic : problem.machine.excitation().harmonics())
+  for (const auto &harmonic : problem.machine.linear().excitation().harmonics())
     longest = std::min(longest, 0.25 * M_PI / harmonic.omega);
   return longest;
 }

@@ -25,31 +25,31 @@ void condense(const coupling::LinearSolver &solver, const Eigen::SparseMatrix<do
 } // namespace
 
 FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
-    : system_(system), n_(system.size()), n_u_(int(system.directions().cols())), mass_(system.factorise(1., 0., 0.)),
-      Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_), dp_du_(Matrix::Zero(n_u_, n_u_)),
-      dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_), v_(n_), f_(n_), a_(n_),
-      product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
+    : system_(system), n_(system.linear().size()), n_u_(int(system.forces().directions().cols())),
+      mass_(system.linear().factorise(1., 0., 0.)), Y_M_(n_, n_u_), S_M_(n_u_, n_u_), Y_(n_, n_u_), S_(n_u_, n_u_),
+      dp_du_(Matrix::Zero(n_u_, n_u_)), dp_dv_(Matrix::Zero(n_u_, n_u_)), tangent_(Matrix::Zero(n_u_, n_u_)), q_(n_),
+      v_(n_), f_(n_), a_(n_), product_(n_), column_(n_), xi_(n_u_), z_(n_u_), held_rate_(n_u_)
 {
-  if (system.n_constraints() > 0)
-    throw std::invalid_argument("peers: the system has " + std::to_string(system.n_constraints()) +
+  if (system.joints().n_rows() > 0)
+    throw std::invalid_argument("peers: the system has " + std::to_string(system.joints().n_rows()) +
                                 " constraints; they are compared without joints only.");
-  if (const auto &massless = system.virtual_coordinates(); !massless.empty())
-    throw std::invalid_argument("peers: " + system.coordinate_name(massless.front()) +
+  if (const auto &massless = system.linear().virtual_coordinates(); !massless.empty())
+    throw std::invalid_argument("peers: " + system.linear().coordinate_name(massless.front()) +
                                 " is a state without mass; they are compared where every coordinate has one.");
   local_.resize(system);
   small_.resize(n_u_);
-  condense(*mass_, system_.directions(), column_, a_, Y_M_, S_M_);
+  condense(*mass_, system_.forces().directions(), column_, a_, Y_M_, S_M_);
 }
 
 void FirstOrderForm::local_state(double t, const double *y, coupling::LocalState &local)
 {
-  if (system_.held().empty())
+  if (system_.forces().held().empty())
   {
-    const auto &W     = system_.directions();
+    const auto &W     = system_.forces().directions();
     local.t           = t;
     local.u.noalias() = W.transpose() * Eigen::Map<const Vector>(y, n_);
     local.v.noalias() = W.transpose() * Eigen::Map<const Vector>(y + n_, n_);
-    system_.local_force(local, local.p);
+    system_.forces().force(local, local.p);
     return;
   }
   load(t, y);
@@ -59,30 +59,30 @@ void FirstOrderForm::local_state(double t, const double *y, coupling::LocalState
 /// f_ = f_t + W p - B v - C q; local_ is the motion of the measures with their forces.
 void FirstOrderForm::load(double t, const double *y)
 {
-  const auto &W      = system_.directions();
+  const auto &W      = system_.forces().directions();
   q_                 = Eigen::Map<const Vector>(y, n_);
   v_                 = Eigen::Map<const Vector>(y + n_, n_);
   local_.t           = t;
   local_.u.noalias() = W.transpose() * q_;
   local_.v.noalias() = W.transpose() * v_;
-  system_.local_force(local_, local_.p);
-  for (const coupling::HeldMeasure &held : system_.held())
+  system_.forces().force(local_, local_.p);
+  for (const coupling::HeldMeasure &held : system_.forces().held())
     local_.p[held.measure] = 0.;
 
-  system_.excitation().at(t, f_);
+  system_.linear().excitation().at(t, f_);
   f_.noalias() += W * local_.p;
-  system_.damping_times(v_, product_);
+  system_.linear().damping_times(v_, product_);
   f_ -= product_;
-  system_.stiffness_times(q_, product_);
+  system_.linear().stiffness_times(q_, product_);
   f_ -= product_;
-  if (!system_.held().empty())
+  if (!system_.forces().held().empty())
     add_held_forces();
 }
 
 void FirstOrderForm::add_held_forces()
 {
-  const auto        &held = system_.held();
-  const auto        &W    = system_.directions();
+  const auto        &held = system_.forces().held();
+  const auto        &W    = system_.forces().directions();
   const Eigen::Index n_h  = Eigen::Index(held.size());
   Matrix             S(n_h, n_h);
   Vector             free(n_h);
@@ -116,18 +116,18 @@ void FirstOrderForm::residual(double t, const double *y, const double *y_rate, d
   load(t, y);
   Eigen::Map<Vector>(r, n_) = Eigen::Map<const Vector>(y_rate, n_) - v_;
   a_                        = Eigen::Map<const Vector>(y_rate + n_, n_);
-  system_.mass_times(a_, product_);
+  system_.linear().mass_times(a_, product_);
   Eigen::Map<Vector>(r + n_, n_) = product_ - f_;
 }
 
 void FirstOrderForm::linearise(double t, const double *y)
 {
-  const auto &W      = system_.directions();
+  const auto &W      = system_.forces().directions();
   local_.t           = t;
   local_.u.noalias() = W.transpose() * Eigen::Map<const Vector>(y, n_);
   local_.v.noalias() = W.transpose() * Eigen::Map<const Vector>(y + n_, n_);
-  system_.local_derivatives(local_, local_.p, dp_du_, dp_dv_);
-  for (const coupling::HeldMeasure &held : system_.held())
+  system_.forces().derivatives(local_, local_.p, dp_du_, dp_dv_);
+  for (const coupling::HeldMeasure &held : system_.forces().held())
   {
     dp_du_.row(held.measure).setZero();
     dp_dv_.row(held.measure).setZero();
@@ -141,8 +141,8 @@ bool FirstOrderForm::prepare(double w_M, double w_B, double w_C, double tangent_
   ++work_.factorisations;
   if (w_M != known_M_ || w_B != known_B_ || w_C != known_C_)
   {
-    shifted_ = system_.factorise(w_M, w_B, w_C);
-    condense(*shifted_, system_.directions(), column_, a_, Y_, S_);
+    shifted_ = system_.linear().factorise(w_M, w_B, w_C);
+    condense(*shifted_, system_.forces().directions(), column_, a_, Y_, S_);
     work_.solves += n_u_;
     known_M_ = w_M, known_B_ = w_B, known_C_ = w_C;
   }
@@ -150,7 +150,7 @@ bool FirstOrderForm::prepare(double w_M, double w_B, double w_C, double tangent_
   Matrix &small   = small_.matrix();
   small.noalias() = -tangent_ * S_;
   small.diagonal().array() += 1.;
-  for (const coupling::HeldMeasure &held : system_.held())
+  for (const coupling::HeldMeasure &held : system_.forces().held())
     small.row(held.measure) = S_.row(held.measure);
   return small_.factorise();
 }
@@ -163,7 +163,7 @@ bool FirstOrderForm::factorise(double gamma)
 
 bool FirstOrderForm::factorise_displacements(double w_M, double w_B)
 {
-  return system_.held().empty() && prepare(w_M, w_B, 1., w_B, 1.);
+  return system_.forces().held().empty() && prepare(w_M, w_B, 1., w_B, 1.);
 }
 
 void FirstOrderForm::solve_displacements(double *b)
@@ -178,7 +178,7 @@ void FirstOrderForm::displacement_residual(double t, const double *y, const doub
   ++work_.evaluations;
   load(t, y);
   a_ = Eigen::Map<const Vector>(acceleration, n_);
-  system_.mass_times(a_, product_);
+  system_.linear().mass_times(a_, product_);
   Eigen::Map<Vector>(r, n_) = product_ - f_;
 }
 
@@ -189,9 +189,9 @@ void FirstOrderForm::solve_velocity()
   shifted_->solve(f_, a_);
   if (n_u_ > 0)
   {
-    xi_.noalias() = system_.directions().transpose() * a_;
+    xi_.noalias() = system_.forces().directions().transpose() * a_;
     z_.noalias()  = tangent_ * xi_;
-    for (const coupling::HeldMeasure &held : system_.held())
+    for (const coupling::HeldMeasure &held : system_.forces().held())
       z_[held.measure] = held_rate_[held.measure] - xi_[held.measure];
     small_.solve_in_place(z_);
     a_.noalias() += Y_ * z_;
@@ -203,11 +203,11 @@ void FirstOrderForm::solve_velocity()
 void FirstOrderForm::solve_rate_form(double *b)
 {
   Eigen::Map<Vector> b1(b, n_), b2(b + n_, n_);
-  const auto        &W = system_.directions();
+  const auto        &W = system_.forces().directions();
   q_                   = b1;
   v_                   = b2;
-  system_.mass_times(v_, f_);
-  system_.stiffness_times(q_, product_);
+  system_.linear().mass_times(v_, f_);
+  system_.linear().stiffness_times(q_, product_);
   f_ -= gamma_ * product_;
   xi_.noalias() = W.transpose() * q_;
   z_.noalias()  = gamma_ * dp_du_ * xi_;
@@ -222,15 +222,15 @@ void FirstOrderForm::solve_rate_form(double *b)
 void FirstOrderForm::solve_residual_form(double *b)
 {
   Eigen::Map<Vector> b1(b, n_), b2(b + n_, n_);
-  const auto        &W = system_.directions();
+  const auto        &W = system_.forces().directions();
   q_                   = b1;
   f_                   = gamma_ * b2;
-  if (!system_.held().empty())
+  if (!system_.forces().held().empty())
   {
     mass_->solve(f_, a_);
     held_rate_.noalias() = W.transpose() * a_;
   }
-  system_.stiffness_times(q_, product_);
+  system_.linear().stiffness_times(q_, product_);
   f_ -= gamma_ * gamma_ * product_;
   xi_.noalias() = W.transpose() * q_;
   z_.noalias()  = gamma_ * gamma_ * dp_du_ * xi_;
@@ -244,7 +244,7 @@ void FirstOrderForm::know_dense()
 {
   if (dense_known_)
     return;
-  if (!system_.dense_matrices(M_, B_, C_))
+  if (!system_.linear().dense_matrices(M_, B_, C_))
     throw std::invalid_argument("peers: the system is too large for dense matrices; take the condensed solver.");
   const auto lu = M_.partialPivLu();
   M_inv_B_      = lu.solve(B_);
@@ -254,7 +254,7 @@ void FirstOrderForm::know_dense()
 
 void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
 {
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   J.topLeftCorner(n_, n_).setZero();
   J.topRightCorner(n_, n_).setIdentity();
   J.bottomLeftCorner(n_, n_)  = -M_inv_C_;
@@ -262,7 +262,7 @@ void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
   J.bottomLeftCorner(n_, n_) += Matrix(Y_M_ * dp_du_) * W.transpose();
   J.bottomRightCorner(n_, n_) += Matrix(Y_M_ * dp_dv_) * W.transpose();
   // Held measures: J - M^-1 W_h (W_h^T M^-1 W_h)^-1 W_h^T J.
-  const auto        &held = system_.held();
+  const auto        &held = system_.forces().held();
   const Eigen::Index n_h  = Eigen::Index(held.size());
   if (n_h == 0)
     return;
@@ -279,9 +279,9 @@ void FirstOrderForm::rate_jacobian(Eigen::Ref<Matrix> J)
 
 bool FirstOrderForm::residual_jacobian(double gamma, Eigen::Ref<Matrix> J)
 {
-  if (!system_.held().empty())
+  if (!system_.forces().held().empty())
     return false;
-  const auto &W               = system_.directions();
+  const auto &W               = system_.forces().directions();
   J.topLeftCorner(n_, n_)     = Matrix::Identity(n_, n_) / gamma;
   J.topRightCorner(n_, n_)    = -Matrix::Identity(n_, n_);
   J.bottomLeftCorner(n_, n_)  = C_;

@@ -37,7 +37,7 @@ bool order_is_known(const PeerOptions &options)
 
 void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
 {
-  const int n = system.size();
+  const int n = system.linear().size();
   for (const Eigen::VectorXd *x : {&problem.q, &problem.v, &problem.q_scale, &problem.v_scale})
     require(x->size() == n,
             "vectors of " + std::to_string(x->size()) + " numbers for " + std::to_string(n) + " coordinates.");
@@ -80,7 +80,7 @@ public:
   PeerRun(coupling::SecondOrderSystem &system, const PeerProblem &problem, const PeerOptions &options)
       : system_(system), problem_(problem), options_(options), form_(system),
         detection_(system), callbacks_{form_, [this](double t, const double *y, double *g) { guards_at(t, y, g); }},
-        n_(system.size()), y_(2 * n_), restart_y_(2 * n_)
+        n_(system.linear().size()), y_(2 * n_), restart_y_(2 * n_)
   {
     for (coupling::LocalState *local : {&before_, &now_, &between_})
       local->resize(system);
@@ -143,16 +143,16 @@ private:
   void begin()
   {
     motion(problem_.t, y_.data(), before_);
-    system_.follow_history(false);
-    system_.start(before_);
-    system_.follow_history(options_.events);
+    system_.events().follow_history(false);
+    system_.events().start(before_);
+    system_.events().follow_history(options_.events);
     form_.local_state(problem_.t, y_.data(), before_);
     detection_.begin(before_);
   }
 
   void motion(double t, const double *y, coupling::LocalState &local) const
   {
-    const auto &W     = system_.directions();
+    const auto &W     = system_.forces().directions();
     local.t           = t;
     local.u.noalias() = W.transpose() * Eigen::Map<const Eigen::VectorXd>(y, n_);
     local.v.noalias() = W.transpose() * Eigen::Map<const Eigen::VectorXd>(y + n_, n_);
@@ -161,8 +161,8 @@ private:
   void guards_at(double t, const double *y, double *g)
   {
     form_.local_state(t, y, between_);
-    g_.resize(system_.n_guards());
-    system_.guard_values(between_, g_);
+    g_.resize(system_.events().n_guards());
+    system_.events().guard_values(between_, g_);
     std::copy(g_.data(), g_.data() + g_.size(), g);
   }
 
@@ -172,7 +172,8 @@ private:
       return;
     form_.local_state(t, y, between_);
     result.samples.push_back({t, Eigen::Map<const Eigen::VectorXd>(y, n_),
-                              Eigen::Map<const Eigen::VectorXd>(y + n_, n_), system_.save_history(), between_.p});
+                              Eigen::Map<const Eigen::VectorXd>(y + n_, n_), system_.events().save_history(),
+                              between_.p});
   }
 
   void watch()
@@ -180,8 +181,8 @@ private:
     if (!options_.events)
       return;
     std::vector<int> directions;
-    for (int i = 0; i < system_.n_guards(); ++i)
-      directions.push_back(system_.crossing(i) == GuardCrossing::rising ? 1 : -1);
+    for (int i = 0; i < system_.events().n_guards(); ++i)
+      directions.push_back(system_.events().crossing(i) == GuardCrossing::rising ? 1 : -1);
     stepper_->watch(directions);
   }
 
@@ -191,12 +192,12 @@ private:
     {
       motion(stepper_->time(), stepper_->state(), now_);
       detection_.step(before_, now_, passed_);
-      system_.accept(now_);
+      system_.events().accept(now_);
       std::swap(before_, now_);
       return;
     }
     form_.local_state(stepper_->time(), stepper_->state(), now_);
-    system_.accept(now_);
+    system_.events().accept(now_);
     if (root)
     {
       y_ = Eigen::Map<const Eigen::VectorXd>(stepper_->state(), 2 * n_);
@@ -206,7 +207,7 @@ private:
 
   void transition(int guard, double t, const coupling::LocalState &local)
   {
-    system_.transition(guard, local);
+    system_.events().transition(guard, local);
     ++n_events_;
     stepper_->restart(t, y_.data());
     watch();
@@ -220,7 +221,7 @@ private:
       return;
     restart_y_ = y_;
     restart_t_ = stepper_->time();
-    guards_at(restart_t_, restart_y_.data(), (start_guards_.resize(system_.n_guards()), start_guards_.data()));
+    guards_at(restart_t_, restart_y_.data(), (start_guards_.resize(system_.events().n_guards()), start_guards_.data()));
     fresh_ = true;
   }
 
@@ -230,11 +231,11 @@ private:
     if (!fresh_)
       return false;
     fresh_ = false;
-    end_guards_.resize(system_.n_guards());
+    end_guards_.resize(system_.events().n_guards());
     guards_at(stepper_->time(), stepper_->state(), end_guards_.data());
     for (int i = 0; i < int(start_guards_.size()); ++i)
     {
-      const double s = system_.crossing(i) == GuardCrossing::rising ? 1. : -1.;
+      const double s = system_.events().crossing(i) == GuardCrossing::rising ? 1. : -1.;
       if (s * start_guards_[i] >= 0. && s * end_guards_[i] > 0.)
       {
         y_ = restart_y_;

@@ -12,18 +12,18 @@ using Eigen::VectorXd;
 
 StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held,
                              const SteadyMotion *motion)
-    : machine_(machine), held_(held), moves_(motion), n_(machine.size()), n_c_(machine.n_constraints()), t_(from.t),
+    : machine_(machine), held_(held), moves_(motion), n_(machine.size()), n_c_(machine.joints().n_rows()), t_(from.t),
       zero_(VectorXd::Zero(n_)), v_(motion ? motion->v : zero_), a_(motion ? motion->a : zero_),
-      G_(machine.constraint_blocks()), C_(dense_stiffness(machine)), load_(n_)
+      G_(machine.joints().blocks()), C_(dense_stiffness(machine)), load_(n_)
 {
   local_.resize(machine);
   machine.gather(t_, from.q, v_, a_, local_);
-  machine.start(local_);
+  machine.events().start(local_);
   acts_ = acting_measures(machine, local_.u, held && !motion ? Acting::structure : Acting::everything);
   if (held)
-    load_ = machine.excitation().constant();
+    load_ = machine.linear().excitation().constant();
   else
-    machine.excitation().at(t_, load_);
+    machine.linear().excitation().at(t_, load_);
   for (int i = machine.n_frame(); held && i < n_; ++i)
     if (held->q_given[i])
       given_.push_back(i);
@@ -50,14 +50,14 @@ VectorXd StaticBalance::multipliers(const VectorXd &q, double share)
 void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double share, MatrixXd &saddle,
                              VectorXd &residual)
 {
-  const auto &W = machine_.directions();
+  const auto &W = machine_.forces().directions();
   machine_.gather(t_, q, v_, moves_ ? VectorXd(a_ + S_ * lambda.tail(n_g_)) : a_, local_);
   local_.lambda = lambda.head(n_c_);
   VectorXd g(n_c_);
-  machine_.constraints(local_, g, G_);
+  machine_.joints().constraints(local_, g, G_);
   MatrixXd dp = MatrixXd::Zero(W.cols(), W.cols()), geometric;
-  machine_.local_tangent(local_, 1., 0., 0., local_.p, dp);
-  for (const HeldMeasure &sticking : machine_.held())
+  machine_.forces().tangent(local_, 1., 0., 0., local_.p, dp);
+  for (const HeldMeasure &sticking : machine_.forces().held())
   {
     local_.p[sticking.measure] = 0.;
     dp.row(sticking.measure).setZero();
@@ -86,7 +86,7 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
   forces_            = elastic.lpNorm<1>() + load_.lpNorm<1>() + (W.cwiseAbs() * local_.p.cwiseAbs()).sum();
   if (moves_)
     return;
-  for (const int i : machine_.virtual_coordinates()) // states of laws keep the value they start with
+  for (const int i : machine_.linear().virtual_coordinates()) // states of laws keep the value they start with
   {
     saddle.row(i).setZero();
     saddle(i, i) = 1.;

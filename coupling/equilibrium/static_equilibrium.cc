@@ -137,7 +137,7 @@ public:
     balance_.evaluate(q_, lambda_, 1., saddle, residual);
     const int n_c = balance_.n_joints();
     VectorXd  rate(n_c), bias(n_c), right = VectorXd::Zero(n_ + n_c);
-    machine_.constraint_rates(balance_.local(), rate, bias);
+    machine_.joints().rates(balance_.local(), rate, bias);
     right.tail(n_c)  = -rate;
     const VectorXd x = solution(saddle, right);
     if (!x.allFinite())
@@ -157,7 +157,7 @@ private:
     VectorXd residual;
     balance_.evaluate(q_, lambda_, 1., saddle, residual);
     const MatrixXd C = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
-    MatrixXd       Z = free_motions(machine_, balance_.local(), machine_.virtual_coordinates());
+    MatrixXd       Z = free_motions(machine_, balance_.local(), machine_.linear().virtual_coordinates());
     MatrixXd       K = Z.transpose() * C * Z;
     return {std::move(Z), std::move(K)};
   }

@@ -47,7 +47,7 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
       i = n2++;
 
   Eigen::VectorXd load(full.size());
-  full.excitation().at(state.t, load);
+  full.linear().excitation().at(state.t, load);
   const Eigen::VectorXd               force = load.head(n_frame) - C * expanded.q.head(n_frame);
   const Eigen::VectorXd               rate  = -(C * expanded.v.head(n_frame));
   Eigen::MatrixXd                     inner(n2, 2);

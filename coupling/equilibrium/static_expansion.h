@@ -1,6 +1,7 @@
 #pragma once
 
-#include "coupling/simulation/simulation.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
 
 namespace gestell::coupling
 {

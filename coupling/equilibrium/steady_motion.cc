@@ -1,6 +1,5 @@
 #include "coupling/equilibrium/steady_motion.h"
 
-#include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/dense_matrices.h"
 #include "coupling/machine/loop_closure.h"
 
@@ -20,8 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double dependent = 1e-10; ///< pivot of rows scaled to unit masses that counts as zero
 constexpr double torn      = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
-constexpr int    most_rounds = 50;
-constexpr double settled     = 1e-12; ///< change of q in a round, against its size
 
 /// Linear demands A x = b on a motion, for several right-hand sides at once.
 struct Demands
@@ -69,7 +66,7 @@ VectorXd motion_scale(const Machine &machine)
   VectorXd       scale = VectorXd::Zero(machine.size());
   for (int i = machine.n_frame(); i < machine.size(); ++i)
     scale[i] = M(i, i) > 0. ? 1. / std::sqrt(M(i, i)) : 1.;
-  for (const int i : machine.virtual_coordinates())
+  for (const int i : machine.linear().virtual_coordinates())
     scale[i] = 0.;
   return scale;
 }
@@ -85,11 +82,11 @@ MatrixXd sides(const VectorXd &rate, const VectorXd &acceleration, Eigen::Index 
 
 Demands joint_demands(const Machine &machine, const LocalState &local, Eigen::Index n_held)
 {
-  const int          n_c = machine.n_constraints();
+  const int          n_c = machine.joints().n_rows();
   VectorXd           g(n_c), rate(n_c), bias(n_c);
-  ConstraintJacobian G(machine.constraint_blocks());
-  machine.constraints(local, g, G);
-  machine.constraint_rates(local, rate, bias);
+  ConstraintJacobian G(machine.joints().blocks());
+  machine.joints().constraints(local, g, G);
+  machine.joints().rates(local, rate, bias);
   return {joint_jacobian(machine, G), sides(-rate, -bias, n_held)};
 }
 
@@ -139,7 +136,7 @@ Demands compliant_demands(const Machine &machine, const LocalState &local, Eigen
       const auto opening = place.joint->opening(i, local.u.data() + place.first_measure,
                                                 local.v.data() + place.first_measure, gradient.data());
       biases.push_back(-opening.bias);
-      rows.push_back(machine.directions().middleCols(place.first_measure, k) * gradient);
+      rows.push_back(machine.forces().directions().middleCols(place.first_measure, k) * gradient);
     }
   const auto n = Eigen::Index(rows.size());
   Demands    result{MatrixXd(n, machine.size()), sides(VectorXd::Zero(n), VectorXd::Map(biases.data(), n), n_held)};
@@ -204,47 +201,11 @@ SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const 
   return {X.col(0), X.col(1), X.rightCols(n_held)};
 }
 
-/// The same known start with what has a given speed held in position `at`, and nothing else.
-KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
-{
-  KnownStart held = known;
-  held.state      = at;
-  held.state.v    = known.state.v;
-  held.q_given    = known.v_given;
-  held.measures.clear();
-  for (const auto &rate : known.rates)
-    held.measures.emplace_back(rate.first, machine.measure(rate.first).evaluate(at.q, at.v).s);
-  return held;
-}
-
 } // namespace
 
 SteadyMotion steady_motion(const Machine &machine, const KnownStart &known, const VectorXd &q)
 {
   return motion_with(machine, known, q, motion_with(machine, known, q, VectorXd::Zero(machine.size())).v);
-}
-
-InitialState steady_start(Machine &machine, const KnownStart &known)
-{
-  const bool given =
-      std::any_of(known.v_given.begin() + machine.n_frame(), known.v_given.end(), [](char g) { return g; });
-  if (!given && known.rates.empty() && known.spins.empty())
-    throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
-  InitialState     state = assemble(machine, known);
-  const KnownStart held  = held_at(machine, known, state);
-  for (int round = 0; round < most_rounds; ++round)
-  {
-    const SteadyMotion motion = steady_motion(machine, held, state.q);
-    HeldEquilibrium    next   = held_equilibrium(machine, held, &motion, &state);
-    const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
-    state.q                   = next.q;
-    state.v                   = motion.v;
-    if (change <= settled * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
-      return state;
-  }
-  throw std::invalid_argument(
-      "no steady motion was found from the position of the start: the deflections by inertia do "
-      "not settle; give a lower speed, a better position, or start with rule = \"given\"");
 }
 
 } // namespace gestell::coupling

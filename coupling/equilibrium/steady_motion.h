@@ -28,18 +28,4 @@ struct SteadyMotion
  */
 SteadyMotion steady_motion(const Machine &machine, const KnownStart &known, const Eigen::VectorXd &q);
 
-/**
- * The jointed counterpart of steady_start(): the state from which the machine runs on quietly, joints closed in
- * position and rate, everything elastic in equilibrium with the forces of the instant and with the inertia of its
- * motion (docs/theory/start.md (15)),
- *
- *     M (a + S alpha) + B v + C q = f_t + W p(t, q, v, a + S alpha),     g(t, q) = 0.
- *
- * alpha [n_h] accelerates what has a given speed: what the drives give too much or too little.
- *
- * @param known  as for assemble(); what has a given speed keeps its position, other positions are first guesses
- * @throws std::invalid_argument without a given speed, or as assemble(), steady_motion() and static_equilibrium()
- */
-InitialState steady_start(Machine &machine, const KnownStart &known);
-
 } // namespace gestell::coupling

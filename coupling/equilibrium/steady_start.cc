@@ -1,5 +1,8 @@
 #include "coupling/equilibrium/steady_start.h"
 
+#include "coupling/equilibrium/static_equilibrium.h"
+#include "coupling/equilibrium/steady_motion.h"
+
 #include "coupling/machine/assembly.h"
 #include "coupling/machine/dense_matrices.h"
 #include "coupling/machine/loop_closure.h"
@@ -69,7 +72,7 @@ class Equilibrium
 public:
   Equilibrium(Machine &machine, const Kinematics &kinematics)
       : machine_(machine), t_(kinematics.state.t), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
-        stiffness_(dense_stiffness(machine)), p_(Eigen::VectorXd::Zero(machine.directions().cols()))
+        stiffness_(dense_stiffness(machine)), p_(Eigen::VectorXd::Zero(machine.forces().directions().cols()))
   {
     const int n = machine.size();
     for (int i = 0; i < n; ++i)
@@ -80,10 +83,10 @@ public:
         equations_.push_back(i);
     }
     Eigen::VectorXd product(n);
-    constant_ = machine.excitation().constant();
-    machine.mass_times(acceleration_, product);
+    constant_ = machine.linear().excitation().constant();
+    machine.linear().mass_times(acceleration_, product);
     constant_ -= product;
-    machine.damping_times(v_, product);
+    machine.linear().damping_times(v_, product);
     constant_ -= product;
   }
 
@@ -91,9 +94,9 @@ public:
   Eigen::VectorXd residual(const Eigen::VectorXd &q)
   {
     machine_.gather(t_, q, v_, acceleration_, local_);
-    machine_.start(local_);
-    machine_.local_force(local_, p_);
-    const Eigen::VectorXd local = machine_.directions() * p_, elastic = stiffness_ * q;
+    machine_.events().start(local_);
+    machine_.forces().force(local_, p_);
+    const Eigen::VectorXd local = machine_.forces().directions() * p_, elastic = stiffness_ * q;
     size_of_forces_ = constant_.cwiseAbs().maxCoeff() + local.cwiseAbs().maxCoeff() + elastic.cwiseAbs().maxCoeff();
     return (constant_ + local - elastic)(equations_);
   }
@@ -105,8 +108,8 @@ public:
   Eigen::VectorXd step(const Eigen::VectorXd &q, const Eigen::VectorXd &balance)
   {
     Eigen::MatrixXd dp(p_.size(), p_.size());
-    machine_.local_tangent(local_, 1., 0., 0., p_, dp);
-    const auto &W = machine_.directions();
+    machine_.forces().tangent(local_, 1., 0., 0., p_, dp);
+    const auto &W = machine_.forces().directions();
     decompose(stiffness_ - Eigen::MatrixXd(W * dp * W.transpose()));
     if (solver_.rank() < static_cast<Eigen::Index>(unknown_.size()))
     {
@@ -227,6 +230,50 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
       return state;
   }
   refuse(machine, equilibrium, balance.cwiseAbs().maxCoeff());
+}
+
+namespace
+{
+
+constexpr int    most_rounds = 50;
+constexpr double settled     = 1e-12; ///< change of q in a round, against its size
+
+/// The same known start with what has a given speed held in position `at`, and nothing else.
+KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
+{
+  KnownStart held = known;
+  held.state      = at;
+  held.state.v    = known.state.v;
+  held.q_given    = known.v_given;
+  held.measures.clear();
+  for (const auto &rate : known.rates)
+    held.measures.emplace_back(rate.first, machine.measure(rate.first).evaluate(at.q, at.v).s);
+  return held;
+}
+
+} // namespace
+
+InitialState steady_start(Machine &machine, const KnownStart &known)
+{
+  const bool given =
+      std::any_of(known.v_given.begin() + machine.n_frame(), known.v_given.end(), [](char g) { return g; });
+  if (!given && known.rates.empty() && known.spins.empty())
+    throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
+  InitialState     state = assemble(machine, known);
+  const KnownStart held  = held_at(machine, known, state);
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    const SteadyMotion motion = steady_motion(machine, held, state.q);
+    HeldEquilibrium    next   = held_equilibrium(machine, held, &motion, &state);
+    const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
+    state.q                   = next.q;
+    state.v                   = motion.v;
+    if (change <= settled * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
+      return state;
+  }
+  throw std::invalid_argument(
+      "no steady motion was found from the position of the start: the deflections by inertia do "
+      "not settle; give a lower speed, a better position, or start with rule = \"given\"");
 }
 
 } // namespace gestell::coupling

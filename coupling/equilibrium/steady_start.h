@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/machine/machine.h"
+#include "coupling/machine/assembly.h"
 
 #include <string>
 #include <utility>
@@ -8,15 +8,6 @@
 
 namespace gestell::coupling
 {
-
-struct InitialState
-{
-  double          t = 0.;
-  Eigen::VectorXd q, v;            // [n]
-  bool            settled = false; ///< in equilibrium: contacts are closed by the forces they carry
-
-  std::vector<std::string> notes{}; ///< what a user should know of how it was found
-};
 
 /// What is known of a steady motion: `angles` [rad] and `speeds` [rad/s] of rotors; the balance of `driver` is not
 /// demanded, it carries what the drive lacks.
@@ -40,5 +31,19 @@ struct SteadyStart
  * named; ConvergenceFailure if Newton finds no equilibrium.
  */
 InitialState steady_start(Machine &machine, const SteadyStart &start);
+
+/**
+ * The jointed counterpart of steady_start(): the state from which the machine runs on quietly, joints closed in
+ * position and rate, everything elastic in equilibrium with the forces of the instant and with the inertia of its
+ * motion (docs/theory/start.md (15)),
+ *
+ *     M (a + S alpha) + B v + C q = f_t + W p(t, q, v, a + S alpha),     g(t, q) = 0.
+ *
+ * alpha [n_h] accelerates what has a given speed: what the drives give too much or too little.
+ *
+ * @param known  as for assemble(); what has a given speed keeps its position, other positions are first guesses
+ * @throws std::invalid_argument without a given speed, or as assemble(), steady_motion() and static_equilibrium()
+ */
+InitialState steady_start(Machine &machine, const KnownStart &known);
 
 } // namespace gestell::coupling

@@ -12,17 +12,17 @@ namespace
 
 [[noreturn]] void refuse_singular(const SecondOrderSystem &system)
 {
-  const auto     &lags = system.virtual_coordinates();
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.size()), column = unit;
+  const auto     &lags = system.linear().virtual_coordinates();
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.linear().size()), column = unit;
   std::string     massless = "some combination of coordinates";
-  for (int i = 0; i < system.size(); ++i)
+  for (int i = 0; i < system.linear().size(); ++i)
   {
     unit[i] = 1.;
-    system.mass_times(unit, column);
+    system.linear().mass_times(unit, column);
     unit[i] = 0.;
     if (column.isZero(0.) && std::find(lags.begin(), lags.end(), i) == lags.end())
     {
-      massless = "\"" + system.coordinate_name(i) + "\"";
+      massless = "\"" + system.linear().coordinate_name(i) + "\"";
       break;
     }
   }
@@ -35,11 +35,11 @@ namespace
 Accelerations::Accelerations(const SecondOrderSystem &system) : system_(system)
 {
   for (Eigen::VectorXd *x : {&f_, &product_, &a_})
-    x->setZero(system.size());
-  p_.setZero(system.directions().cols());
+    x->setZero(system.linear().size());
+  p_.setZero(system.forces().directions().cols());
   try
   {
-    mass_ = system.factorise(1., 0., 0.);
+    mass_ = system.linear().factorise(1., 0., 0.);
   }
   catch (const std::invalid_argument &)
   {
@@ -54,14 +54,14 @@ Accelerations::Accelerations(const SecondOrderSystem &system) : system_(system)
 const Eigen::VectorXd &Accelerations::at(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const LocalState &local)
 {
   p_ = local.p;
-  system_.local_force(local, p_);
-  system_.excitation().at(local.t, f_);
-  f_.noalias() += system_.directions() * p_;
-  system_.damping_times(v, product_);
+  system_.forces().force(local, p_);
+  system_.linear().excitation().at(local.t, f_);
+  f_.noalias() += system_.forces().directions() * p_;
+  system_.linear().damping_times(v, product_);
   f_ -= product_;
-  system_.stiffness_times(q, product_);
+  system_.linear().stiffness_times(q, product_);
   f_ -= product_;
-  for (const int i : system_.virtual_coordinates())
+  for (const int i : system_.linear().virtual_coordinates())
     f_[i] = 0.;
   mass_->solve(f_, a_);
   return a_;

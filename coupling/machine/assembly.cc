@@ -43,7 +43,7 @@ class Assembly
 public:
   Assembly(Machine &machine, const KnownStart &known)
       : machine_(machine), known_(known), measures_(demands_of(known.measures, {})),
-        rates_(demands_of(known.rates, known.spins)), state_(known.state), G_(machine.constraint_blocks()),
+        rates_(demands_of(known.rates, known.spins)), state_(known.state), G_(machine.joints().blocks()),
         n_c_(G_.n_rows()), yielding_(compliant_joints(machine))
   {
     local_.resize(machine);
@@ -51,7 +51,7 @@ public:
     rate_.setZero(n_c_);
     bias_.setZero(n_c_);
     machine.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine.size()), local_);
-    machine.start(local_); // the laws of driven joints begin here
+    machine.events().start(local_); // the laws of driven joints begin here
   }
 
   InitialState assembled()
@@ -79,7 +79,7 @@ private:
   void evaluate(const std::vector<Demand> &demands, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates)
   {
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
-    machine_.constraints(local_, g_, G_);
+    machine_.joints().constraints(local_, g_, G_);
     for (const auto &[row, shift] : known_.shifts)
       g_[row] -= shift;
     Eigen::Index n_yielding = 0;
@@ -89,7 +89,7 @@ private:
     rows.resize(residual.size(), machine_.size());
     if (rates)
     {
-      machine_.constraint_rates(local_, rate_, bias_);
+      machine_.joints().rates(local_, rate_, bias_);
       g_ = rate_;
       G_.add_product(1., local_.v, g_);
     }
@@ -126,7 +126,7 @@ private:
             own.joint->opening(i, local_.u.data() + own.first_measure, local_.v.data() + own.first_measure, gradient);
         residual[row] = rates ? opening.rate : opening.s;
         const int  k  = own.joint->n_measures();
-        const auto W  = machine_.directions().middleCols(own.first_measure, k);
+        const auto W  = machine_.forces().directions().middleCols(own.first_measure, k);
         rows.row(row) = (W * Eigen::Map<const Eigen::VectorXd>(gradient, k)).transpose();
       }
   }
@@ -163,7 +163,7 @@ private:
     for (std::size_t j = 0; j < free.size(); ++j)
     {
       unit[free[j]] = 1.;
-      machine_.mass_times(unit, column);
+      machine_.linear().mass_times(unit, column);
       unit[free[j]]          = 0.;
       const double m         = column[free[j]];
       scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
@@ -251,7 +251,7 @@ private:
       return false;
     std::ostringstream message;
     message << "the mechanism cannot be assembled: with the given " << what << " "
-            << (worst < n_c_ ? "the joint " + machine_.constraint_name(worst) : demands[worst - n_c_].name)
+            << (worst < n_c_ ? "the joint " + machine_.joints().name(worst) : demands[worst - n_c_].name)
             << " stays open by " << open << " " << unit
             << "; check its places and lengths, or give fewer or other values in [start]";
     throw std::invalid_argument(message.str());
@@ -301,7 +301,7 @@ std::vector<CompliantPlace> compliant_joints(const Machine &machine)
 
 bool has_joints(const Machine &machine)
 {
-  return machine.n_constraints() > 0 || !compliant_joints(machine).empty();
+  return machine.joints().n_rows() > 0 || !compliant_joints(machine).empty();
 }
 
 } // namespace gestell::coupling

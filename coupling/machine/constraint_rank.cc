@@ -70,9 +70,9 @@ ConstraintRank ConstraintRank::at(const Machine &machine, double t, const Eigen:
   local.resize(machine);
   const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(machine.size());
   machine.gather(t, q, at_rest, at_rest, local);
-  ConstraintJacobian G(machine.constraint_blocks());
+  ConstraintJacobian G(machine.joints().blocks());
   Eigen::VectorXd    g = Eigen::VectorXd::Zero(G.n_rows());
-  machine.constraints(local, g, G);
+  machine.joints().constraints(local, g, G);
   return {machine, joint_jacobian(machine, G)};
 }
 
@@ -122,7 +122,7 @@ std::string ConstraintRank::dependence() const
     for (int j = 0; j < rank; ++j)
       if (std::abs(coefficients(j, k)) > taken_part)
         add_once(joints, joint_of(order[j]));
-    const std::string equation               = machine_.constraint_name(row);
+    const std::string equation               = machine_.joints().name(row);
     (is_torque(equation) ? torques : forces) = true;
     lines.emplace_back(row, "\n  " + equation + ", which holds " + joined(bodies_of(row)) + ", " +
                                 (joints.empty() ? "holds nothing that could move"
@@ -149,7 +149,7 @@ std::string ConstraintRank::nearly_dependent() const
   if (n == 0 || n > rows_.cols())
     return "";
   const double pivot = std::abs(qr_.matrixR()(n - 1, n - 1));
-  return pivot < near_dead ? machine_.constraint_name(qr_.colsPermutation().indices()[n - 1]) : "";
+  return pivot < near_dead ? machine_.joints().name(qr_.colsPermutation().indices()[n - 1]) : "";
 }
 
 } // namespace gestell::coupling

@@ -27,17 +27,20 @@ Eigen::MatrixXd columns(int n, const Times &times)
 
 Eigen::MatrixXd dense_mass(const Machine &machine)
 {
-  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.mass_times(x, y); });
+  return columns(machine.size(),
+                 [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.linear().mass_times(x, y); });
 }
 
 Eigen::MatrixXd dense_damping(const Machine &machine)
 {
-  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.damping_times(x, y); });
+  return columns(machine.size(),
+                 [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.linear().damping_times(x, y); });
 }
 
 Eigen::MatrixXd dense_stiffness(const Machine &machine)
 {
-  return columns(machine.size(), [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.stiffness_times(x, y); });
+  return columns(machine.size(),
+                 [&](const Eigen::VectorXd &x, Eigen::VectorXd &y) { machine.linear().stiffness_times(x, y); });
 }
 
 namespace
@@ -48,7 +51,7 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
             const Matrices &of_element)
 {
   const int             n = machine.size();
-  const auto           &W = machine.directions();
+  const auto           &W = machine.forces().directions();
   const Eigen::VectorXd u = W.transpose() * q;
   stiffness.setZero(n, n);
   damping.setZero(n, n);
@@ -163,7 +166,7 @@ double closure_curvature(const mechanism::ForceElement &element, const double *u
 void add_turning_closures(const Machine &machine, const LocalState &state, Eigen::MatrixXd &K)
 {
   Eigen::VectorXd p = Eigen::VectorXd::Zero(state.u.size());
-  machine.local_force(state, p);
+  machine.forces().force(state, p);
   int first = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
@@ -193,25 +196,25 @@ Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &st
   add_turning_closures(machine, state, local);
   const Eigen::VectorXd acts = acting_measures(machine, state.u, acting);
   local                      = acts.asDiagonal() * local * acts.asDiagonal();
-  const auto &W              = machine.directions();
+  const auto &W              = machine.forces().directions();
   return W * local * W.transpose();
 }
 
 Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G)
 {
   Eigen::MatrixXd rows(G.n_rows(), machine.size());
-  G.times(Eigen::MatrixXd(machine.directions().transpose()), rows);
+  G.times(Eigen::MatrixXd(machine.forces().directions().transpose()), rows);
   return rows;
 }
 
 Eigen::MatrixXd free_motions(const Machine &machine, const LocalState &state, const std::vector<int> &fixed)
 {
-  const int n = machine.size(), n_c = machine.n_constraints(), n_f = int(fixed.size());
+  const int n = machine.size(), n_c = machine.joints().n_rows(), n_f = int(fixed.size());
   if (n_c + n_f == 0)
     return Eigen::MatrixXd::Identity(n, n);
-  ConstraintJacobian G(machine.constraint_blocks());
+  ConstraintJacobian G(machine.joints().blocks());
   Eigen::VectorXd    g(n_c);
-  machine.constraints(state, g, G);
+  machine.joints().constraints(state, g, G);
   Eigen::MatrixXd held(n_c + n_f, n);
   held.topRows(n_c) = joint_jacobian(machine, G);
   held.bottomRows(n_f).setZero();

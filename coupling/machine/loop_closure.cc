@@ -23,7 +23,7 @@ std::vector<int> slider_coordinates(const Machine &machine)
 
 Closures closures(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  const auto                  &W = machine.directions();
+  const auto                  &W = machine.forces().directions();
   const Eigen::VectorXd        u = W.transpose() * q, u_rate = W.transpose() * v;
   std::vector<double>          values, curvatures;
   std::vector<Eigen::VectorXd> rows;

@@ -2,9 +2,7 @@
 
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/integration/system/second_order_system.h"
-#include "coupling/machine/marker.h"
-#include "mechanism/force_element.h"
-#include "mechanism/measures/combined_measure.h"
+#include "coupling/machine/machine_model.h"
 
 #include <map>
 #include <memory>
@@ -16,151 +14,8 @@ namespace gestell::coupling
 {
 
 class LinearBase;
-
-/// A scalar the user asks for: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the time +
-/// offset).
-struct Signal
-{
-  std::string name; ///< the user's, e.g. "F_P"
-  std::string unit; ///< "N"
-  Measure     on_q, on_v;
-  int         element  = -1;
-  int         quantity = -1;
-  double      scale    = 1.;
-  double      offset   = 0.;
-  int         load     = -1; ///< external load
-  std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
-  int         measure = -1;  ///< of add_measure(), whose value (quantity 0), rate (1) or acceleration (2) it is
-  double      on_t    = 0.;  ///< weight of the time
-  Measure     on_a{};
-
-  bool reads_acceleration() const { return !on_a.empty() || (measure >= 0 && quantity == 2); }
-};
-
-enum class BodyKind
-{
-  rotor,  ///< one angle [rad] about `axis`
-  slider, ///< one displacement [m] along `axis`
-  point,  ///< three displacements [m]
-  planar, ///< two displacements [m] across `axis` and the angle [rad] about it
-  rigid   ///< three displacements [m] and those of the three directors [1]: turns freely in space
-};
-
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point,
-/// planar or rigid body as such a box too, else as a sphere, a plate through its `points`, bars to them.  Its
-/// coordinates are zero in the position the scene describes.
-struct Body
-{
-  std::string name;
-  BodyKind    kind       = BodyKind::rotor;
-  int         coordinate = -1; ///< the first one
-  Vector3     axis{};
-  Vector3     position{}; ///< [m] at zero displacement
-  double      radius = 0.;
-  Vector3     size{};
-  Marker      marker;
-  Vector3     centre{};     ///< [m] about which it turns: that of a rotor, the centre of mass of the others
-  Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
-
-  std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
-};
-
-/// Two unit vectors across the unit vector n: global axes if n is one, in their order.
-std::pair<Vector3, Vector3> plane_across(const Vector3 &n);
-
-/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
-/// @param normal  unit vector
-std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
-
-/// A point on a body, the frame or the ground, and the measures its motion depends on.
-struct PlacedPoint
-{
-  mechanism::Placement placement;
-  std::vector<Measure> measures;
-};
-
-/// Bar drawn between the pin of a rotor and a slider.
-struct DrawnRod
-{
-  std::string name, crank, slider;
-  double      crank_radius = 0., length = 0.;
-};
-
-/// Bar drawn between two places whose distance matters: a rod, a rope, a cylinder, a spring.
-struct DrawnBar
-{
-  std::string name;
-  PlacedPoint from, to;
-};
-
-/// Pin drawn where two bodies turn against each other.
-struct DrawnPin
-{
-  PlacedPoint at;
-  Vector3     axis{}; ///< unit vector
-};
-
-/// amplitude sin(omega t + phase), omega > 0 [rad/s].
-struct Oscillation
-{
-  double omega, amplitude, phase;
-};
-
-/// A scalar of the motion of two points: signals "value", "rate" and "acceleration".
-struct NamedMeasure
-{
-  std::string                name, unit; ///< of the value: "m", "rad"
-  mechanism::CombinedMeasure measure;
-  std::vector<Measure>       measures;
-
-  mechanism::RelativeMeasure::Value evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
-                                             Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]
-  /// s'' = ds/dq . q'' + d(ds/dq)/dt . q'
-  double acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const;
-};
-
-/// What is told to which element or joint.
-struct SwitchOrder
-{
-  std::string              element;
-  mechanism::SwitchCommand order;
-};
-
-enum class SwitchCrossing
-{
-  rising,
-  falling,
-  either ///< from the side on which the signal is when it begins to watch
-};
-
-/// When a signal crosses a level, elements are given orders: once, or every time.
-struct Switch
-{
-  std::string              name, signal; ///< path of the signal; "t": the time
-  double                   level    = 0.;
-  SwitchCrossing           crossing = SwitchCrossing::rising;
-  std::vector<SwitchOrder> orders;
-  double                   delay      = 0.; ///< [s] from the crossing to the orders
-  std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
-  bool                     repeat     = false;
-  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back (either: gone away)
-};
-
-/// What the measures of an element are.
-enum class MeasureKind
-{
-  displacement, ///< or several of all kinds, which the element itself tells apart
-  angle         ///< of an element that could act on a displacement, too: its forces are torques
-};
-
-struct ElementPlacement
-{
-  std::string                              name;
-  std::shared_ptr<mechanism::ForceElement> element;
-  std::vector<Measure>                     measures;   ///< one per measure of the element
-  int                                      joint = -1; ///< of friction in an ideal joint: which element that is
-  MeasureKind                              kind  = MeasureKind::displacement;
-};
+struct MachineParts;
+struct MachineSystem;
 
 /**
  * The coupled machine: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
@@ -294,53 +149,22 @@ public:
   void gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
               LocalState &local) const;
 
-  // --- SecondOrderSystem
-  int                           size() const override;
-  void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const override;
-  std::vector<SpectrumLine>     spectrum() const override;
-  const Excitation             &excitation() const override;
-  bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const override;
-  bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
-                       Eigen::SparseMatrix<double> &C) const override;
-  const Eigen::SparseMatrix<double> &directions() const override;
-  void                               local_force(const LocalState &state, Eigen::VectorXd &p) const override;
-  void                    local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                                        Eigen::MatrixXd &dp) const override;
-  void                    local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
-                                            Eigen::MatrixXd &dp_dv) const override;
-  std::vector<ForceBlock> force_blocks() const override;
-  void local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
-                            Eigen::VectorXd &blocks) const override;
-  const std::vector<HeldMeasure>     &held() const override;
-  const std::vector<ConstraintBlock> &constraint_blocks() const override;
-  void        constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
-  void        constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
-  bool        wants_multipliers() const override;
-  bool        forces_need_multipliers() const override;
-  std::string constraint_name(int i) const override;
-  void        follow_history(bool follow) override;
-  Eigen::VectorXd         save_history() const override;
-  void                    restore_history(const Eigen::VectorXd &saved) override;
-  void                    start(const LocalState &state) override;
-  void                    accept(const LocalState &state) override;
-  int                     n_guards() const override;
-  void                    guard_values(const LocalState &state, Eigen::VectorXd &g) const override;
-  GuardCrossing           crossing(int i) const override;
-  ActiveGuard             guard(int i) const override;
-  void                    transition(int i, const LocalState &state) override;
-  const std::vector<int> &virtual_coordinates() const override;
-  double                  local_stored_energy(const LocalState &state) const override;
-  void local_power(const LocalState &state, const Eigen::VectorXd &p, double &input, double &dissipated) const override;
-  std::string coordinate_name(int i) const override;
+  int         size() const;                 ///< coordinates of frame and mechanism
+  std::string coordinate_name(int i) const; ///< for messages
+
+  // --- SecondOrderSystem, after finish()
+  const LinearSystem  &linear() const override;
+  const LocalForces   &forces() const override;
+  const IdealJoints   &joints() const override;
+  const EventSystem   &events() const override;
+  EventSystem         &events() override;
+  const EnergyAccount &energy() const override;
 
 private:
   void refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const;
 
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<MachineParts>  parts_;
+  std::unique_ptr<MachineSystem> system_;
 };
 
 } // namespace gestell::coupling

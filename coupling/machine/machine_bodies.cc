@@ -1,3 +1,4 @@
+#include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
 
 #include <algorithm>

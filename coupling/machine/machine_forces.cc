@@ -1,4 +1,4 @@
-#include "coupling/machine/machine_parts.h"
+#include "coupling/machine/machine_system.h"
 
 #include <algorithm>
 
@@ -7,24 +7,29 @@ namespace gestell::coupling
 
 // Forces of the elements and equations of the joints, each in its measures.
 
-void Machine::local_force(const LocalState &state, Eigen::VectorXd &p) const
+const Eigen::SparseMatrix<double> &MachineForces::directions() const
 {
-  for (const auto &part : parts_->placed)
+  return parts_.W;
+}
+
+void MachineForces::force(const LocalState &state, Eigen::VectorXd &p) const
+{
+  for (const auto &part : parts_.placed)
     if (!part.implied())
-      part.element->force(part.motion(state, parts_->by_history), parts_->history_of(part),
+      part.element->force(part.motion(state, parts_.by_history), parts_.history_of(part),
                           p.data() + part.first_measure);
 }
 
-void Machine::local_tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+void MachineForces::tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                             Eigen::MatrixXd &dp) const
 {
   dp.setZero();
-  double block[Parts::max_measures * Parts::max_measures];
-  for (const auto &part : parts_->placed)
+  double block[MachineParts::max_measures * MachineParts::max_measures];
+  for (const auto &part : parts_.placed)
   {
     if (part.implied())
       continue;
-    part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a},
+    part.element->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
                           p.data() + part.first_measure, block);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
@@ -32,15 +37,16 @@ void Machine::local_tangent(const LocalState &state, double w_u, double w_v, dou
   }
 }
 
-void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
+void MachineForces::derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                                 Eigen::MatrixXd &dp_dv) const
 {
-  double of_u[Parts::max_measures * Parts::max_measures], of_v[Parts::max_measures * Parts::max_measures];
-  for (const auto &part : parts_->placed)
+  double of_u[MachineParts::max_measures * MachineParts::max_measures],
+      of_v[MachineParts::max_measures * MachineParts::max_measures];
+  for (const auto &part : parts_.placed)
   {
     if (part.implied())
       continue;
-    part.element->derivatives(part.motion(state, parts_->by_history), parts_->history_of(part),
+    part.element->derivatives(part.motion(state, parts_.by_history), parts_.history_of(part),
                               p.data() + part.first_measure, of_u, of_v);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
@@ -51,28 +57,16 @@ void Machine::local_derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   }
 }
 
-void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
+std::vector<ForceBlock> MachineForces::blocks() const
 {
-  K.setZero(parts_->W.cols(), parts_->W.cols());
-  double block[Parts::max_measures * Parts::max_measures];
-  for (const auto &part : parts_->placed)
-  {
-    part.element->geometric(part.motion(state, parts_->by_history), parts_->history_of(part), block);
-    K.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) =
-        Eigen::Map<const Eigen::MatrixXd>(block, part.n_measures, part.n_measures);
-  }
+  return parts_.force_blocks;
 }
 
-std::vector<ForceBlock> Machine::force_blocks() const
-{
-  return parts_->force_blocks;
-}
-
-void Machine::local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+void MachineForces::tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                                    Eigen::VectorXd &blocks) const
 {
   double *block = blocks.data();
-  for (const auto &part : parts_->placed)
+  for (const auto &part : parts_.placed)
   {
     if (part.first_constraint >= 0)
       continue;
@@ -80,18 +74,18 @@ void Machine::local_tangent_blocks(const LocalState &state, double w_u, double w
     if (part.holds)
       std::fill_n(block, size, 0.);
     else
-      part.element->tangent(part.motion(state, parts_->by_history), parts_->history_of(part), {w_u, w_v, w_a},
+      part.element->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
                             p.data() + part.first_measure, block);
     block += size;
   }
 }
 
-const std::vector<HeldMeasure> &Machine::held() const
+const std::vector<HeldMeasure> &MachineForces::held() const
 {
-  return parts_->held;
+  return parts_.held;
 }
 
-double Machine::Parts::held_rate(int measure) const
+double MachineParts::held_rate(int measure) const
 {
   for (const HeldMeasure &h : held)
     if (h.measure == measure)
@@ -99,7 +93,7 @@ double Machine::Parts::held_rate(int measure) const
   return 0.;
 }
 
-double Machine::Parts::prescribed_power(const PlacedElement &joint, const LocalState &state) const
+double MachineParts::prescribed_power(const PlacedElement &joint, const LocalState &state) const
 {
   double rate[max_constraints], bias[max_constraints], power = 0.;
   joint.element->constraint_rates(joint.motion(state, by_history), history_of(joint), rate, bias);
@@ -108,7 +102,7 @@ double Machine::Parts::prescribed_power(const PlacedElement &joint, const LocalS
   return power;
 }
 
-double Machine::Parts::taken_power(const PlacedElement &part, const LocalState &state) const
+double MachineParts::taken_power(const PlacedElement &part, const LocalState &state) const
 {
   const auto motion = part.motion(state, by_history);
   double     p[max_measures];
@@ -119,27 +113,56 @@ double Machine::Parts::taken_power(const PlacedElement &part, const LocalState &
   return taken;
 }
 
-const std::vector<ConstraintBlock> &Machine::constraint_blocks() const
+bool MachineJoints::wants_multipliers() const
 {
-  return parts_->joint_blocks;
+  const auto watches_joint = [&](const MachineParts::PlacedSwitch &own)
+  { return own.signal.element >= 0 && parts_.placed[own.watched].tells_multipliers(own.signal.quantity); };
+  // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
+  const auto sticks_in_joint = [](const MachineParts::PlacedElement &part)
+  { return part.holds && part.first_multiplier >= 0; };
+  return parts_.reads_joints || std::any_of(parts_.placed.begin(), parts_.placed.end(), sticks_in_joint) ||
+         std::any_of(parts_.switches.begin(), parts_.switches.end(), watches_joint);
 }
 
-void Machine::constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const
+std::string MachineJoints::name(int i) const
 {
-  for (std::size_t i = 0; i < parts_->joint_blocks.size(); ++i)
+  for (const int joint : parts_.joints)
   {
-    const auto &part = parts_->placed[parts_->joints[i]];
-    part.element->constraint(part.motion(state, parts_->by_history), parts_->history_of(part),
+    const auto &part = parts_.placed[joint];
+    const int   row  = i - part.first_constraint;
+    if (row >= 0 && row < part.element->n_constraints())
+      return "\"" + parts_.elements[joint].name + "\" (" + part.element->constraint_name(row) + ")";
+  }
+  return IdealJoints::name(i);
+}
+
+bool MachineForces::need_multipliers() const
+{
+  return std::any_of(parts_.elements.begin(), parts_.elements.end(),
+                     [](const ElementPlacement &placement) { return placement.joint >= 0; });
+}
+
+const std::vector<ConstraintBlock> &MachineJoints::blocks() const
+{
+  return parts_.joint_blocks;
+}
+
+void MachineJoints::constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const
+{
+  for (std::size_t i = 0; i < parts_.joint_blocks.size(); ++i)
+  {
+    const auto &part = parts_.placed[parts_.joints[i]];
+    part.element->constraint(part.motion(state, parts_.by_history), parts_.history_of(part),
                              g.data() + part.first_constraint, G[i].data());
   }
 }
 
-void Machine::constraint_rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
+void MachineJoints::rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
 {
-  for (const int joint : parts_->joints)
+  for (const int joint : parts_.joints)
   {
-    const auto &part = parts_->placed[joint];
-    part.element->constraint_rates(part.motion(state, parts_->by_history), parts_->history_of(part),
+    const auto &part = parts_.placed[joint];
+    part.element->constraint_rates(part.motion(state, parts_.by_history), parts_.history_of(part),
                                    rate.data() + part.first_constraint, bias.data() + part.first_constraint);
   }
 }

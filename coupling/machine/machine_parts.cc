@@ -37,7 +37,7 @@ Eigen::SparseMatrix<double> enlarged(const Eigen::SparseMatrix<double> &a, int n
 }
 } // namespace
 
-int Machine::Parts::add_coordinates(const std::string &body, const std::vector<std::string> &names)
+int MachineParts::add_coordinates(const std::string &body, const std::vector<std::string> &names)
 {
   if (markers.count(body))
     throw std::invalid_argument("the name \"" + body + "\" is used twice; give every body its own");
@@ -46,7 +46,7 @@ int Machine::Parts::add_coordinates(const std::string &body, const std::vector<s
   return first;
 }
 
-bool Machine::Parts::is_lag(const Measure &u) const
+bool MachineParts::is_lag(const Measure &u) const
 {
   return std::any_of(
       u.begin(), u.end(),
@@ -54,32 +54,14 @@ bool Machine::Parts::is_lag(const Measure &u) const
       { return std::find(lag_coordinates.begin(), lag_coordinates.end(), term.first) != lag_coordinates.end(); });
 }
 
-int Machine::add_lag(const std::string &name, double time_constant)
-{
-  if (!(time_constant > 0.) || !std::isfinite(time_constant))
-    throw std::invalid_argument("lag \"" + name + "\": time constant " + std::to_string(time_constant) +
-                                " s must be positive");
-  const int x = parts_->size();
-  parts_->add_dyad(parts_->B, time_constant, {{x, 1.}});
-  parts_->add_dyad(parts_->C, 1., {{x, 1.}});
-  parts_->coordinate_names.push_back(name);
-  parts_->lag_coordinates.push_back(x);
-  return x;
-}
-
-const std::vector<int> &Machine::virtual_coordinates() const
-{
-  return parts_->lag_coordinates;
-}
-
-void Machine::Parts::add_body(const Body &body)
+void MachineParts::add_body(const Body &body)
 {
   bodies.push_back(body);
   markers[body.name]   = body.marker;
   positions[body.name] = body.position;
 }
 
-void Machine::Parts::add_interfaces(const std::vector<fem::Interface> &interfaces)
+void MachineParts::add_interfaces(const std::vector<fem::Interface> &interfaces)
 {
   for (const fem::Interface &interface : interfaces)
   {
@@ -93,7 +75,7 @@ void Machine::Parts::add_interfaces(const std::vector<fem::Interface> &interface
   }
 }
 
-void Machine::Parts::add_dyad(Triplets &matrix, double factor, const Measure &w)
+void MachineParts::add_dyad(Triplets &matrix, double factor, const Measure &w)
 {
   if (factor != 0.)
     for (const auto &[i, wi] : w)
@@ -101,26 +83,26 @@ void Machine::Parts::add_dyad(Triplets &matrix, double factor, const Measure &w)
         matrix.emplace_back(i, j, factor * wi * wj);
 }
 
-void Machine::Parts::add_loads(double mass, const std::array<Measure, 3> &translation)
+void MachineParts::add_loads(double mass, const std::array<Measure, 3> &translation)
 {
   for (int d = 0; d < 3; ++d)
     acceleration_load[d] = acceleration_load[d] + mass * translation[d];
 }
 
-void Machine::Parts::add_mass(double mass, const std::array<Measure, 3> &translation)
+void MachineParts::add_mass(double mass, const std::array<Measure, 3> &translation)
 {
   for (int d = 0; d < 3; ++d)
     add_dyad(M, mass, translation[d]);
   add_loads(mass, translation);
 }
 
-Vector3 Machine::Parts::position_of(const std::string &marker) const
+Vector3 MachineParts::position_of(const std::string &marker) const
 {
   const auto found = positions.find(marker);
   return found == positions.end() ? Vector3{} : found->second;
 }
 
-bool Machine::Parts::moves_with_frame(const Marker &marker) const
+bool MachineParts::moves_with_frame(const Marker &marker) const
 {
   for (const auto &motion : {marker.translation, marker.rotation})
     for (const Measure &u : motion)
@@ -130,7 +112,7 @@ bool Machine::Parts::moves_with_frame(const Marker &marker) const
   return false;
 }
 
-void Machine::Parts::finish()
+void MachineParts::finish()
 {
   const int n       = size();
   translation_loads = Eigen::MatrixXd::Zero(n, 3);
@@ -160,7 +142,7 @@ void Machine::Parts::finish()
   place_switches();
 }
 
-void Machine::Parts::assemble_dense(int n)
+void MachineParts::assemble_dense(int n)
 {
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
   ModalRange      modal;
@@ -179,7 +161,7 @@ void Machine::Parts::assemble_dense(int n)
   base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
 }
 
-void Machine::Parts::assemble_sparse(int n)
+void MachineParts::assemble_sparse(int n)
 {
   if (full->acceleration_load.size() > 0)
     translation_loads.topRows(n_frame) = full->acceleration_load;
@@ -195,20 +177,20 @@ void Machine::Parts::assemble_sparse(int n)
                                       std::move(damping_operator));
 }
 
-bool Machine::Parts::has_joints() const
+bool MachineParts::has_joints() const
 {
   return std::any_of(elements.begin(), elements.end(),
                      [](const ElementPlacement &placement) { return placement.element->n_constraints() > 0; });
 }
 
 /// Bodies alone: a few numbers per row.
-void Machine::Parts::assemble_mechanism(int n)
+void MachineParts::assemble_mechanism(int n)
 {
   const Eigen::SparseMatrix<double> zero(n, n);
   base = std::make_unique<SparseBase>(enlarged(zero, n, M), enlarged(zero, n, B), enlarged(zero, n, C));
 }
 
-void Machine::Parts::place_elements(int n)
+void MachineParts::place_elements(int n)
 {
   int      n_measures = 0, n_history = 0, n_constraints = 0;
   Triplets columns;
@@ -255,7 +237,7 @@ void Machine::Parts::place_elements(int n)
   history = Eigen::VectorXd::Zero(n_history);
 }
 
-void Machine::Parts::refresh_guards()
+void MachineParts::refresh_guards()
 {
   guards.clear();
   held.clear();
@@ -285,7 +267,7 @@ void Machine::Parts::refresh_guards()
                         {switches[i].request.name, switch_event(switches[i])}});
 }
 
-std::string Machine::Parts::coordinate_name(int i) const
+std::string MachineParts::coordinate_name(int i) const
 {
   if (i >= n_frame)
     return coordinate_names[i - n_frame];

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/integration/system/second_order_system.h"
 #include "coupling/machine/linear_base.h"
-#include "coupling/machine/machine.h"
+#include "coupling/machine/machine_model.h"
 #include "mechanism/transmitted_element.h"
 
 #include <map>
@@ -10,7 +12,7 @@ namespace gestell::coupling
 {
 
 /// What a Machine is made of, while it is built and afterwards.
-struct Machine::Parts
+struct MachineParts
 {
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
   static constexpr int max_measures = ///< per element

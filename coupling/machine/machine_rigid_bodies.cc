@@ -1,3 +1,4 @@
+#include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
@@ -50,7 +51,7 @@ int Machine::add_rigid(const std::string &name, double mass, const Eigen::Matrix
 }
 
 /// T = 1/2 sum E_ij d_i' . d_j',  E = 1/2 tr(J) - J.
-void Machine::Parts::add_inertia(const std::string &what, const Eigen::Matrix3d &inertia, int first, bool is_whole_body)
+void MachineParts::add_inertia(const std::string &what, const Eigen::Matrix3d &inertia, int first, bool is_whole_body)
 {
   const double largest = inertia.cwiseAbs().maxCoeff();
   if (!inertia.allFinite() || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * largest)
@@ -78,7 +79,7 @@ void Machine::Parts::add_inertia(const std::string &what, const Eigen::Matrix3d 
           M.emplace_back(first + 3 * i + d, first + 3 * j + d, E(i, j));
 }
 
-void Machine::Parts::refuse_free_carrier(const Marker &carrier, const std::string &what) const
+void MachineParts::refuse_free_carrier(const Marker &carrier, const std::string &what) const
 {
   if (carrier.turns_freely)
     throw std::invalid_argument(what + ": its carrier \"" + carrier.name +
@@ -86,7 +87,7 @@ void Machine::Parts::refuse_free_carrier(const Marker &carrier, const std::strin
                                 "held by a revolute or prismatic joint");
 }
 
-std::array<Measure, 3> Machine::Parts::moved_point(const Marker &marker, const Vector3 &arm) const
+std::array<Measure, 3> MachineParts::moved_point(const Marker &marker, const Vector3 &arm) const
 {
   std::array<Measure, 3> moved = marker.translation;
   if (marker.turns_freely) // linear in the directors, however far they turn

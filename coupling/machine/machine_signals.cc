@@ -1,3 +1,4 @@
+#include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
 #include "fem/values/nearest_name.h"
 
@@ -28,7 +29,7 @@ std::string torsional(const std::string &unit)
 
 } // namespace
 
-double Machine::Parts::Load::at(double t) const
+double MachineParts::Load::at(double t) const
 {
   double f = constant;
   for (const Oscillation &part : oscillations)
@@ -36,7 +37,7 @@ double Machine::Parts::Load::at(double t) const
   return f;
 }
 
-std::map<std::string, Signal> Machine::Parts::signals() const
+std::map<std::string, Signal> MachineParts::signals() const
 {
   std::map<std::string, Signal> signals;
   const auto                    add_motion =
@@ -186,7 +187,7 @@ std::vector<std::string> Machine::signal_paths() const
   return paths;
 }
 
-Signal Machine::Parts::signal(const std::string &path) const
+Signal MachineParts::signal(const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;

@@ -50,7 +50,7 @@ private:
  *
  * Source: docs/theory/contact.md (6).
  */
-void Machine::Parts::find_stopped(const LocalState &state)
+void MachineParts::find_stopped(const LocalState &state)
 {
   double rate = 0.;
   if (std::none_of(placed.begin(), placed.end(),

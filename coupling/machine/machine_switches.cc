@@ -1,3 +1,4 @@
+#include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
 #include "fem/values/nearest_name.h"
 
@@ -38,7 +39,7 @@ private:
 } // namespace
 
 /// @throws std::invalid_argument with the nearest name, or for a signal that no event can be looked for in
-Signal Machine::Parts::watched_signal(const Switch &request) const
+Signal MachineParts::watched_signal(const Switch &request) const
 {
   try
   {
@@ -77,7 +78,7 @@ void Machine::add_switch(const Switch &request)
 }
 
 /// Elements of no force for switches whose signal is a motion: its measures, or the two sums on q and q'.
-void Machine::Parts::add_watches()
+void MachineParts::add_watches()
 {
   switches.clear();
   for (const Switch &request : switch_requests)
@@ -110,7 +111,7 @@ enum Slot
 };
 } // namespace
 
-void Machine::Parts::place_switches()
+void MachineParts::place_switches()
 {
   for (PlacedSwitch &own : switches)
   {
@@ -132,7 +133,7 @@ void Machine::Parts::place_switches()
   start_switches(nullptr);
 }
 
-void Machine::Parts::start_switches(const LocalState *state)
+void MachineParts::start_switches(const LocalState *state)
 {
   for (const PlacedSwitch &own : switches)
   {
@@ -146,7 +147,7 @@ void Machine::Parts::start_switches(const LocalState *state)
 /// Begins to watch.  A crossing in either direction is one from the side on which the signal is: where that is not
 /// known, or it stands at the level itself, the next accepted instant tells.
 /// @param state  null: not known
-void Machine::Parts::watch(const PlacedSwitch &own, const LocalState *state)
+void MachineParts::watch(const PlacedSwitch &own, const LocalState *state)
 {
   history[own.history + phase_slot] = double(SwitchPhase::watches);
   double &side                      = history[own.history + side_slot];
@@ -160,14 +161,14 @@ void Machine::Parts::watch(const PlacedSwitch &own, const LocalState *state)
 }
 
 /// The signal follows from forces that no law tells, but the equations of the step: at a start they are not known yet.
-bool Machine::Parts::tells_found_force(const PlacedSwitch &own) const
+bool MachineParts::tells_found_force(const PlacedSwitch &own) const
 {
   double      rate = 0.;
   const auto &part = placed[own.watched];
   return part.tells_multipliers(own.signal.quantity) || part.element->holds(history_of(part), rate);
 }
 
-void Machine::Parts::find_sides(const LocalState &state)
+void MachineParts::find_sides(const LocalState &state)
 {
   bool found = false;
   for (const PlacedSwitch &own : switches)
@@ -181,17 +182,17 @@ void Machine::Parts::find_sides(const LocalState &state)
     refresh_guards();
 }
 
-Machine::Parts::SwitchPhase Machine::Parts::phase(const PlacedSwitch &own) const
+MachineParts::SwitchPhase MachineParts::phase(const PlacedSwitch &own) const
 {
   return static_cast<SwitchPhase>(static_cast<int>(history[own.history + phase_slot]));
 }
 
-bool Machine::Parts::is_active(const PlacedSwitch &own) const
+bool MachineParts::is_active(const PlacedSwitch &own) const
 {
   return phase(own) != SwitchPhase::waits && phase(own) != SwitchPhase::rests;
 }
 
-GuardCrossing Machine::Parts::switch_crossing(const PlacedSwitch &own) const
+GuardCrossing MachineParts::switch_crossing(const PlacedSwitch &own) const
 {
   const bool either = own.request.crossing == SwitchCrossing::either, back = phase(own) == SwitchPhase::returns;
   if (phase(own) == SwitchPhase::delays || (either && back))
@@ -199,12 +200,12 @@ GuardCrossing Machine::Parts::switch_crossing(const PlacedSwitch &own) const
   return (history[own.history + side_slot] <= 0.) != back ? GuardCrossing::rising : GuardCrossing::falling;
 }
 
-std::string Machine::Parts::switch_event(const PlacedSwitch &own) const
+std::string MachineParts::switch_event(const PlacedSwitch &own) const
 {
   return phase(own) == SwitchPhase::delays ? "orders" : phase(own) == SwitchPhase::returns ? "ready" : "switch";
 }
 
-double Machine::Parts::switch_guard(const PlacedSwitch &own, const LocalState &state) const
+double MachineParts::switch_guard(const PlacedSwitch &own, const LocalState &state) const
 {
   if (phase(own) == SwitchPhase::delays)
     return state.t - history[own.history + due_slot];
@@ -220,7 +221,7 @@ double Machine::Parts::switch_guard(const PlacedSwitch &own, const LocalState &s
 }
 
 /// Passes what it waited for: the crossing, the delay, the way back.
-void Machine::Parts::throw_switch(int index, const LocalState &state)
+void MachineParts::throw_switch(int index, const LocalState &state)
 {
   const PlacedSwitch &own  = switches[index];
   double             &next = history[own.history + phase_slot];
@@ -247,7 +248,7 @@ void Machine::Parts::throw_switch(int index, const LocalState &state)
   }
 }
 
-void Machine::Parts::give_orders(int index, const LocalState &state)
+void MachineParts::give_orders(int index, const LocalState &state)
 {
   const PlacedSwitch &own  = switches[index];
   double             &next = history[own.history + phase_slot], &side = history[own.history + side_slot];
@@ -281,7 +282,7 @@ void Machine::Parts::give_orders(int index, const LocalState &state)
       watch(other, &state);
 }
 
-double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &state) const
+double MachineParts::watched_value(const PlacedSwitch &own, const LocalState &state) const
 {
   if (own.signal.on_t != 0.)
     return own.signal.scale * own.signal.on_t * state.t;
@@ -303,17 +304,6 @@ double Machine::Parts::watched_value(const PlacedSwitch &own, const LocalState &
   return own.signal.scale * value;
 }
 
-bool Machine::wants_multipliers() const
-{
-  const auto watches_joint = [&](const Parts::PlacedSwitch &own)
-  { return own.signal.element >= 0 && parts_->placed[own.watched].tells_multipliers(own.signal.quantity); };
-  // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
-  const auto sticks_in_joint = [](const Parts::PlacedElement &part)
-  { return part.holds && part.first_multiplier >= 0; };
-  return parts_->reads_joints || std::any_of(parts_->placed.begin(), parts_->placed.end(), sticks_in_joint) ||
-         std::any_of(parts_->switches.begin(), parts_->switches.end(), watches_joint);
-}
-
 void Machine::will_read(const std::vector<Signal> &signals)
 {
   const auto reads_joint = [&](const Signal &signal)
@@ -322,12 +312,6 @@ void Machine::will_read(const std::vector<Signal> &signals)
            (signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity));
   };
   parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
-}
-
-bool Machine::forces_need_multipliers() const
-{
-  return std::any_of(parts_->elements.begin(), parts_->elements.end(),
-                     [](const ElementPlacement &placement) { return placement.joint >= 0; });
 }
 
 const NamedMeasure &Machine::measure(const std::string &name) const

@@ -57,9 +57,9 @@ std::string element_of(const Machine &machine, int measure)
 Holding held_by_joints(const Machine &machine, const LocalState &local)
 {
   Holding            holding;
-  ConstraintJacobian G(machine.constraint_blocks());
+  ConstraintJacobian G(machine.joints().blocks());
   Eigen::VectorXd    g = Eigen::VectorXd::Zero(G.n_rows());
-  machine.constraints(local, g, G);
+  machine.joints().constraints(local, g, G);
   const Eigen::MatrixXd rows = joint_jacobian(machine, G);
   int                   row  = 0;
   for (const ElementPlacement &placement : machine.elements())
@@ -90,14 +90,14 @@ StickingConflict sticking_conflict(Machine &machine, const InitialState &initial
   LocalState local;
   local.resize(machine);
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
-  machine.start(local);
-  if (machine.held().empty())
+  machine.events().start(local);
+  if (machine.forces().held().empty())
     return {};
   Holding holding = held_by_joints(machine, local);
-  for (const HeldMeasure &held : machine.held())
+  for (const HeldMeasure &held : machine.forces().held())
   {
     const std::string     element = element_of(machine, held.measure);
-    const Eigen::VectorXd row     = Eigen::VectorXd(machine.directions().col(held.measure)).normalized();
+    const Eigen::VectorXd row     = Eigen::VectorXd(machine.forces().directions().col(held.measure)).normalized();
     const auto            others  = holding.makers_of(row);
     if (!others.empty())
       return {element, words_of(machine, element, row, others)};

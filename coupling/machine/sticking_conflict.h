@@ -1,6 +1,7 @@
 #pragma once
 
-#include "coupling/equilibrium/steady_start.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
 
 #include <string>
 

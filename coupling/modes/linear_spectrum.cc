@@ -19,7 +19,7 @@ Eigen::MatrixXd geometric_at_rest(const Machine &machine, const InitialState &st
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
   local.resize(machine);
   machine.gather(start.t, start.q, zero, zero, local);
-  if (machine.n_constraints() > 0)
+  if (machine.joints().n_rows() > 0)
     try
     {
       local.lambda = multipliers_at_rest(machine, start.q, local);
@@ -53,7 +53,7 @@ LinearMachine in_modes(ModeOrigin origin, const Eigen::MatrixXd &M, const Eigen:
 /// Stiffness [n_u x n_u] of all elements in the stiffest branch of their laws.
 Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const Eigen::VectorXd &q)
 {
-  const Eigen::VectorXd               u = machine.directions().transpose() * q;
+  const Eigen::VectorXd               u = machine.forces().directions().transpose() * q;
   std::vector<Eigen::Triplet<double>> entries;
   int                                 first = 0;
   for (const ElementPlacement &placement : machine.elements())
@@ -75,8 +75,8 @@ Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const E
 /// The highest frequency by power iteration on M^-1 C, approached from below; two hundred steps come within a per cent.
 LargeMode highest_mode(const Machine &machine, const Eigen::VectorXd &q, double damping_ratio)
 {
-  const auto  mass = machine.factorise(1., 0., 0.);
-  const auto &W    = machine.directions();
+  const auto  mass = machine.linear().factorise(1., 0., 0.);
+  const auto &W    = machine.forces().directions();
   const auto  K    = stiffest_of_measures(machine, q);
 
   Eigen::VectorXd x(machine.size()), y(x.size()), z(x.size());
@@ -85,9 +85,9 @@ LargeMode highest_mode(const Machine &machine, const Eigen::VectorXd &q, double 
   double omega = 0.;
   for (int i = 0; i < 200; ++i)
   {
-    machine.stiffness_times(x, y);
+    machine.linear().stiffness_times(x, y);
     y += W * (K * (W.transpose() * x));
-    machine.mass_times(x, z);
+    machine.linear().mass_times(x, z);
     omega = std::sqrt(std::max(0., x.dot(y) / x.dot(z)));
     mass->solve(y, x);
     x /= x.norm();
@@ -101,7 +101,7 @@ std::vector<LargeMode> modes_of_large(const Machine &machine, const Eigen::Vecto
   std::vector<LargeMode> result;
   int                    number = 0;
   double                 least  = 1.;
-  for (const SpectrumLine &line : machine.spectrum())
+  for (const SpectrumLine &line : machine.linear().spectrum())
   {
     ++number;
     if (line.omega <= 0.)
@@ -119,7 +119,7 @@ std::vector<LargeMode> modes_of_large(const Machine &machine, const Eigen::Vecto
 bool is_large(const Machine &machine)
 {
   Eigen::MatrixXd M, B, C;
-  return machine.full_frame() || !machine.dense_matrices(M, B, C);
+  return machine.full_frame() || !machine.linear().dense_matrices(M, B, C);
 }
 
 LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start)
@@ -128,7 +128,7 @@ LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start
     return {{}, modes_of_large(machine, start.q)};
   LocalState            local;
   const Eigen::MatrixXd geometric = geometric_at_rest(machine, start, local);
-  const bool            jointed   = machine.n_constraints() > 0;
+  const bool            jointed   = machine.joints().n_rows() > 0;
   const Eigen::MatrixXd Z         = jointed ? free_motions(machine, local) : Eigen::MatrixXd();
   const auto free = [&](const Eigen::MatrixXd &A) { return jointed ? Eigen::MatrixXd(Z.transpose() * A * Z) : A; };
   const Eigen::MatrixXd M = free(dense_mass(machine)), B = free(dense_damping(machine)),

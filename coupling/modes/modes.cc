@@ -171,7 +171,7 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
   LocalState            local;
   local.resize(machine);
   machine.gather(0., q, zero, zero, local);
-  const bool jointed = machine.n_constraints() > 0;
+  const bool jointed = machine.joints().n_rows() > 0;
   if (linearisation.geometric == GeometricStiffness::included)
   {
     if (jointed)
@@ -210,8 +210,8 @@ struct Drives
 Drives add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
 {
   const Eigen::VectorXd structure = acting_measures(machine, local.u, Acting::structure);
-  const auto           &W         = machine.directions();
-  const auto           &lags      = machine.virtual_coordinates(); // ascending
+  const auto           &W         = machine.forces().directions();
+  const auto           &lags      = machine.linear().virtual_coordinates(); // ascending
   Drives                found;
   int                   first = 0;
   for (const ElementPlacement &placement : machine.elements())

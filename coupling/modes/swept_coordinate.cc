@@ -81,7 +81,7 @@ Eigen::VectorXd measures_of(const Machine &machine, int element, const Eigen::Ve
   int first = 0;
   for (int e = 0; e < element; ++e)
     first += machine.elements()[std::size_t(e)].element->n_measures();
-  return (machine.directions().transpose() * q)
+  return (machine.forces().directions().transpose() * q)
       .segment(first, machine.elements()[std::size_t(element)].element->n_measures());
 }
 
@@ -144,10 +144,10 @@ KnownStart position_at(Machine &machine, const SweptCoordinate &coordinate, cons
     LocalState local;
     local.resize(machine);
     machine.gather(state.t, state.q, known.state.v, known.state.v, local);
-    machine.start(local);
-    Eigen::VectorXd    g(machine.n_constraints());
-    ConstraintJacobian G(machine.constraint_blocks());
-    machine.constraints(local, g, G);
+    machine.events().start(local);
+    Eigen::VectorXd    g(machine.joints().n_rows());
+    ConstraintJacobian G(machine.joints().blocks());
+    machine.joints().constraints(local, g, G);
     known.shifts.emplace_back(coordinate.row, g[coordinate.row] + x - swept_value(machine, coordinate, state.q));
   }
   return known;

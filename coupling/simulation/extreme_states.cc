@@ -1,6 +1,6 @@
 #include "coupling/simulation/extreme_states.h"
 
-#include "coupling/simulation/simulation.h"
+#include "coupling/simulation/run_result.h"
 
 #include <algorithm>
 

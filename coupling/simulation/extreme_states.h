@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/system/time_integrator.h"
+#include "coupling/simulation/run_result.h"
 
 #include <Eigen/Core>
 
@@ -8,36 +9,6 @@
 
 namespace gestell::coupling
 {
-
-struct SignalSummary;
-
-/// Where a signal is largest or smallest.
-struct SignalExtreme
-{
-  int  signal  = -1; ///< number
-  bool largest = true;
-};
-
-/// States of a run that are kept for what is computed from them afterwards, stresses for instance.
-struct StateRequest
-{
-  double                     step = 0.; ///< [s] of a grid from the begin of the run; 0: none
-  std::vector<double>        at;        ///< [s] instants, ascending
-  std::vector<SignalExtreme> extremes;
-
-  bool empty() const { return !(step > 0.) && at.empty() && extremes.empty(); }
-};
-
-struct KeptState
-{
-  double          t = 0.;
-  Eigen::VectorXd q; ///< empty: the run did not come so far
-};
-
-struct KeptStates
-{
-  std::vector<KeptState> grid, at, extremes; ///< the last two as in the request
-};
 
 /// Takes the wanted states from the dense output, where they lie, not from the steps beside them.  Without a request a
 /// step costs one comparison.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "coupling/machine/accelerations.h"
+#include "coupling/machine/machine.h"
 #include "coupling/simulation/energy_guard.h"
+#include "coupling/simulation/extreme_states.h"
+#include "coupling/simulation/run_result.h"
 #include "coupling/simulation/signal_extremes.h"
-#include "coupling/simulation/simulation.h"
 
 #include <optional>
 #include <vector>

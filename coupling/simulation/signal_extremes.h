@@ -1,6 +1,7 @@
 #pragma once
 
-#include "coupling/simulation/simulation.h"
+#include "coupling/machine/machine_model.h"
+#include "coupling/simulation/run_result.h"
 
 #include <string>
 #include <vector>

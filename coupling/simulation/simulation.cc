@@ -67,16 +67,11 @@ template <typename... Parts>
   throw std::invalid_argument(message.str());
 }
 
-bool controlled(const MethodOptions &method)
-{
-  return method.tolerance > 0.;
-}
-
 /// Highest frequency [rad/s] among the loads; 0 if they are constant.
 double fastest_load(const Machine &machine)
 {
   double omega = 0.;
-  for (const Excitation::Harmonic &harmonic : machine.excitation().harmonics())
+  for (const Excitation::Harmonic &harmonic : machine.linear().excitation().harmonics())
     omega = std::max(omega, harmonic.omega);
   return omega;
 }
@@ -137,7 +132,7 @@ Sampling sampling(const Machine &machine, const MethodOptions &method)
   sampling.inside = controlled(method);
   if (method.method != Method::exact)
     return sampling;
-  for (const SpectrumLine &mode : machine.spectrum())
+  for (const SpectrumLine &mode : machine.linear().spectrum())
     if (mode.omega > 0.)
       sampling.shortest = std::min(sampling.shortest, 2. * M_PI / (samples_of_period * mode.omega));
   // Up to 0.8 rad a step is as short against all modes as those of implicit methods.
@@ -206,8 +201,8 @@ void warn_of_switches(const Machine &machine, double begin, RunResult &result)
                                 " was thrown at the start: its signal lay at the value or beyond it already");
   if (!result.failure.empty() || result.interrupted)
     return;
-  for (int i = 0; i < machine.n_guards(); ++i)
-    if (const ActiveGuard guard = machine.guard(i); guard.kind == "switch" && !happened(result.events, guard))
+  for (int i = 0; i < machine.events().n_guards(); ++i)
+    if (const ActiveGuard guard = machine.events().guard(i); guard.kind == "switch" && !happened(result.events, guard))
       result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
 }
 
@@ -313,13 +308,6 @@ void warn_of_fast_loads(const Machine &machine, RunResult &result)
 }
 
 } // namespace
-
-double output_step(const RunOptions &options)
-{
-  if (options.output_step > 0.)
-    return options.output_step;
-  return controlled(options.method) ? (options.end - options.begin) / 2000. : options.method.step;
-}
 
 void check_run(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {

@@ -2,7 +2,7 @@
 
 #include "fem/assembly/rigid_motions.h"
 #include "fem/values/nearest_name.h"
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,7 +1,7 @@
 #include "fem/geometry/cad_file.h"
 
 #include "fem/geometry/step_text.h"
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 
 #include <algorithm>
 #include <cctype>

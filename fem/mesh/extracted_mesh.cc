@@ -1,6 +1,6 @@
 #include "fem/mesh/extracted_mesh.h"
 
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 
 #include <algorithm>

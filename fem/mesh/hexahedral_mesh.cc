@@ -2,7 +2,7 @@
 
 #include "fem/mesh/hexahedron.h"
 #include "fem/mesh/mesh_quality.h"
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "fem/mesh/memory_estimate.h"
 
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 
 #include <algorithm>
 #include <cmath>

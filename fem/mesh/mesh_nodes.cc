@@ -1,6 +1,6 @@
 #include "fem/mesh/mesh_nodes.h"
 
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>

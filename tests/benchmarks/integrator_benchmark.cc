@@ -40,14 +40,14 @@ void step(benchmark::State &state, coupling::MethodOptions method)
     if (done == steps)
     {
       state.PauseTiming();
-      machine.start(local);
+      machine.events().start(local);
       integrator->begin(0., rest, rest);
       integrator->advance();
       done = 1;
       state.ResumeTiming();
     }
     integrator->advance();
-    machine.accept(integrator->local());
+    machine.events().accept(integrator->local());
     ++done;
   }
   state.counters["coordinates"] = machine.size();
@@ -74,13 +74,13 @@ void plain_condensed_bdf2(benchmark::State &state)
   coupling::Machine machine = frame(static_cast<int>(state.range(0)));
   const int         n = machine.size(), n_N = machine.n_interface(), n_L = n - n_N;
   MatrixXd          M, B, C;
-  machine.dense_matrices(M, B, C);
+  machine.linear().dense_matrices(M, B, C);
   const double   b          = 2. / 3. * h;
   const MatrixXd A          = M + b * B + b * b * C;
   const VectorXd inverse_LL = A.bottomRightCorner(n_L, n_L).diagonal().cwiseInverse();
   const MatrixXd G          = inverse_LL.asDiagonal() * A.bottomLeftCorner(n_L, n_N);
   const MatrixXd A_red      = A.topLeftCorner(n_N, n_N) - A.topRightCorner(n_N, n_L) * G;
-  const MatrixXd W = MatrixXd(machine.directions()), W_N = W.topRows(n_N);
+  const MatrixXd W = MatrixXd(machine.forces().directions()), W_N = W.topRows(n_N);
   const auto     n_u = W.cols();
 
   VectorXd q(n), q_1(n), q_2(n), w_1(n), w_2(n), h_q(n), h_w(n), f(n), load(n), product(n), q_N(n_N), r(n_N);
@@ -96,7 +96,7 @@ void plain_condensed_bdf2(benchmark::State &state)
     {
       for (VectorXd *x : {&q_1, &q_2, &w_1, &w_2, &u_1, &u_2, &v_1, &v_2})
         x->setZero();
-      machine.start(local);
+      machine.events().start(local);
       done = 0;
     }
     ++done;
@@ -105,8 +105,8 @@ void plain_condensed_bdf2(benchmark::State &state)
     g       = (4. / 3.) * u_1 - (1. / 3.) * u_2;
     g_rate  = (4. / 3.) * v_1 - (1. / 3.) * v_2;
     local.t = double(done) * h;
-    machine.excitation().at(local.t, load);
-    machine.mass_times(h_q, f);
+    machine.linear().excitation().at(local.t, load);
+    machine.linear().mass_times(h_q, f);
     f += b * h_w + (b * b) * load;
     q_N = 2. * q_1.head(n_N) - q_2.head(n_N);
     f.head(n_N).noalias() -= G.transpose() * f.tail(n_L);
@@ -115,7 +115,7 @@ void plain_condensed_bdf2(benchmark::State &state)
       local.u.noalias() = W_N.transpose() * q_N;
       local.v           = (local.u - g) / b;
       local.a           = (local.v - g_rate) / b;
-      machine.local_tangent(local, 1., 1. / b, 1. / (b * b), local.p, dp);
+      machine.forces().tangent(local, 1., 1. / b, 1. / (b * b), local.p, dp);
       r = f.head(n_N) + (b * b) * (W_N * local.p) - A_red * q_N;
       J = A_red - (b * b) * (W_N * dp * W_N.transpose());
       lu.compute(J);
@@ -128,7 +128,7 @@ void plain_condensed_bdf2(benchmark::State &state)
     q.head(n_N) = q_N;
     q.tail(n_L) = inverse_LL.cwiseProduct(f.tail(n_L));
     q.tail(n_L).noalias() -= G * q_N;
-    machine.stiffness_times(q, product);
+    machine.linear().stiffness_times(q, product);
     w_2 = w_1;
     w_1 = h_w + b * (load - product);
     w_1.head(n_N) += b * (W_N * local.p);
@@ -136,7 +136,7 @@ void plain_condensed_bdf2(benchmark::State &state)
     q_1 = q;
     u_2 = u_1, v_2 = v_1;
     u_1 = local.u, v_1 = local.v;
-    machine.accept(local);
+    machine.events().accept(local);
     ++total;
   }
   state.counters["newton/step"] = double(newton) / double(total);

@@ -30,7 +30,7 @@ void four_bar_steps(benchmark::State &state, JointSolver solver)
     if (steps == n_steps)
     {
       state.PauseTiming();
-      machine.start(local);
+      machine.events().start(local);
       integrator->begin(0., q, v);
       for (steps = 0; steps < 8; ++steps)
         integrator->advance();

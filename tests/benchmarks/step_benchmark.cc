@@ -31,14 +31,14 @@ void bdf2_steps(benchmark::State &state, const char *scene_file, const std::vect
     if (steps == n_steps)
     {
       state.PauseTiming();
-      machine.start(local);
+      machine.events().start(local);
       bdf.begin(0., initial.q, initial.v);
       bdf.advance();
       steps = 1;
       state.ResumeTiming();
     }
     bdf.advance();
-    machine.accept(bdf.instant().local);
+    machine.events().accept(bdf.instant().local);
     ++steps;
   }
   state.counters["coordinates"] = machine.size();
@@ -55,11 +55,11 @@ void press_elements(benchmark::State &state)
   coupling::Machine    &machine  = prepared.machine;
   coupling::LocalState  local;
   machine.gather(0., initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
-  machine.start(local);
-  Eigen::VectorXd tangent = Eigen::VectorXd::Zero(coupling::tangent_size(machine.force_blocks()));
+  machine.events().start(local);
+  Eigen::VectorXd tangent = Eigen::VectorXd::Zero(coupling::tangent_size(machine.forces().blocks()));
   for (auto _ : state)
   {
-    machine.local_tangent_blocks(local, 1., 1e5, 1e10, local.p, tangent);
+    machine.forces().tangent_blocks(local, 1., 1e5, 1e10, local.p, tangent);
     benchmark::DoNotOptimize(tangent.data());
   }
 }

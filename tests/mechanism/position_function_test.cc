@@ -226,8 +226,7 @@ TEST(ProfileMotion, IsTheIntegralOfItsSpeed)
   using Ramp = Profile::Ramp;
   const Profile       speed("speed", 1., {Ramp{0.5, 3., 4., 20.}, Ramp{3., -1., 2., Profile::unlimited}});
   const ProfileMotion motion(speed);
-  std::vector<double> state(motion.n_history());
-  double *const       history = state.data();
+  double              history[2];
   motion.start(0.2, history);
   EXPECT_EQ(motion.at(0.2, history).value, 0.);
   double last = 0., t_last = 0.2;

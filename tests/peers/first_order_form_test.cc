@@ -148,7 +148,7 @@ TEST(FirstOrderForm, HeldMeasuresAreNotAccelerated)
   EXPECT_NEAR(w.dot(rate.tail(3)), 0., 1e-14);
   // Only the held force was added: M v' + B v + C q - f is along w.
   VectorXd f(3), rest;
-  system.excitation().at(0.3, f);
+  system.linear().excitation().at(0.3, f);
   rest                = system.M * rate.tail(3) + system.B * y.tail(3) + system.C * y.head(3) - f;
   const double held_p = rest.dot(w) / w.squaredNorm();
   EXPECT_LT((rest - held_p * w).norm(), 1e-13);

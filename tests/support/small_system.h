@@ -11,9 +11,19 @@ namespace gestell::tests
 {
 
 /// M q'' + B q' + C q = f(t) + w p(u, u'), u = w^T q, small and dense; p with its derivatives may be anything.
-class SmallSystem : public coupling::SecondOrderSystem
+class SmallSystem : public coupling::SecondOrderSystem,
+                    public coupling::LinearSystem,
+                    public coupling::LocalForces,
+                    public coupling::EventSystem,
+                    public coupling::EnergyAccount
 {
 public:
+  const coupling::LinearSystem  &linear() const override { return *this; }
+  const coupling::LocalForces   &forces() const override { return *this; }
+  const coupling::EventSystem   &events() const override { return *this; }
+  coupling::EventSystem         &events() override { return *this; }
+  const coupling::EnergyAccount &energy() const override { return *this; }
+
   using Vector = Eigen::VectorXd;
   using Matrix = Eigen::MatrixXd;
   /// p, dp/du, dp/dv
@@ -62,25 +72,24 @@ public:
   }
 
   const Eigen::SparseMatrix<double> &directions() const override { return W; }
-  void                               local_force(const coupling::LocalState &state, Vector &p) const override
+  void                               force(const coupling::LocalState &state, Vector &p) const override
   {
     double dp_du, dp_dv;
     if (law)
       law(state.u[0], state.v[0], p[0], dp_du, dp_dv);
   }
-  void local_tangent(const coupling::LocalState &state, double w_u, double w_v, double, Vector &p,
-                     Matrix &dp) const override
+  void tangent(const coupling::LocalState &state, double w_u, double w_v, double, Vector &p, Matrix &dp) const override
   {
     double dp_du, dp_dv;
     law(state.u[0], state.v[0], p[0], dp_du, dp_dv);
     dp(0, 0) = w_u * dp_du + w_v * dp_dv;
   }
   /// One block of all measures, in a matrix that is kept: steps are watched for what they take from the heap.
-  void local_tangent_blocks(const coupling::LocalState &state, double w_u, double w_v, double w_a, Vector &p,
-                            Vector &blocks) const override
+  void tangent_blocks(const coupling::LocalState &state, double w_u, double w_v, double w_a, Vector &p,
+                      Vector &blocks) const override
   {
     tangent_.setZero(W.cols(), W.cols());
-    local_tangent(state, w_u, w_v, w_a, p, tangent_);
+    tangent(state, w_u, w_v, w_a, p, tangent_);
     for (const coupling::HeldMeasure &h : held())
     {
       tangent_.row(h.measure).setZero();
@@ -88,7 +97,7 @@ public:
     }
     std::copy_n(tangent_.data(), tangent_.size(), blocks.data());
   }
-  void local_derivatives(const coupling::LocalState &state, Vector &p, Matrix &dp_du, Matrix &dp_dv) const override
+  void derivatives(const coupling::LocalState &state, Vector &p, Matrix &dp_du, Matrix &dp_dv) const override
   {
     if (law)
       law(state.u[0], state.v[0], p[0], dp_du(0, 0), dp_dv(0, 0));
@@ -114,8 +123,8 @@ public:
   coupling::ActiveGuard guard(int) const override { return {"oscillator", transitions % 2 == 0 ? "up" : "down"}; }
   void                  transition(int, const coupling::LocalState &) override { ++transitions; }
 
-  double local_stored_energy(const coupling::LocalState &) const override { return 0.; }
-  void local_power(const coupling::LocalState &state, const Vector &p, double &input, double &dissipated) const override
+  double stored(const coupling::LocalState &) const override { return 0.; }
+  void   power(const coupling::LocalState &state, const Vector &p, double &input, double &dissipated) const override
   {
     input      = 0.;
     dissipated = -p.dot(state.v);

@@ -4,7 +4,7 @@
 #include "coupling/machine/machine.h"
 #include "coupling/plugin/frame_service.h"
 #include "coupling/simulation/simulation.h"
-#include "fem/assembly/cad_body.h"
+#include "fem/values/cad_body.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 #include "mechanism/joints/motion_law.h"

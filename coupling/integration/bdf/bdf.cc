@@ -24,7 +24,7 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
     throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
   if (!(options.step > 0.))
     throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
-  const int n = system.size(), n_u = static_cast<int>(system.directions().cols());
+  const int n = system.linear().size(), n_u = static_cast<int>(system.forces().directions().cols());
   for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_})
     x->setZero(n);
   g_.setZero(n_u);
@@ -38,7 +38,7 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
 
 void Bdf::load(double t)
 {
-  const Excitation &excitation = system_.excitation();
+  const Excitation &excitation = system_.linear().excitation();
   if (load_known_ && excitation.is_constant())
     return;
   excitation.at(t, f_t_);
@@ -81,8 +81,8 @@ void Bdf::set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   point.t                = t;
   point.q                = q;
   point.v                = v;
-  point.u.noalias()      = system_.directions().transpose() * q;
-  point.u_rate.noalias() = system_.directions().transpose() * v;
+  point.u.noalias()      = system_.forces().directions().transpose() * q;
+  point.u_rate.noalias() = system_.forces().directions().transpose() * v;
 }
 
 /// Starts at past(0), of which q, v, u, u' are known.
@@ -95,26 +95,26 @@ void Bdf::begin_from(double t)
   cut_         = false;
   Point &first = past(0);
   first.t      = t;
-  system_.mass_times(first.v, first.w);
-  system_.damping_times(first.q, product_);
+  system_.linear().mass_times(first.v, first.w);
+  system_.linear().damping_times(first.q, product_);
   first.w += product_;
   local_.t = t;
   local_.u = first.u;
   local_.v = first.u_rate;
   local_.a.setZero();
-  system_.local_force(local_, local_.p);
+  system_.forces().force(local_, local_.p);
   ++work_.evaluations;
   first.a      = local_.a;
   first.p      = local_.p;
   first.lambda = local_.lambda;
   if (is_implied())
   {
-    if (system_.n_constraints() > 0 && has_consistent())
+    if (system_.joints().n_rows() > 0 && has_consistent())
       consistent_->project(first.q, first.v, local_);
     first.u      = local_.u;
     first.u_rate = local_.v;
-    system_.mass_times(first.v, first.w);
-    system_.damping_times(first.q, product_);
+    system_.linear().mass_times(first.v, first.w);
+    system_.linear().damping_times(first.q, product_);
     first.w += product_;
     find_implied(first);
   }
@@ -125,7 +125,7 @@ void Bdf::begin_from(double t)
 
 bool Bdf::is_implied() const
 {
-  return system_.n_constraints() > 0 || !system_.held().empty();
+  return system_.joints().n_rows() > 0 || !system_.forces().held().empty();
 }
 
 /// Where M is singular there is no acceleration, and the first step finds the forces.
@@ -158,7 +158,7 @@ void Bdf::find_implied(Point &point)
 /// Something is held, and the equation of motion tells by which force.
 bool Bdf::finds_held() const
 {
-  return consistent_ && !system_.held().empty();
+  return consistent_ && !system_.forces().held().empty();
 }
 
 void Bdf::restart()
@@ -236,7 +236,7 @@ void Bdf::cut(double t)
   cut_point_.a      = base_.a;
   cut_point_.p      = base_.p;
   cut_point_.lambda = base_.lambda;
-  if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
+  if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
     find_implied(cut_point_);
   cut_ = true;
   present(cut_point_);
@@ -264,9 +264,9 @@ void Bdf::multistep(double t)
     divided_step(past(0), options_.step, 1, to);
   }
   push();
-  if (system_.n_constraints() > 0)
+  if (system_.joints().n_rows() > 0)
   {
-    if (index_ + 1 < 2 * options_.order || system_.wants_multipliers())
+    if (index_ + 1 < 2 * options_.order || system_.joints().wants_multipliers())
       find_implied(past(0));
   }
   else if (finds_held())
@@ -320,9 +320,9 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   to.a      = local_.a;
   to.p      = local_.p;
   to.lambda = local_.lambda;
-  system_.stiffness_times(to.q, product_);
+  system_.linear().stiffness_times(to.q, product_);
   to.w          = h_w_ + h_beta * (f_t_ - product_);
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   for (int j = 0; j < W.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
       to.w[it.row()] += h_beta * it.value() * local_.p[j];

@@ -51,15 +51,16 @@ BdfControlled::Options checked(BdfControlled::Options           o, const SecondO
 } // namespace
 
 BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &options)
-    : BdfControlled(system, options, system.spectrum())
+    : BdfControlled(system, options, system.linear().spectrum())
 {
 }
 
 BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &options,
                              const std::vector<SpectrumLine> &spectrum)
     : system_(system), options_(checked(options, system, spectrum)), scale_(system, spectrum, options_.tolerance),
-      limit_(spectrum, system.size() - scale_.massless(), options_.largest_step), implicit_(system, options_.newton),
-      virtual_rates_(system), n_(system.size()), n_u_(system.directions().cols()), n_c_(system.n_constraints())
+      limit_(spectrum, system.linear().size() - scale_.massless(), options_.largest_step),
+      implicit_(system, options_.newton), virtual_rates_(system), n_(system.linear().size()),
+      n_u_(system.forces().directions().cols()), n_c_(system.joints().n_rows())
 {
   const Eigen::Index size = 2 * n_ + 4 * n_u_ + n_c_;
   differences_.resize(size);
@@ -121,7 +122,7 @@ const Instant &BdfControlled::instant() const
 
 void BdfControlled::load(double t)
 {
-  const Excitation &excitation = system_.excitation();
+  const Excitation &excitation = system_.linear().excitation();
   if (load_known_ && excitation.is_constant())
     return;
   excitation.at(t, f_t_);
@@ -130,7 +131,7 @@ void BdfControlled::load(double t)
 
 void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   z_.setZero();
   z_.head(n_)                     = q;
   z_.segment(n_, n_)              = v;
@@ -157,7 +158,7 @@ void BdfControlled::restart()
   fresh_   = true;
   t_begin_ = t_end_ = local_.t;
   implicit_.forget_contraction();
-  system_.local_force(local_, local_.p);
+  system_.forces().force(local_, local_.p);
   ++work_.evaluations;
   if (is_implied() && has_consistent())
     close_joints();
@@ -165,7 +166,7 @@ void BdfControlled::restart()
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
   keep_forces(z_);
   now_known_ = false;
-  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   scale_.laws(dp_du_, dp_dv_);
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
@@ -173,7 +174,7 @@ void BdfControlled::restart()
 
 bool BdfControlled::is_implied() const
 {
-  return n_c_ > 0 || !system_.held().empty();
+  return n_c_ > 0 || !system_.forces().held().empty();
 }
 
 /// Where M is singular there is no acceleration, and the first step finds the forces.
@@ -194,7 +195,7 @@ bool BdfControlled::has_consistent()
 /// Something is held, and the equation of motion tells by which force.
 bool BdfControlled::finds_held() const
 {
-  return consistent_ && !system_.held().empty();
+  return consistent_ && !system_.forces().held().empty();
 }
 
 /// What holds a measure or closes a joint at an instant is no law's value, but follows from the equation of motion.
@@ -248,8 +249,8 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   load(t);
   h_v_ = history.segment(n_, n_);
   h_q_ = history.head(n_) + h_beta * h_v_;
-  system_.damping_times(h_v_, f_);
-  system_.stiffness_times(h_q_, product_);
+  system_.linear().damping_times(h_v_, f_);
+  system_.linear().stiffness_times(h_q_, product_);
   f_      = squared * (f_t_ - f_ - product_);
   base_.t = t;
   base_.v = history.segment(2 * n_ + n_u_, n_u_);
@@ -356,7 +357,7 @@ void BdfControlled::cut(double t)
   if (is_implied() &&
       t > t_begin_) // as they will be at the restart, so that what breaks away does not stick again at once
     find_implied(z_cut_, t);
-  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   stiffness_ = dp_du_.diagonal();
 }

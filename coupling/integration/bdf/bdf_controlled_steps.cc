@@ -106,7 +106,7 @@ void BdfControlled::multistep()
     change(wanted_rung_, wanted_order_);
   }
   scale_.accept();
-  if (finds_held() || (n_c_ > 0 && system_.wants_multipliers()))
+  if (finds_held() || (n_c_ > 0 && system_.joints().wants_multipliers()))
   {
     find_implied(z_, t_end_);
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
@@ -223,7 +223,7 @@ bool BdfControlled::is_sound(double h_beta)
   dp_du_.setZero(); // what sticks writes nothing
   dp_dv_.setZero();
   point(z_begin_, t_end_, local_);
-  system_.local_derivatives(local_, base_.p, dp_du_, dp_dv_);
+  system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   scale_.laws(dp_du_, dp_dv_);
   pivots_.noalias() = -S.lazyProduct(dp_du_);

@@ -12,7 +12,7 @@ EventDetection::EventDetection(SecondOrderSystem &system) : system_(system)
 
 void EventDetection::make_room()
 {
-  const Eigen::Index room = system_.n_guards() + 4 * system_.directions().cols() + 4;
+  const Eigen::Index room = system_.events().n_guards() + 4 * system_.forces().directions().cols() + 4;
   g_from_.setZero(room);
   g_to_.setZero(room);
   g_.setZero(room);
@@ -21,9 +21,9 @@ void EventDetection::make_room()
 void EventDetection::begin(const LocalState &state)
 {
   between_ = state;
-  if (system_.n_guards() > g_.size())
+  if (system_.events().n_guards() > g_.size())
     make_room();
-  system_.guard_values(state, g_from_);
+  system_.events().guard_values(state, g_from_);
 }
 
 // Cubic Hermite interpolation of u and the derivative of that cubic as u'.
@@ -42,16 +42,16 @@ void EventDetection::at(const LocalState &from, const LocalState &to, double s, 
 double EventDetection::value(int guard, const LocalState &from, const LocalState &to, double share)
 {
   at(from, to, share, between_);
-  system_.guard_values(between_, g_);
+  system_.events().guard_values(between_, g_);
   return g_[guard];
 }
 
 bool EventDetection::earliest(const LocalState &from, const LocalState &to, double since, int &guard, double &share)
 {
   bool found = false;
-  for (int i = 0; i < system_.n_guards(); ++i)
+  for (int i = 0; i < system_.events().n_guards(); ++i)
   {
-    const double sign  = system_.crossing(i) == GuardCrossing::rising ? 1. : -1.;
+    const double sign  = system_.events().crossing(i) == GuardCrossing::rising ? 1. : -1.;
     const double begin = sign * g_from_[i], end = sign * g_to_[i];
     if (end < 0. || (end == 0. && begin >= 0.))
       continue;
@@ -74,7 +74,7 @@ bool EventDetection::earliest(const LocalState &from, const LocalState &to, doub
 
 void EventDetection::step(const LocalState &from, const LocalState &to, std::vector<Event> &events)
 {
-  system_.guard_values(to, g_to_);
+  system_.events().guard_values(to, g_to_);
   double since = 0., share = 1.;
   int    guard = 0;
   for (int count = 0; earliest(from, to, since, guard, share); ++count)
@@ -85,12 +85,12 @@ void EventDetection::step(const LocalState &from, const LocalState &to, std::vec
       break;
     }
     at(from, to, share, between_);
-    const ActiveGuard active = system_.guard(guard);
+    const ActiveGuard active = system_.events().guard(guard);
     events.push_back({between_.t, active.name, active.kind});
-    system_.transition(guard, between_);
+    system_.events().transition(guard, between_);
     since = share;
-    system_.guard_values(between_, g_from_);
-    system_.guard_values(to, g_to_);
+    system_.events().guard_values(between_, g_from_);
+    system_.events().guard_values(to, g_to_);
   }
   g_from_.swap(g_to_);
 }

@@ -34,7 +34,7 @@ EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, 
 
 void EventDriver::make_room()
 {
-  const Eigen::Index room = system_.n_guards() + 4 * system_.directions().cols() + 4;
+  const Eigen::Index room = system_.events().n_guards() + 4 * system_.forces().directions().cols() + 4;
   for (Eigen::VectorXd &g : g_)
     g.setZero(room);
   probe_.setZero(room);
@@ -43,18 +43,18 @@ void EventDriver::make_room()
 void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   before_.t           = t;
-  before_.u.noalias() = system_.directions().transpose() * q;
-  before_.v.noalias() = system_.directions().transpose() * v;
+  before_.u.noalias() = system_.forces().directions().transpose() * q;
+  before_.v.noalias() = system_.forces().directions().transpose() * v;
   before_.a.setZero();
   before_.p.setZero();
-  system_.follow_history(false);
-  system_.start(before_);
+  system_.events().follow_history(false);
+  system_.events().start(before_);
   auto *const  control  = dynamic_cast<ErrorControl *>(&integrator_);
   const bool   controls = control && control->controls_error();
   LoadedMotion loaded;
   if (controls)
     loaded = loads_to_come(system_, before_, options_.end);
-  system_.follow_history(options_.locate);
+  system_.events().follow_history(options_.locate);
   integrator_.begin(t, q, v);
   if (controls)
     control->expect(loaded.way, loaded.speed);
@@ -87,7 +87,7 @@ void EventDriver::advance()
   if (!first_crossing(crossing))
   {
     observe();
-    system_.accept(integrator_.local());
+    system_.events().accept(integrator_.local());
     before_ = integrator_.local();
     return;
   }
@@ -97,11 +97,11 @@ void EventDriver::advance()
   {
     ++chattering_;
     in_window_ = 0;
-    system_.follow_history(false);
+    system_.events().follow_history(false);
     detection_.begin(integrator_.local());
     step_over();
     chattering_time_ += integrator_.time() - before_.t;
-    system_.follow_history(true);
+    system_.events().follow_history(true);
     integrator_.restart();
     before_ = integrator_.local();
     tell_events();
@@ -117,7 +117,7 @@ void EventDriver::step_over()
     return;
   observe();
   detection_.step(before_, integrator_.local(), events_);
-  system_.accept(integrator_.local());
+  system_.events().accept(integrator_.local());
 }
 
 /// False: the integrator gave the step up instead; it goes on from its begin with a smaller one.
@@ -149,7 +149,7 @@ void EventDriver::tell_events()
 double EventDriver::value_at(int guard, double t)
 {
   integrator_.interpolate(t, between_);
-  system_.guard_values(between_, probe_);
+  system_.events().guard_values(between_, probe_);
   return sign(guard) * probe_[guard];
 }
 
@@ -195,7 +195,7 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
 /// one half and a fall in the other would hide: c s (s - 1/2) (s - 1) is nowhere larger than 1.7 times there.
 bool EventDriver::far_from_zero() const
 {
-  for (int i = 0; i < system_.n_guards(); ++i)
+  for (int i = 0; i < system_.events().n_guards(); ++i)
   {
     const double s = sign(i), begin = s * g_[0][i], inside = s * probe_[i], end = s * g_[n_inside + 1][i];
     const double way = std::abs(end - begin) + 6. * std::abs(inside - begin - off_middle * (end - begin));
@@ -207,7 +207,7 @@ bool EventDriver::far_from_zero() const
 
 bool EventDriver::first_crossing(Crossing &first)
 {
-  const int n = system_.n_guards();
+  const int n = system_.events().n_guards();
   if (n == 0)
     return false;
   if (n > probe_.size())
@@ -220,12 +220,12 @@ bool EventDriver::first_crossing(Crossing &first)
   const auto sample = [&](int k)
   {
     integrator_.interpolate(t[k], between_);
-    system_.guard_values(between_, g_[k]);
+    system_.events().guard_values(between_, g_[k]);
   };
-  system_.guard_values(before_, g_[0]);
-  system_.guard_values(integrator_.local(), g_[last]);
+  system_.events().guard_values(before_, g_[0]);
+  system_.events().guard_values(integrator_.local(), g_[last]);
   integrator_.interpolate(begin + off_middle * (end - begin), between_);
-  system_.guard_values(between_, probe_);
+  system_.events().guard_values(between_, probe_);
   if (far_from_zero())
     return false;
   for (int k = 1; k < last; ++k)
@@ -266,12 +266,12 @@ bool EventDriver::is_due_at_begin(int guard, double here, double next)
 /// At the begin of a step: the guard is another one without the forces that hold measures.
 bool EventDriver::looks_at_held_force(int guard)
 {
-  if (system_.held().empty())
+  if (system_.forces().held().empty())
     return false;
   between_ = before_;
-  for (const HeldMeasure &h : system_.held())
+  for (const HeldMeasure &h : system_.forces().held())
     between_.p[h.measure] = 0.;
-  system_.guard_values(between_, probe_);
+  system_.events().guard_values(between_, probe_);
   return probe_[guard] != g_[0][guard];
 }
 
@@ -327,7 +327,7 @@ void EventDriver::take(const Crossing &crossing)
   double slope = crossing.slope, t_last = t, g_last = 0.;
   for (int k = 0; k < 6 && t > begin; ++k)
   {
-    system_.guard_values(integrator_.local(), probe_);
+    system_.events().guard_values(integrator_.local(), probe_);
     const double g = sign(guard) * probe_[guard];
     if (k > 0 && t != t_last)
       slope = (g - g_last) / (t - t_last);
@@ -344,11 +344,11 @@ void EventDriver::take(const Crossing &crossing)
     return;
   }
   observe();
-  const ActiveGuard active = system_.guard(guard);
+  const ActiveGuard active = system_.events().guard(guard);
   events_.push_back({integrator_.time(), active.name, active.kind});
   between_ = integrator_.local();
-  system_.accept(between_);
-  system_.transition(guard, between_);
+  system_.events().accept(between_);
+  system_.events().transition(guard, between_);
   integrator_.restart();
   before_ = integrator_.local();
 }

@@ -77,7 +77,7 @@ private:
   bool   far_from_zero() const;
   void   locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing);
   double value_at(int guard, double t);
-  double sign(int guard) const { return system_.crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
+  double sign(int guard) const { return system_.events().crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
   void   take(const Crossing &crossing);
   void   step_over();
   bool   cut_at_end();

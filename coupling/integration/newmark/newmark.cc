@@ -81,17 +81,17 @@ Newmark::Options Newmark::central_difference()
 Newmark::Newmark(const SecondOrderSystem &system, const Options &options)
     : OneStep(system, "Newmark", checked(options).step, options.max_halvings, options.newton), options_(options)
 {
-  if (system.n_constraints() > 0)
+  if (system.joints().n_rows() > 0)
     refuse_with_joints(options);
   for (Eigen::VectorXd *x : {&f_, &mean_, &product_, &x_})
-    x->setZero(system.size());
+    x->setZero(system.linear().size());
   base_.resize(system);
 }
 
 void Newmark::formula_step(const Point &from, double h, Point &to)
 {
   const auto &[beta, gamma, alpha_m, alpha_f, step, max_halvings, newton] = options_;
-  const auto    &W                                                        = system_.directions();
+  const auto    &W                                                        = system_.forces().directions();
   const double   end_f = 1. - alpha_f, weight = h * h / (1. - alpha_m); // the equation is divided by (1 - alpha_m)/h^2
   const double   shift = alpha_m - alpha_f;                             // of the instant that a belongs to, in steps
   const Instant &start = from.motion;
@@ -111,7 +111,7 @@ void Newmark::formula_step(const Point &from, double h, Point &to)
   base_.a *= shift;
 
   // ... and what x has to balance
-  system_.excitation().at(end.t, to.f);
+  system_.linear().excitation().at(end.t, to.f);
   f_ = (weight * end_f) * to.f;
   if (alpha_f != 0.)
   {
@@ -122,14 +122,14 @@ void Newmark::formula_step(const Point &from, double h, Point &to)
   }
   if (alpha_m != 0.)
   {
-    system_.mass_times(from.a, product_);
+    system_.linear().mass_times(from.a, product_);
     f_ -= (weight * alpha_m) * product_;
   }
   mean_ = end_f * end.v + alpha_f * start.v;
-  system_.damping_times(mean_, product_);
+  system_.linear().damping_times(mean_, product_);
   f_ -= weight * product_;
   mean_ = end_f * end.q + alpha_f * start.q;
-  system_.stiffness_times(mean_, product_);
+  system_.linear().stiffness_times(mean_, product_);
   f_ -= weight * product_;
 
   const double   force = weight * end_f;

@@ -28,18 +28,19 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
     : system_(system), implicit_(system, newton), step_(require_step(name, step)), max_halvings_(max_halvings),
       start_(system, name, newton.joints), middle_(std::max(max_halvings, 0) + 1)
 {
-  if (const auto &massless = system.virtual_coordinates(); !massless.empty())
-    throw std::invalid_argument(name + ": the mass matrix is singular: " + system.coordinate_name(massless.front()) +
+  if (const auto &massless = system.linear().virtual_coordinates(); !massless.empty())
+    throw std::invalid_argument(name +
+                                ": the mass matrix is singular: " + system.linear().coordinate_name(massless.front()) +
                                 " is a state without mass; use bdf, which needs none");
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);
-  q_inside_.setZero(system.size());
-  v_inside_.setZero(system.size());
+  q_inside_.setZero(system.linear().size());
+  v_inside_.setZero(system.linear().size());
 }
 
 void OneStep::resize(Point &point) const
 {
-  const auto n = system_.size();
+  const auto n = system_.linear().size();
   for (Eigen::VectorXd *x : {&point.motion.q, &point.motion.v, &point.a, &point.f})
     x->setZero(n);
   point.motion.local.resize(system_);
@@ -48,14 +49,14 @@ void OneStep::resize(Point &point) const
 /// The present point becomes t, q, v with its measures; no step lies behind it.
 void OneStep::place(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  const auto &W    = system_.directions();
+  const auto &W    = system_.forces().directions();
   Instant    &here = end_.motion;
   here.t = here.local.t  = t;
   here.q                 = q;
   here.v                 = v;
   here.local.u.noalias() = W.transpose() * q;
   here.local.v.noalias() = W.transpose() * v;
-  system_.excitation().at(t, end_.f);
+  system_.linear().excitation().at(t, end_.f);
   t_begin_ = t;
   index_   = 0;
   stepped_ = cut_ = false;
@@ -76,7 +77,7 @@ void OneStep::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v
 {
   begin(t, q, v);
   end_.a                        = a;
-  end_.motion.local.a.noalias() = system_.directions().transpose() * a;
+  end_.motion.local.a.noalias() = system_.forces().directions().transpose() * a;
 }
 
 void OneStep::restart()
@@ -88,7 +89,7 @@ void OneStep::restart()
   t_begin_      = here.t;
   index_        = 0;
   stepped_ = cut_ = false;
-  system_.excitation().at(here.t, end_.f);
+  system_.linear().excitation().at(here.t, end_.f);
   start_.project(here.q, here.v, here.local);
   start_.solve(here.q, here.v, end_.a, here.local, work_);
 }
@@ -113,7 +114,7 @@ void OneStep::advance()
   ++work_.steps;
   // The grid is kept free of what many additions of h would leave.
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
-  if (!system_.held().empty())
+  if (!system_.forces().held().empty())
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
 }
 
@@ -160,7 +161,7 @@ void OneStep::interpolate(double t, LocalState &state) const
   state.a                   = L[0] * a.a + L[1] * b.a;
   state.p                   = L[0] * a.p + L[1] * b.p;
   state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
-  if (system_.held().empty())
+  if (system_.forces().held().empty())
     return;
   // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
   q_inside_ = L[0] * begin_.motion.q + L[1] * end_.motion.q;
@@ -212,7 +213,7 @@ void OneStep::cut(double t)
   keep_held_rates(system_, here.local.v);
   here.t = t;
   cut_   = true;
-  if (system_.n_constraints() > 0) // multipliers as accurate as q and q': a limiter may look at them
+  if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
     start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
 }
 

@@ -18,19 +18,19 @@ const Wilson::Options &checked(const Wilson::Options &options)
 Wilson::Wilson(const SecondOrderSystem &system, const Options &options)
     : OneStep(system, "Wilson", checked(options).step, options.max_halvings, options.newton), theta_(options.theta)
 {
-  if (system.n_constraints() > 0)
+  if (system.joints().n_rows() > 0)
     throw std::invalid_argument(
         "Wilson: it closes ideal joints at t + theta h, so that they drift apart at the ends of "
         "its steps; take bdf or generalised-alpha");
   for (Eigen::VectorXd *x : {&f_, &q_, &v_, &product_, &x_})
-    x->setZero(system.size());
+    x->setZero(system.linear().size());
   for (LocalState *state : {&base_, &ahead_})
     state->resize(system);
 }
 
 void Wilson::formula_step(const Point &from, double h, Point &to)
 {
-  const auto    &W     = system_.directions();
+  const auto    &W     = system_.forces().directions();
   const double   tau   = theta_ * h;
   const Instant &start = from.motion;
   Instant       &end   = to.motion;
@@ -44,11 +44,11 @@ void Wilson::formula_step(const Point &from, double h, Point &to)
   base_.a.setZero();
   ahead_.u = base_.u + (tau * tau / 6.) * start.local.a; // prediction: a_theta = a_0
   ahead_.p = start.local.p;
-  system_.excitation().at(start.t + h, to.f);
+  system_.linear().excitation().at(start.t + h, to.f);
   f_ = (1. - theta_) * from.f + theta_ * to.f;
-  system_.damping_times(v_, product_);
+  system_.linear().damping_times(v_, product_);
   f_ -= product_;
-  system_.stiffness_times(q_, product_);
+  system_.linear().stiffness_times(q_, product_);
   f_ -= product_;
   f_ *= tau * tau;
   const StepForm form{1., 0.5 * tau, tau * tau / 6., tau * tau, 1. / 6., 0.5 / tau, 1. / (tau * tau), tau};
@@ -63,7 +63,7 @@ void Wilson::formula_step(const Point &from, double h, Point &to)
   end.local.a.noalias() = W.transpose() * to.a;
   // Rows of held measures keep what stands there: the point at t + h of the line to t + theta h.
   end.local.p = start.local.p + (ahead_.p - start.local.p) / theta_;
-  system_.local_force(end.local, end.local.p);
+  system_.forces().force(end.local, end.local.p);
   ++work_.evaluations;
 }
 

@@ -51,7 +51,7 @@ void CollocationStep::grow_scale(const Eigen::Ref<const VectorXd> &u, const Eige
 
 bool CollocationStep::is_held(int measure) const
 {
-  for (const HeldMeasure &held : context_.system->held())
+  for (const HeldMeasure &held : context_.system->forces().held())
     if (held.measure == measure)
       return true;
   return false;
@@ -93,12 +93,12 @@ double CollocationStep::of_all(const StepTable &table, int row) const
 
 bool CollocationStep::is_sound(const StepTable &table)
 {
-  if (context_.system->held().empty())
+  if (context_.system->forces().held().empty())
     return lu_.least_pivot() > least_pivot;
   dp_du_.setZero(); // what sticks writes nothing
   dp_dv_.setZero();
   defect_ = begin_at_.p;
-  context_.system->local_derivatives(begin_at_, defect_, dp_du_, dp_dv_);
+  context_.system->forces().derivatives(begin_at_, defect_, dp_du_, dp_dv_);
   ++context_.work.evaluations;
   for (int i = 0; i < s_; ++i)
   {
@@ -106,7 +106,7 @@ bool CollocationStep::is_sound(const StepTable &table)
     rows.noalias() = -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
     rows.noalias() -= dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
   }
-  for (const HeldMeasure &held : context_.system->held())
+  for (const HeldMeasure &held : context_.system->forces().held())
     for (int i = 0; i < s_; ++i)
     {
       sound_.matrix().row(i * n_u_ + held.measure).setZero();
@@ -127,9 +127,9 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
     P_end_ += at_end_[j] * P_.segment(j * n_u_, n_u_);
   end.a.setZero();
   end.p = P_end_;
-  context_.system->local_force(end, end.p);
+  context_.system->forces().force(end, end.p);
   ++context_.work.evaluations;
-  if (!context_.system->held().empty())
+  if (!context_.system->forces().held().empty())
     context_.accelerate(x_end_,
                         end); // so that the guards of what sticks see its force with the accuracy of the state
   U_.col(s_ + 1) = end.u;

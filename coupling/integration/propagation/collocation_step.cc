@@ -94,7 +94,7 @@ bool CollocationStep::solve(const StepTable &table, LocalState &end)
   x_end_ += table.constant;
   x_end_.noalias() += table.in * P_;
   motion(table, s_, end);
-  if (!context_.system->held().empty())
+  if (!context_.system->forces().held().empty())
     context_.project_held(x_end_, end);
   finish(table, end);
   tried_ = &table;
@@ -185,12 +185,12 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
     node_.p = P_.segment(i * n_u_, n_u_);
     if (jacobian)
     {
-      system.local_derivatives(node_, node_.p, dp_du_, dp_dv_);
+      system.forces().derivatives(node_, node_.p, dp_du_, dp_dv_);
       lu_.matrix().middleRows(i * n_u_, n_u_).noalias() = -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
       lu_.matrix().middleRows(i * n_u_, n_u_).noalias() -= dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
     }
     else
-      system.local_force(node_, node_.p);
+      system.forces().force(node_, node_.p);
     residual_.segment(i * n_u_, n_u_) = node_.p - P_.segment(i * n_u_, n_u_);
     U_.col(i + 1)                     = node_.u;
     V_.col(i + 1)                     = node_.v;
@@ -198,7 +198,7 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
   context_.work.evaluations += s_;
   if (jacobian)
     lu_.matrix().diagonal().array() += 1.;
-  for (const HeldMeasure &held : system.held())
+  for (const HeldMeasure &held : system.forces().held())
     for (int i = 0; i < s_; ++i)
     {
       // Per h: S_v ~ h W^T M^-1 W, and a step to an event may be as short as the clock tells.
@@ -212,7 +212,7 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
   ++context_.work.newton;
   factors_   = &table;
   factors_h_ = table.h;
-  return lu_.factorise(!context_.system->held().empty());
+  return lu_.factorise(!context_.system->forces().held().empty());
 }
 
 bool CollocationStep::iterate(const StepTable &table)

@@ -16,7 +16,7 @@ Eigen::VectorXd energies(const SecondOrderSystem &system, const Eigen::MatrixXd 
   for (Eigen::Index j = 0; j < Y.cols(); ++j)
   {
     y = Y.col(j);
-    system.mass_times(y, product);
+    system.linear().mass_times(y, product);
     sums[j] = y.dot(product);
   }
   return sums;
@@ -27,7 +27,7 @@ PropagationContext::PropagationContext(const SecondOrderSystem &machine, const M
                                        const NewtonOptions &options)
     : system(&machine), measures(modes, machine), newton(options)
 {
-  const auto n_u = machine.directions().cols();
+  const auto n_u = machine.forces().directions().cols();
   u_begin.setZero(n_u);
   scale.setZero(n_u);
   force.setZero(n_u);
@@ -85,7 +85,7 @@ void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
   }
   rate_ += measures.constant;
   local.a.noalias() = measures.read_v.transpose() * rate_;
-  const auto &held  = system->held();
+  const auto &held  = system->forces().held();
   if (!held.empty())
   {
     factorise_delassus(local.t);
@@ -103,7 +103,7 @@ void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
 /// W_h^T M^-1 W_h of the held measures.
 void PropagationContext::factorise_delassus(double t)
 {
-  const auto &held = system->held();
+  const auto &held = system->forces().held();
   const int   n    = int(held.size());
   if (rest_.size() != n)
   {
@@ -120,7 +120,7 @@ void PropagationContext::factorise_delassus(double t)
 void PropagationContext::mobile_parts(double t, Eigen::VectorXd &part)
 {
   constexpr double rounding = 1e-12; // of the difference of two mobilities
-  const auto      &held     = system->held();
+  const auto      &held     = system->forces().held();
   part.setOnes(mobility.rows());
   if (held.empty())
     return;
@@ -141,7 +141,7 @@ void PropagationContext::mobile_parts(double t, Eigen::VectorXd &part)
 
 void PropagationContext::project_held(Eigen::VectorXd &x, LocalState &local)
 {
-  const auto &held = system->held();
+  const auto &held = system->forces().held();
   factorise_delassus(local.t);
   for (std::size_t i = 0; i < held.size(); ++i)
     rest_[Eigen::Index(i)] = held[i].rate - local.v[held[i].measure];

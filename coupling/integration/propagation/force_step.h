@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/method.h"
+#include "coupling/integration/method_options.h"
 #include "coupling/integration/propagation/propagation_tables.h"
 #include "coupling/integration/system/small_lu.h"
 

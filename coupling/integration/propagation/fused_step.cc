@@ -87,13 +87,13 @@ public:
     end.p = p_;
     if (average_)
     {
-      context_.system->local_force(end, end.p);
+      context_.system->forces().force(end, end.p);
       ++context_.work.evaluations;
     }
     at_end_.u = end.u;
     at_end_.v = end.v;
     at_end_.p = end.p;
-    if (!context_.system->held().empty())
+    if (!context_.system->forces().held().empty())
     {
       end_state(x_held_);
       context_.accelerate(x_held_, end); // the force of the step is a mean or swings about the one that holds
@@ -222,7 +222,7 @@ private:
         way_.u             = (1. - sigma) * at_begin_.u + sigma * node_.u;
         way_.v             = (1. - sigma) * at_begin_.v + sigma * node_.v;
         way_.p             = p_;
-        context_.system->local_derivatives(way_, way_.p, dp_of_u_, dp_of_v_);
+        context_.system->forces().derivatives(way_, way_.p, dp_of_u_, dp_of_v_);
         change_ += weight * way_.p;
         dp_du_ += (weight * sigma) * dp_of_u_;
         dp_dv_ += (weight * sigma) * dp_of_v_;
@@ -234,7 +234,7 @@ private:
 
   bool is_held(int measure) const
   {
-    for (const HeldMeasure &h : context_.system->held())
+    for (const HeldMeasure &h : context_.system->forces().held())
       if (h.measure == measure)
         return true;
     return false;
@@ -247,7 +247,7 @@ private:
     end_.u = node_.u;
     end_.v = node_.v;
     end_.p = p_;
-    context_.system->local_force(end_, end_.p);
+    context_.system->forces().force(end_, end_.p);
     ++context_.work.evaluations;
     // Parabola in sigma through both Gauss points with the slope at the second.
     static constexpr double distance = 0.57735026918962573, far = 0.21132486540518712; // of the points; to the near end
@@ -276,7 +276,7 @@ private:
     if (!average_)
     {
       change_ = p_;
-      system.local_derivatives(node_, change_, dp_du_, dp_dv_);
+      system.forces().derivatives(node_, change_, dp_du_, dp_dv_);
       ++context_.work.evaluations;
     }
     else
@@ -291,7 +291,7 @@ private:
     J.noalias() = -dp_du_.lazyProduct(S_u_);
     J.noalias() -= dp_dv_.lazyProduct(S_v_);
     J.diagonal().array() += 1.;
-    for (const HeldMeasure &held : system.held())
+    for (const HeldMeasure &held : system.forces().held())
     {
       change_[held.measure] = held.rate - node_.v[held.measure];
       J.row(held.measure)   = S_v_.row(held.measure);
@@ -308,7 +308,7 @@ private:
       motion();
       evaluate();
       ++context_.work.newton;
-      if (!lu_.factorise(!context_.system->held().empty()))
+      if (!lu_.factorise(!context_.system->forces().held().empty()))
         return false;
       lu_.solve_in_place(change_);
       double size = 0.;

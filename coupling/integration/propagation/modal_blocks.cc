@@ -65,7 +65,7 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
   const VectorXd             pivots = cholesky.matrixLLT().diagonal();
   for (Eigen::Index i = 0; i < M.rows(); ++i)
     if (!(M(i, i) > 0.) || !(pivots[i] * pivots[i] > 1e-14 * M(i, i)))
-      refuse("the mass matrix is singular at " + system.coordinate_name(int(i)) +
+      refuse("the mass matrix is singular at " + system.linear().coordinate_name(int(i)) +
              "; give it mass, or take the method bdf");
   if (cholesky.info() != Eigen::Success)
     refuse("the mass matrix is not positive definite; take the method bdf");
@@ -313,12 +313,12 @@ void ModalBlocks::turn_harmonics(double t, Eigen::VectorXd &x) const
 ModalBlocks modal_blocks(const SecondOrderSystem &system)
 {
   MatrixXd M, B, C;
-  if (!system.dense_matrices(M, B, C))
+  if (!system.linear().dense_matrices(M, B, C))
     refuse("it works in the modes of the whole base system, and an unreduced frame has too many; reduce the frame, or "
            "take the method bdf");
-  if (system.excitation().has_rest())
+  if (system.linear().excitation().has_rest())
     refuse("the load is no sum of harmonics; take the method bdf");
-  if (system.n_constraints() > 0)
+  if (system.joints().n_rows() > 0)
     refuse("ideal joints are not integrated by it; use compliant ones");
   const auto      n     = M.rows();
   const RealModes modes = real_modes(M, B, C, system);
@@ -346,7 +346,7 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system)
                       D(coupled, coupled), assembly);
 
   ModalBlocks result;
-  const auto &harmonics    = system.excitation().harmonics();
+  const auto &harmonics    = system.linear().excitation().harmonics();
   const auto  n_x          = 2 * (n + Eigen::Index(harmonics.size()));
   result.blocks            = assembly.blocks;
   result.n_modal           = int(n);

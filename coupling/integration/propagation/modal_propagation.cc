@@ -38,7 +38,7 @@ double natural_step(const ModalBlocks &modes)
 ModalPropagation::ModalPropagation(const SecondOrderSystem &system, const Options &options)
     : system_(system), options_(options), modes_(modal_blocks(system)), context_(system, modes_, options.newton)
 {
-  const auto n_u = system.directions().cols();
+  const auto n_u = system.forces().directions().cols();
   force_         = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)
                                                            : make_fused_step(context_, options.force);
   Q_             = reordered(modes_.Q, context_.measures.n_p);
@@ -60,8 +60,8 @@ void ModalPropagation::begin(double t, const Eigen::VectorXd &q, const Eigen::Ve
 {
   x_                 = reordered(modes_.state(t, q, v).transpose(), context_.measures.n_p).transpose();
   local_.t           = t;
-  local_.u.noalias() = system_.directions().transpose() * q;
-  local_.v.noalias() = system_.directions().transpose() * v;
+  local_.u.noalias() = system_.forces().directions().transpose() * q;
+  local_.v.noalias() = system_.forces().directions().transpose() * v;
   local_.p.setZero();
   context_.begin(x_, local_.u);
   t_origin_ = t;
@@ -94,7 +94,7 @@ void ModalPropagation::start_piece()
   last_error_        = options_.tolerance > 0. ? safety : 0.;
   stepped_ = cut_ = false;
   forget_inside();
-  system_.local_force(local_, local_.p);
+  system_.forces().force(local_, local_.p);
   ++context_.work.evaluations;
   context_.accelerate(x_, local_);
   force_->begin(x_, local_);
@@ -280,7 +280,7 @@ void ModalPropagation::interpolate(double t, LocalState &state) const
   }
   force_->interpolate((t - t_begin_) / h, state);
   state.t            = t;
-  const bool is_read = h < few_differences * step_ || !is_smooth(h), holds = !system_.held().empty();
+  const bool is_read = h < few_differences * step_ || !is_smooth(h), holds = !system_.forces().held().empty();
   if (!is_read && !holds)
     return;
   const Eigen::VectorXd &x = state_at(t);
@@ -292,7 +292,7 @@ void ModalPropagation::interpolate(double t, LocalState &state) const
   if (!holds)
     return;
   keep_held_rates(system_, state.v);
-  system_.local_force(state, state.p);
+  system_.forces().force(state, state.p);
   ++context_.work.evaluations;
   context_.accelerate(x, state);
 }
@@ -326,7 +326,7 @@ bool ModalPropagation::is_smooth(double h) const
 /// Collocation meets the rates that are held at its nodes only.
 void ModalPropagation::hold_rates(double t, Eigen::VectorXd &x) const
 {
-  if (system_.held().empty())
+  if (system_.forces().held().empty())
     return;
   held_.t           = t;
   held_.v.noalias() = context_.measures.read_v.transpose() * x;

@@ -63,13 +63,13 @@ ModalMeasures::ModalMeasures(const ModalBlocks &modes, const SecondOrderSystem &
     : blocks(modes.blocks), n_p((int(modes.blocks.size()) + 3) / 4 * 4), n_modal(modes.n_modal)
 {
   blocks.resize(n_p, {ModalBlock::decaying, -1., -1.});
-  const MatrixXd W          = MatrixXd(system.directions());
+  const MatrixXd W          = MatrixXd(system.forces().directions());
   MatrixXd       G          = MatrixXd::Zero(2 * Index(modes.blocks.size()), modes.Q.rows());
   G.topRows(modes.G.rows()) = modes.G;
   read_u                    = reordered(W.transpose() * modes.Q, n_p).transpose();
   read_v                    = reordered(W.transpose() * modes.V, n_p).transpose();
   put                       = reordered((G * W).transpose(), n_p).transpose();
-  constant                  = reordered((G * system.excitation().constant()).transpose(), n_p).transpose();
+  constant                  = reordered((G * system.linear().excitation().constant()).transpose(), n_p).transpose();
 }
 
 ForceBasis ForceBasis::constant()

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/method.h"
+#include "coupling/integration/stability/oscillator_step.h"
 
 #include <Eigen/Core>
 
@@ -9,22 +9,6 @@
 
 namespace gestell::coupling
 {
-
-/// Whose spring makes the test oscillator vibrate.  It matters for exact propagation only, which carries the base
-/// system exactly and interpolates the forces of elements.
-enum class Spring
-{
-  base,   ///< of the linear base system
-  contact ///< of an element that is closed: the base system is a free mass
-};
-
-/// A method with a fixed step on the test oscillator  x'' + 2 zeta omega x' + omega^2 x = 0.
-struct TestOscillator
-{
-  double zeta;    ///< >= 0
-  double omega_h; ///< > 0
-  Spring spring = Spring::base;
-};
 
 /**
  * How a method steps the test oscillator, from the roots r of its characteristic polynomial.
@@ -45,18 +29,6 @@ StepProperties step_properties(const MethodOptions &options, const TestOscillato
 double         spectral_radius(const MethodOptions &options, const TestOscillator &oscillator);
 
 /**
- * The step as a matrix on the state that the method carries, lengths in units of x, times in units of h:
- *
- *     BDF of order p                   (x_k, ..., x_k-p+1, h x'_k, ..., h x'_k-p+1)        [2p x 2p]
- *     Newmark, HHT, generalised alpha,
- *     Wilson, central differences      (x, h x', h^2 x'')                                  [3 x 3]
- *     exact propagation                (x, h x')                                           [2 x 2]
- *
- * Central differences with the central velocity are Newmark's formulas with beta = 0, gamma = 1/2.
- */
-Eigen::MatrixXd amplification_matrix(const MethodOptions &options, const TestOscillator &oscillator);
-
-/**
  * Weights of a motion x r^k in the balance of a one-step method that averages no forces: Newmark, central differences,
  * Wilson.  Accelerations x, and with them velocities and displacements, fulfil
  *
@@ -73,30 +45,6 @@ StepWeights step_weights(const MethodOptions &options, double r);
 
 /// Whether step_weights() knows the method.
 bool has_step_weights(const MethodOptions &options);
-
-/// Largest |x| / x_0 or, for a start with velocity, |x| omega / v_0, and largest |x'| / omega likewise.
-struct Overshoot
-{
-  double displacement, velocity;
-  int    displacement_step, velocity_step; ///< where they occur
-};
-
-enum class OscillatorStart
-{
-  displaced, ///< x = 1, x' = 0
-  moving     ///< x = 0, x' = omega
-};
-
-/// The first steps of BDF.
-enum class BdfStart
-{
-  extrapolated, ///< chains of implicit Euler steps, as the integrator begins
-  order_ramp    ///< orders 1, 2, ... p, as tables of the literature have it
-};
-
-/// In the first 20 steps, from consistent accelerations.
-Overshoot overshoot(const MethodOptions &options, const TestOscillator &oscillator, OscillatorStart start,
-                    BdfStart first_steps = BdfStart::extrapolated);
 
 /// omega h in (from, to), where the method grows.
 struct UnstableInterval

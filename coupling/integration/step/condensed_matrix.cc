@@ -5,12 +5,12 @@
 namespace gestell::coupling
 {
 
-CondensedMatrix::CondensedMatrix(const SecondOrderSystem &system) : blocks_(system.force_blocks())
+CondensedMatrix::CondensedMatrix(const SecondOrderSystem &system) : blocks_(system.forces().blocks())
 {
   for (const ForceBlock &block : blocks_)
     for (int i = 0; i < block.n_measures; ++i)
       of_forces_.push_back(block.first_measure + i);
-  const auto n_u = system.directions().cols(), n_c = Eigen::Index(system.n_constraints()),
+  const auto n_u = system.forces().directions().cols(), n_c = Eigen::Index(system.joints().n_rows()),
              n_F = Eigen::Index(of_forces_.size());
   is_held_.assign(of_forces_.size(), 0);
   tangent_.reserve(std::size_t(tangent_size(blocks_)));

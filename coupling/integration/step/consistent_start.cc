@@ -20,18 +20,18 @@ constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: r
 {
   std::ostringstream message;
   message << method << ": the mass matrix is singular, so that the acceleration to begin with is not defined";
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.size()), column = unit;
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.linear().size()), column = unit;
   int             massless = -1;
-  for (int i = 0; i < system.size() && massless < 0; ++i)
+  for (int i = 0; i < system.linear().size() && massless < 0; ++i)
   {
     unit[i] = 1.;
-    system.mass_times(unit, column);
+    system.linear().mass_times(unit, column);
     unit[i] = 0.;
     if (column.isZero(0.))
       massless = i;
   }
   if (massless >= 0)
-    message << ": " << system.coordinate_name(massless) << " has no mass";
+    message << ": " << system.linear().coordinate_name(massless) << " has no mass";
   else
     message << " (" << why << ")";
   message << "; give it mass, or use bdf, which needs none";
@@ -43,7 +43,7 @@ constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: r
   int worst = 0;
   g.cwiseAbs().maxCoeff(&worst);
   std::ostringstream message;
-  message << "the joints cannot be closed at t = " << t << " s: " << system.constraint_name(worst) << " stays open by "
+  message << "the joints cannot be closed at t = " << t << " s: " << system.joints().name(worst) << " stays open by "
           << g[worst] << " (m or rad); check positions and lengths";
   throw ConvergenceFailure(message.str());
 }
@@ -52,14 +52,14 @@ constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: r
 
 void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v)
 {
-  for (const HeldMeasure &h : system.held())
+  for (const HeldMeasure &h : system.forces().held())
     v[h.measure] = h.rate;
 }
 
 ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::string &method, JointSolver joints)
-    : system_(system), G_(system.constraint_blocks())
+    : system_(system), G_(system.joints().blocks())
 {
-  const auto n = system.size(), n_u = static_cast<int>(system.directions().cols());
+  const auto n = system.linear().size(), n_u = static_cast<int>(system.forces().directions().cols());
   for (Eigen::VectorXd *x : {&f_, &product_, &a_})
     x->setZero(n);
   a_free_.setZero(n_u);
@@ -69,7 +69,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
     x->setZero(G_.n_rows());
   try
   {
-    mass_ = system.factorise(1., 0., 0.);
+    mass_ = system.linear().factorise(1., 0., 0.);
   }
   catch (const std::invalid_argument &singular)
   {
@@ -80,7 +80,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   mass_->solve(f_, product_);
   if (!product_.allFinite())
     refuse_singular(system, method, "no solution exists");
-  tangent_.setZero(tangent_size(system.force_blocks()));
+  tangent_.setZero(tangent_size(system.forces().blocks()));
   saddle_ = SaddleMatrix::for_joints(system, joints);
   if (!saddle_)
     condense();
@@ -88,7 +88,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
 
 void ConsistentStart::condense()
 {
-  const auto &W   = system_.directions();
+  const auto &W   = system_.forces().directions();
   const int   n_u = static_cast<int>(W.cols());
   matrix_         = std::make_unique<CondensedMatrix>(system_);
   Y_.setZero(W.rows(), n_u);
@@ -104,10 +104,10 @@ void ConsistentStart::condense()
 void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
                             IntegrationWork &work)
 {
-  system_.excitation().at(local.t, f_);
-  system_.damping_times(v, product_);
+  system_.linear().excitation().at(local.t, f_);
+  system_.linear().damping_times(v, product_);
   f_ -= product_;
-  system_.stiffness_times(q, product_);
+  system_.linear().stiffness_times(q, product_);
   f_ -= product_;
   mass_->solve(f_, a);
   ++work.solves;
@@ -118,14 +118,14 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
   }
   if (D_.cols() == 0)
     return;
-  a_free_.noalias() = system_.directions().transpose() * a;
+  a_free_.noalias() = system_.forces().directions().transpose() * a;
   iterate(local, work);
   a.noalias() += Y_.lazyProduct(local.p);
 }
 
 void ConsistentStart::factorise(double t)
 {
-  if (matrix_->factorise(D_, tangent_, system_.held()))
+  if (matrix_->factorise(D_, tangent_, system_.forces().held()))
     return;
   if (matrix_->failed_joint() >= 0)
     fail_dependent(system_, matrix_->failed_joint(), t);
@@ -157,7 +157,7 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
   double open = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration)
   {
-    system_.constraints(local, g_, G_);
+    system_.joints().constraints(local, g_, G_);
     const double before = open;
     open                = g_.cwiseAbs().maxCoeff();
     if (open <= rounding || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
@@ -169,7 +169,7 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
     else
       move(q, local.u, local.t);
   }
-  system_.constraint_rates(local, rate_, bias_);
+  system_.joints().rates(local, rate_, bias_);
   g_ = rate_;
   G_.add_product(1., local.v, g_);
   if (saddle_)
@@ -197,12 +197,12 @@ bool ConsistentStart::is_small(const Eigen::VectorXd &p)
 
 void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
 {
-  const auto &held   = system_.held();
+  const auto &held   = system_.forces().held();
   const bool  joints = G_.n_rows() > 0;
   if (joints)
   {
-    system_.constraints(local, g_, G_);
-    system_.constraint_rates(local, rate_, bias_);
+    system_.joints().constraints(local, g_, G_);
+    system_.joints().rates(local, rate_, bias_);
     matrix_->set_joints(D_, G_);
   }
   local.a = a_free_;
@@ -210,11 +210,11 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     local.a[h.measure] = 0.;
   for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
-    system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
     ++work.newton;
     ++work.evaluations;
     // No force depends on u'' or multipliers: one step finds all.
-    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
+    const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     linear_           = linear_ && linear;
     if (joints)
     {
@@ -252,8 +252,8 @@ void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, L
     return;
   }
   prepare_hold(local.t);
-  system_.excitation().at(local.t, f_);
-  system_.local_force(local, local.p);
+  system_.linear().excitation().at(local.t, f_);
+  system_.forces().force(local, local.p);
   ++work.evaluations;
   for (const int h : holding_)
     local.p[h] = local.a[h] = 0.;
@@ -270,7 +270,7 @@ void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, L
 /// What hold() needs of the measures that are held now.
 void ConsistentStart::prepare_hold(double t)
 {
-  const auto &held = system_.held();
+  const auto &held = system_.forces().held();
   const auto  same = [](int own, const HeldMeasure &h) { return own == h.measure; };
   if (std::equal(holding_.begin(), holding_.end(), held.begin(), held.end(), same))
     return;
@@ -285,9 +285,9 @@ void ConsistentStart::prepare_hold(double t)
     holding_.push_back(held[i].measure);
     f_             = Y_.col(holding_.back());
     hold_f_.col(i) = f_;
-    system_.damping_times(f_, product_);
+    system_.linear().damping_times(f_, product_);
     hold_v_.col(i) = product_;
-    system_.stiffness_times(f_, product_);
+    system_.linear().stiffness_times(f_, product_);
     hold_q_.col(i) = product_;
   }
   for (int i = 0; i < n_h; ++i)
@@ -299,7 +299,7 @@ void ConsistentStart::prepare_hold(double t)
 
 int ConsistentStart::most_iterations() const
 {
-  return system_.forces_need_multipliers() ? most_by_friction : max_iterations;
+  return system_.forces().need_multipliers() ? most_by_friction : max_iterations;
 }
 
 void ConsistentStart::fail_unconverged(double t) const
@@ -311,9 +311,9 @@ void ConsistentStart::fail_unconverged(double t) const
   if (g_.size() > 0)
   {
     g_.cwiseAbs().maxCoeff(&worst);
-    message << ", and most of all the force of " << system_.constraint_name(worst) << " goes on changing";
+    message << ", and most of all the force of " << system_.joints().name(worst) << " goes on changing";
   }
-  if (system_.forces_need_multipliers())
+  if (system_.forces().need_multipliers())
     message << "; friction in a joint may make the force that causes it, so that the joint jams: lengthen the guide or "
                "lower the coefficient";
   throw ConvergenceFailure(message.str());

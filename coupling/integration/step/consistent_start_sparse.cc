@@ -31,13 +31,13 @@ void ConsistentStart::move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, doubl
   y_.tail(g_.size()) = -g_;
   saddle_->solve_in_place(y_);
   x += y_.head(x.size());
-  xi.noalias() += system_.directions().transpose() * y_.head(x.size());
+  xi.noalias() += system_.forces().directions().transpose() * y_.head(x.size());
 }
 
 /// The terms of which u'' is the sum: |u''_free| and W^T M^-1 W |p|, the largest of all measures.
 double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
 {
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   correction_   = p.cwiseAbs();
   f_.setZero();
   for (int j = 0; j < W.outerSize(); ++j)
@@ -51,14 +51,14 @@ double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
 /// From a = M^-1 (f_t - B q' - C q), with that right hand side in f_.
 void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work)
 {
-  const auto &W    = system_.directions();
-  const auto &held = system_.held();
+  const auto &W    = system_.forces().directions();
+  const auto &held = system_.forces().held();
   const auto  n = a.size(), n_c = Eigen::Index(G_.n_rows());
   load_ = f_;
   saddle_->hold(held);
   saddle_->set_weights(1., 0., 0., 1.);
-  system_.constraints(local, g_, G_);
-  system_.constraint_rates(local, rate_, bias_);
+  system_.joints().constraints(local, g_, G_);
+  system_.joints().rates(local, rate_, bias_);
   y_.setZero(saddle_->size());
   a_free_.noalias() = W.transpose() * a;
   local.a           = a_free_;
@@ -66,12 +66,12 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     local.a[h.measure] = 0.;
   for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
-    system_.local_tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;
     // No force depends on u'' or multipliers: one step finds all.
-    const bool linear = tangent_.isZero(0.) && !system_.forces_need_multipliers();
+    const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     factorise_sparse(local.t);
     ++work.factorisations;
     y_.head(n) = load_;

@@ -26,13 +26,13 @@ void fail_singular(const SecondOrderSystem &system, double t)
   std::ostringstream message;
   message << "the equation of the forces is singular at t = " << t << " s";
   const char *separator = ": the elements that stick hold the same motion, on ";
-  for (const HeldMeasure &h : system.held())
-    for (Eigen::SparseMatrix<double>::InnerIterator it(system.directions(), h.measure); it; ++it)
+  for (const HeldMeasure &h : system.forces().held())
+    for (Eigen::SparseMatrix<double>::InnerIterator it(system.forces().directions(), h.measure); it; ++it)
     {
-      message << separator << system.coordinate_name(static_cast<int>(it.row()));
+      message << separator << system.linear().coordinate_name(static_cast<int>(it.row()));
       separator = ", ";
     }
-  if (!system.held().empty())
+  if (!system.forces().held().empty())
     message << "; make one of them a regularised friction, or put a spring between them";
   throw ConvergenceFailure(message.str());
 }
@@ -40,7 +40,7 @@ void fail_singular(const SecondOrderSystem &system, double t)
 void fail_dependent(const SecondOrderSystem &system, int row, double t)
 {
   std::ostringstream message;
-  message << "the joints do not hold the mechanism at t = " << t << " s: " << system.constraint_name(row)
+  message << "the joints do not hold the mechanism at t = " << t << " s: " << system.joints().name(row)
           << " follows from the others here, as in a stretched linkage, or says what they say; change the position, or "
              "make that joint compliant";
   throw ConvergenceFailure(message.str());
@@ -63,7 +63,7 @@ bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
 } // namespace
 
 ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options)
-    : system_(system), options_(options), force_blocks_(system.force_blocks()), G_(system.constraint_blocks()),
+    : system_(system), options_(options), force_blocks_(system.forces().blocks()), G_(system.joints().blocks()),
       most_left_(most_left)
 {
   // What positions are wrong by, multipliers are by m/h^2 times that.
@@ -73,10 +73,10 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
     options_.share_of_error *= share_of_joints;
     most_left_ *= share_of_joints;
     // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
-    if (system.forces_need_multipliers())
+    if (system.forces().need_multipliers())
       options_.share_of_error = 0.;
   }
-  const int n_u = static_cast<int>(system.directions().cols());
+  const int n_u = static_cast<int>(system.forces().directions().cols());
   xi_.setZero(n_u);
   xi_free_.setZero(n_u);
   residual_.setZero(n_u);
@@ -131,9 +131,9 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, Int
   made.form = form;
   if (saddle_)
     return cache_.emplace(key, std::move(made)).first->second;
-  made.solver = system_.factorise(form.w_M, form.w_B, form.w_C);
+  made.solver = system_.linear().factorise(form.w_M, form.w_B, form.w_C);
   ++work.factorisations;
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   made.Y.resize(W.rows(), W.cols());
   Eigen::VectorXd x(W.rows());
   for (int j = 0; j < W.cols(); ++j)
@@ -255,7 +255,7 @@ bool ImplicitStep::is_converged(int iteration, double size, double remaining) co
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
 {
   const StepForm &form        = condensed.form;
-  const auto     &held        = system_.held();
+  const auto     &held        = system_.forces().held();
   const bool      joints      = G_.n_rows() > 0;
   bool            turned      = joints; // G has, since Newton's matrix got it
   double          size_before = 0.;
@@ -266,12 +266,12 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
   {
     motion(form, base, local);
-    system_.local_tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
+    system_.forces().tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
     ++work.newton;
     ++work.evaluations;
     if (joints)
     {
-      system_.constraints(local, g_, G_);
+      system_.joints().constraints(local, g_, G_);
       G_.set_forces(local.lambda, local.p);
       g_ /= form.w_u;
     }
@@ -353,7 +353,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &h, c
   if (condensed.Y_led.size() == 0)
   {
     f_.resize(h.size());
-    system_.mass_times(h, f_);
+    system_.linear().mass_times(h, f_);
     f_ += f;
     solve(condensed, f_, base, x, local, work);
     return;
@@ -371,7 +371,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &h, c
 void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x,
                                LocalState &local, IntegrationWork &work)
 {
-  const auto &W = system_.directions();
+  const auto &W = system_.forces().directions();
   ++work.solves;
   local.t = base.t;
   if (W.cols() == 0)
@@ -406,8 +406,8 @@ void ImplicitStep::fail(double t) const
     if (std::abs(residual_[i]) * scale_[worst] > std::abs(residual_[worst]) * scale_[i])
       worst = i;
   std::string coordinate = "?";
-  for (Eigen::SparseMatrix<double>::InnerIterator it(system_.directions(), worst); it; ++it)
-    coordinate = system_.coordinate_name(static_cast<int>(it.row()));
+  for (Eigen::SparseMatrix<double>::InnerIterator it(system_.forces().directions(), worst); it; ++it)
+    coordinate = system_.linear().coordinate_name(static_cast<int>(it.row()));
   std::ostringstream message;
   message << "Newton's method did not converge at t = " << t << " s in " << options_.max_iterations
           << " iterations; the largest residual is " << std::abs(residual_[worst]) << " (m or rad) at the force on "

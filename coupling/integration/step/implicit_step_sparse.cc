@@ -23,8 +23,8 @@ bool ImplicitStep::factorise_sparse(IntegrationWork &work)
 bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
                                   Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
 {
-  const auto &W    = system_.directions();
-  const auto &held = system_.held();
+  const auto &W    = system_.forces().directions();
+  const auto &held = system_.forces().held();
   const auto  n = x.size(), n_c = Eigen::Index(G_.n_rows());
   double      size_before = 0.;
   singular_ = joints_singular_ = false;
@@ -44,8 +44,8 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
   {
     motion(form, base, local);
-    system_.local_tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
-    system_.constraints(local, g_, G_);
+    system_.forces().tangent_blocks(local, form.w_u, form.w_v, form.w_a, local.p, tangent_);
+    system_.joints().constraints(local, g_, G_);
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;

@@ -14,7 +14,7 @@ class Loads
 {
 public:
   Loads(const SecondOrderSystem &system, const LocalState &at)
-      : system_(system), state_(at), begin_(Eigen::VectorXd::Zero(system.size())), f_(begin_)
+      : system_(system), state_(at), begin_(Eigen::VectorXd::Zero(system.linear().size())), f_(begin_)
   {
     state_.p.setZero();
     load(at.t, begin_);
@@ -31,9 +31,9 @@ private:
   void load(double t, Eigen::VectorXd &f)
   {
     state_.t = t;
-    system_.excitation().at(t, f);
-    system_.local_force(state_, state_.p);
-    f.noalias() += system_.directions() * state_.p;
+    system_.linear().excitation().at(t, f);
+    system_.forces().force(state_, state_.p);
+    f.noalias() += system_.forces().directions() * state_.p;
   }
 
   const SecondOrderSystem &system_;
@@ -49,7 +49,7 @@ LoadedMotion loads_to_come(const SecondOrderSystem &system, const LocalState &at
   if (!(tau > 0.) || !std::isfinite(tau))
     return {};
   Loads           loads(system, at);
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(system.size());
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(system.linear().size());
   for (int k = 1; k <= instants; ++k)
     largest = largest.cwiseMax(loads.change(at.t + k * tau).cwiseAbs());
   if (!largest.allFinite() || largest.isZero(0.))
@@ -57,7 +57,7 @@ LoadedMotion loads_to_come(const SecondOrderSystem &system, const LocalState &at
 
   const Eigen::VectorXd inverse = largest.unaryExpr([](double f) { return f > 0. ? 1. / f : 0.; });
   double                most    = 0.;
-  Eigen::VectorXd       f(system.size()), x(f), product(f);
+  Eigen::VectorXd       f(system.linear().size()), x(f), product(f);
   for (int k = 1; k <= instants; ++k)
     if (const double size = loads.change(at.t + k * tau).cwiseProduct(inverse).squaredNorm(); size > most)
     {
@@ -65,8 +65,8 @@ LoadedMotion loads_to_come(const SecondOrderSystem &system, const LocalState &at
       f    = loads.change(at.t + k * tau);
     }
   f *= tau * tau;
-  system.factorise(1., tau, tau * tau)->solve(f, x);
-  system.mass_times(x, product);
+  system.linear().factorise(1., tau, tau * tau)->solve(f, x);
+  system.linear().mass_times(x, product);
   const double energy = x.dot(product);
   if (!std::isfinite(energy) || !(energy > 0.))
     return {};

@@ -10,8 +10,9 @@ namespace
 {
 bool is_virtual(const SecondOrderSystem &system, int measure)
 {
-  const auto &all = system.virtual_coordinates();
-  return std::any_of(all.begin(), all.end(), [&](int i) { return system.directions().coeff(i, measure) != 0.; });
+  const auto &all = system.linear().virtual_coordinates();
+  return std::any_of(all.begin(), all.end(),
+                     [&](int i) { return system.forces().directions().coeff(i, measure) != 0.; });
 }
 } // namespace
 
@@ -25,9 +26,9 @@ void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S
                        const Eigen::VectorXd &tangent, double left, Eigen::VectorXd &scale)
 {
   double size = 0.;
-  for (const ConstraintBlock &joint : system.constraint_blocks())
+  for (const ConstraintBlock &joint : system.joints().blocks())
     size = std::max(size, joint.size);
-  if (size == 0. || system.virtual_coordinates().empty())
+  if (size == 0. || system.linear().virtual_coordinates().empty())
     return;
   const double *first = tangent.data();
   for (const ForceBlock &block : blocks)

@@ -58,7 +58,7 @@ struct SaddleMatrix::Factor
 };
 
 SaddleMatrix::SaddleMatrix(const SecondOrderSystem &system)
-    : system_(system), n_(system.size()), n_c_(system.n_constraints()), weights_(Eigen::VectorXd::Zero(4)),
+    : system_(system), n_(system.linear().size()), n_c_(system.joints().n_rows()), weights_(Eigen::VectorXd::Zero(4)),
       factor_(std::make_unique<Factor>())
 {
   collect_base(system);
@@ -69,7 +69,7 @@ SaddleMatrix::~SaddleMatrix() = default;
 
 std::unique_ptr<SaddleMatrix> SaddleMatrix::for_joints(const SecondOrderSystem &system, JointSolver solver)
 {
-  const double n_u = double(system.directions().cols()), n_c = system.n_constraints();
+  const double n_u = double(system.forces().directions().cols()), n_c = system.joints().n_rows();
   if (n_c == 0 || solver == JointSolver::condensed)
     return nullptr;
   if (solver == JointSolver::sparse)
@@ -91,7 +91,7 @@ std::unique_ptr<SaddleMatrix> SaddleMatrix::for_joints(const SecondOrderSystem &
 void SaddleMatrix::collect_base(const SecondOrderSystem &system)
 {
   Sparse M, B, C;
-  if (!system.sparse_matrices(M, B, C))
+  if (!system.linear().sparse_matrices(M, B, C))
     throw std::invalid_argument(
         "the joints of this machine are solved condensed to the measures only: its frame hands out "
         "no matrices that could be factorised in every step");
@@ -134,12 +134,12 @@ void SaddleMatrix::analyse()
     int    value, row, column;
     double weight;
   };
-  const Sparse      &W = system_.directions();
+  const Sparse      &W = system_.forces().directions();
   std::vector<Place> base, tangent, action, motion, held;
   for (int j = 0, k = 0; j < n_; ++j)
     for_column(A_, j, [&](int i, double) { base.push_back({k++, i, j, 1.}); });
   int first = 0;
-  for (const ForceBlock &block : system_.force_blocks())
+  for (const ForceBlock &block : system_.forces().blocks())
   {
     for (int b = 0; b < block.n_measures; ++b)
       for (int a = 0; a < block.n_measures; ++a)
@@ -154,7 +154,7 @@ void SaddleMatrix::analyse()
     first += block.n_measures * block.n_measures;
   }
   first = 0;
-  for (const ConstraintBlock &block : system_.constraint_blocks())
+  for (const ConstraintBlock &block : system_.joints().blocks())
   {
     for (int k = 0; k < block.n_measures; ++k)
       for (int r = 0; r < block.n_rows; ++r)
@@ -253,7 +253,7 @@ void SaddleMatrix::set_weights(double w_M, double w_B, double w_C, double f)
   weights_                                                  = weights;
   Eigen::Map<Eigen::VectorXd>(A_.valuePtr(), A_.nonZeros()) = w_M * M_ + w_B * B_ + w_C * C_;
   if (w_B == 0. && w_C == 0.) // of M alone virtual coordinates have nothing: they stay apart
-    for (const int i : system_.virtual_coordinates())
+    for (const int i : system_.linear().virtual_coordinates())
       A_.coeffRef(i, i) = w_M;
   factorised_ = false;
 }

@@ -5,15 +5,15 @@ namespace gestell::coupling
 
 VirtualRates::VirtualRates(const SecondOrderSystem &system)
 {
-  const auto     &W    = system.directions();
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.size()), product = unit;
-  for (const int i : system.virtual_coordinates())
+  const auto     &W    = system.forces().directions();
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.linear().size()), product = unit;
+  for (const int i : system.linear().virtual_coordinates())
   {
     Row row{i, 0., 0., {}};
     unit[i] = 1.;
-    system.damping_times(unit, product);
+    system.linear().damping_times(unit, product);
     row.b = product[i];
-    system.stiffness_times(unit, product);
+    system.linear().stiffness_times(unit, product);
     row.c   = product[i];
     unit[i] = 0.;
     for (int j = 0; j < W.outerSize(); ++j)

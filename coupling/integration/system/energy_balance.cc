@@ -20,7 +20,7 @@ constexpr int    most_panels = 4096;
 EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
 {
   for (Eigen::VectorXd *x : {&product_, &load_, &kinetic_, &kinetic_begin_, &between_.q, &between_.v})
-    x->setZero(system.size());
+    x->setZero(system.linear().size());
   between_.local.resize(system);
 }
 
@@ -32,7 +32,7 @@ EnergyBalance::Power EnergyBalance::sum(double weight_a, const Power &a, double 
 /// x . product_, the virtual coordinates left out.
 double EnergyBalance::work_with_product(const Eigen::VectorXd &x)
 {
-  for (const int i : system_.virtual_coordinates())
+  for (const int i : system_.linear().virtual_coordinates())
     product_[i] = 0.;
   return x.dot(product_);
 }
@@ -40,12 +40,12 @@ double EnergyBalance::work_with_product(const Eigen::VectorXd &x)
 EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 {
   Power power;
-  system_.local_power(instant.local, instant.local.p, power.input, power.dissipated);
-  system_.damping_times(instant.v, product_);
+  system_.energy().power(instant.local, instant.local.p, power.input, power.dissipated);
+  system_.linear().damping_times(instant.v, product_);
   power.dissipated += work_with_product(instant.v);
-  if (!system_.excitation().is_constant())
+  if (!system_.linear().excitation().is_constant())
   {
-    system_.excitation().at(instant.t, load_);
+    system_.linear().excitation().at(instant.t, load_);
     power.input += load_.dot(instant.v);
   }
   return power;
@@ -53,24 +53,24 @@ EnergyBalance::Power EnergyBalance::power(const Instant &instant)
 
 double EnergyBalance::stored(const Instant &instant, double in_elements)
 {
-  system_.mass_times(instant.v, product_);
+  system_.linear().mass_times(instant.v, product_);
   kinetic_      = 0.5 * instant.v.cwiseProduct(product_);
   double energy = kinetic_.sum();
-  system_.stiffness_times(instant.q, product_);
+  system_.linear().stiffness_times(instant.q, product_);
   energy += 0.5 * work_with_product(instant.q);
   forces_ = product_.lpNorm<1>() + load_.lpNorm<1>() + instant.local.p.lpNorm<1>();
-  if (system_.excitation().is_constant())
+  if (system_.linear().excitation().is_constant())
     energy -= load_.dot(instant.q);
   return energy + in_elements;
 }
 
 void EnergyBalance::begin(const Instant &instant)
 {
-  system_.excitation().at(instant.t, load_);
+  system_.linear().excitation().at(instant.t, load_);
   t_begin_ = t_ = instant.t;
   work_begin_ = work_ = Power();
   first_ = last_ = power(instant);
-  in_elements_   = system_.local_stored_energy(instant.local);
+  in_elements_   = system_.energy().stored(instant.local);
   stored_ = stored_begin_ = stored(instant, in_elements_);
   kinetic_begin_          = kinetic_;
 }
@@ -78,7 +78,7 @@ void EnergyBalance::begin(const Instant &instant)
 void EnergyBalance::jump(const Instant &instant)
 {
   const double before = in_elements_;
-  in_elements_        = system_.local_stored_energy(instant.local);
+  in_elements_        = system_.energy().stored(instant.local);
   work_.dissipated += std::max(0., before - in_elements_);
   stored_ += in_elements_ - before;
   last_ = power(instant);
@@ -90,7 +90,7 @@ void EnergyBalance::step(const Instant &instant)
   first_       = last_;
   work_begin_  = work_;
   last_        = power(instant);
-  in_elements_ = system_.local_stored_energy(instant.local);
+  in_elements_ = system_.energy().stored(instant.local);
   t_           = instant.t;
   work_        = sum(1., work_, 0.5 * (t_ - t_begin_), sum(1., first_, 1., last_));
 }
@@ -143,7 +143,7 @@ EnergyBalance::Power EnergyBalance::integral(const TimeIntegrator &integrator, d
     between_.t = from + gauss_points[i] * (to - from);
     integrator.interpolate(between_.t, between_.q, between_.v);
     integrator.interpolate(between_.t, between_.local);
-    system_.local_force(between_.local, between_.local.p);
+    system_.forces().force(between_.local, between_.local.p);
     work = sum(1., work, gauss_weights[i] * (to - from), power(between_));
   }
   return work;
@@ -167,7 +167,7 @@ EnergyBalance::Power EnergyBalance::between(double t) const
 
 EnergyState EnergyBalance::at(const Instant &instant, const Power &work)
 {
-  const double in_elements = instant.t < t_ ? system_.local_stored_energy(instant.local) : in_elements_;
+  const double in_elements = instant.t < t_ ? system_.energy().stored(instant.local) : in_elements_;
   const double now         = stored(instant, in_elements);
   const auto   exchange    = (kinetic_ - kinetic_begin_).array();
   if (!(instant.t < t_))

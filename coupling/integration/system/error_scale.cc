@@ -48,7 +48,7 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   find_groups();
   find_ends();
   find_noise();
-  const auto n = m_.size(), n_u = system.directions().cols(), n_ends = Eigen::Index(end_index_.size());
+  const auto n = m_.size(), n_u = system.forces().directions().cols(), n_ends = Eigen::Index(end_index_.size());
   for (Eigen::VectorXd *x : {&q_begin_, &v_begin_})
     x->setZero(n);
   for (Eigen::VectorXd *x : {&u_begin_, &rate_begin_, &inverse_u_, &inverse_rate_, &way_, &speed_, &size_, &rate_})
@@ -79,14 +79,14 @@ void ErrorScale::copy(const Excursions &from, Excursions &to)
 /// M_ii: by unit vectors, or for large systems from x_i (M x)_i with many x of random signs, of which the mean is M_ii.
 void ErrorScale::find_masses()
 {
-  const int       n = system_.size();
+  const int       n = system_.linear().size();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), y(n);
   m_.setZero(n);
   if (n <= exact_masses)
     for (int i = 0; i < n; ++i)
     {
       x[i] = 1.;
-      system_.mass_times(x, y);
+      system_.linear().mass_times(x, y);
       m_[i] = y[i];
       x[i]  = 0.;
     }
@@ -97,7 +97,7 @@ void ErrorScale::find_masses()
     {
       for (int i = 0; i < n; ++i)
         x[i] = (random() & 1u) != 0 ? 1. : -1.;
-      system_.mass_times(x, y);
+      system_.linear().mass_times(x, y);
       m_ += x.cwiseProduct(y) / probes;
     }
   }
@@ -111,7 +111,7 @@ void ErrorScale::find_masses()
 /// irregular entries, so that a rigid motion does not hide couplings.
 void ErrorScale::find_groups()
 {
-  const int        n = system_.size();
+  const int        n = system_.linear().size();
   std::vector<int> group(n, -1);
   Eigen::VectorXd  x(n), y(n);
   for (int seed = 0; seed < n; ++seed)
@@ -127,9 +127,9 @@ void ErrorScale::find_groups()
       for (int i = 0; i < n; ++i)
         x[i] = group[i] == n_groups_ ? 1. + random() / 4294967296. : 0.;
       for (const auto product :
-           {&SecondOrderSystem::mass_times, &SecondOrderSystem::damping_times, &SecondOrderSystem::stiffness_times})
+           {&LinearSystem::mass_times, &LinearSystem::damping_times, &LinearSystem::stiffness_times})
       {
-        (system_.*product)(x, y);
+        (system_.linear().*product)(x, y);
         const double least = uncoupled * y.lpNorm<Eigen::Infinity>();
         for (int i = 0; i < n; ++i)
           if (group[i] < 0 && std::abs(y[i]) > least)
@@ -150,7 +150,7 @@ void ErrorScale::find_groups()
 
 void ErrorScale::find_ends()
 {
-  const auto      &W = system_.directions();
+  const auto      &W = system_.forces().directions();
   std::vector<int> place(W.rows(), -1);
 
   std::vector<Eigen::Triplet<double>> entries;
@@ -183,12 +183,12 @@ void ErrorScale::find_ends()
     root_mass_[j] = mobility > 0. ? 1. / std::sqrt(mobility) : 0.;
   }
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(W.rows()), product(W.rows());
-  for (const int i : system_.virtual_coordinates())
+  for (const int i : system_.linear().virtual_coordinates())
   {
     unit[i] = 1.;
-    system_.damping_times(unit, product);
+    system_.linear().damping_times(unit, product);
     const double b = product[i];
-    system_.stiffness_times(unit, product);
+    system_.linear().stiffness_times(unit, product);
     const double c = product[i];
     unit[i]        = 0.;
     for (int j = 0; j < W.outerSize(); ++j)
@@ -221,11 +221,11 @@ void ErrorScale::find_noise()
 {
   noise_.setZero(ends_.cols());
   const auto own = [this](int first, int n, double size) { noise_.segment(first, n).setConstant(terms * size); };
-  for (const ConstraintBlock &block : system_.constraint_blocks())
+  for (const ConstraintBlock &block : system_.joints().blocks())
     own(block.first_measure, block.n_measures, block.size);
   joint_noise_ = noise_;
   spread(joint_noise_, noise_of_groups_);
-  for (const ForceBlock &block : system_.force_blocks())
+  for (const ForceBlock &block : system_.forces().blocks())
     own(block.first_measure, block.n_measures, block.size);
   for (const Virtual &z : virtual_)
     noise_[z.measure] = 0.;
@@ -430,7 +430,7 @@ std::string ErrorScale::worst(const Motion &e) const
     if (size > largest)
     {
       largest = size;
-      name    = what + system_.coordinate_name(coordinate);
+      name    = what + system_.linear().coordinate_name(coordinate);
     }
   };
   for (const Run &run : runs_)

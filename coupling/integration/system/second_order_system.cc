@@ -12,8 +12,8 @@ void LocalState::resize(Eigen::Index n_u)
 
 void LocalState::resize(const SecondOrderSystem &system)
 {
-  resize(system.directions().cols());
-  lambda.setZero(system.n_constraints());
+  resize(system.forces().directions().cols());
+  lambda.setZero(system.joints().n_rows());
 }
 
 Eigen::Index tangent_size(const std::vector<ForceBlock> &blocks)
@@ -40,34 +40,34 @@ void LinearSolver::solve_following(const Eigen::VectorXd &, const Eigen::VectorX
   throw std::logic_error("LinearSolver: there are no leading coordinates");
 }
 
-bool SecondOrderSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
+bool LinearSystem::dense_matrices(Eigen::MatrixXd &, Eigen::MatrixXd &, Eigen::MatrixXd &) const
 {
   return false;
 }
 
-bool SecondOrderSystem::sparse_matrices(Eigen::SparseMatrix<double> &, Eigen::SparseMatrix<double> &,
-                                        Eigen::SparseMatrix<double> &) const
+bool LinearSystem::sparse_matrices(Eigen::SparseMatrix<double> &, Eigen::SparseMatrix<double> &,
+                                   Eigen::SparseMatrix<double> &) const
 {
   return false;
 }
 
-std::vector<ForceBlock> SecondOrderSystem::force_blocks() const
+std::vector<ForceBlock> LocalForces::blocks() const
 {
   return {{0, static_cast<int>(directions().cols())}};
 }
 
-void SecondOrderSystem::local_tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a,
-                                             Eigen::VectorXd &p, Eigen::VectorXd &blocks) const
+void LocalForces::tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
+                                 Eigen::VectorXd &blocks) const
 {
   Eigen::MatrixXd dp = Eigen::MatrixXd::Zero(p.size(), p.size());
-  local_tangent(state, w_u, w_v, w_a, p, dp);
+  tangent(state, w_u, w_v, w_a, p, dp);
   for (const HeldMeasure &h : held())
   {
     dp.row(h.measure).setZero();
     dp.col(h.measure).setZero();
   }
   Eigen::Index first = 0;
-  for (const ForceBlock &block : force_blocks())
+  for (const ForceBlock &block : this->blocks())
   {
     const int k                                       = block.n_measures;
     Eigen::Map<Eigen::MatrixXd>(&blocks[first], k, k) = dp.block(block.first_measure, block.first_measure, k, k);
@@ -75,38 +75,68 @@ void SecondOrderSystem::local_tangent_blocks(const LocalState &state, double w_u
   }
 }
 
-const std::vector<HeldMeasure> &SecondOrderSystem::held() const
+const std::vector<HeldMeasure> &LocalForces::held() const
 {
   static const std::vector<HeldMeasure> none;
   return none;
 }
 
-const std::vector<int> &SecondOrderSystem::virtual_coordinates() const
+const std::vector<int> &LinearSystem::virtual_coordinates() const
 {
   static const std::vector<int> none;
   return none;
 }
 
-const std::vector<ConstraintBlock> &SecondOrderSystem::constraint_blocks() const
+const std::vector<ConstraintBlock> &IdealJoints::blocks() const
 {
   static const std::vector<ConstraintBlock> none;
   return none;
 }
 
-void SecondOrderSystem::constraints(const LocalState &, Eigen::VectorXd &g, ConstraintJacobian &) const
+void IdealJoints::constraints(const LocalState &, Eigen::VectorXd &g, ConstraintJacobian &) const
 {
   g.setZero();
 }
 
-void SecondOrderSystem::constraint_rates(const LocalState &, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
+void IdealJoints::rates(const LocalState &, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
 {
   rate.setZero();
   bias.setZero();
 }
 
-std::string SecondOrderSystem::constraint_name(int i) const
+std::string IdealJoints::name(int i) const
 {
   return "constraint " + std::to_string(i + 1);
+}
+
+const IdealJoints &SecondOrderSystem::joints() const
+{
+  static const IdealJoints none;
+  return none;
+}
+
+namespace
+{
+EventSystem &no_events()
+{
+  static EventSystem none; // has no state
+  return none;
+}
+} // namespace
+
+const EventSystem &SecondOrderSystem::events() const
+{
+  return no_events();
+}
+EventSystem &SecondOrderSystem::events()
+{
+  return no_events();
+}
+
+const EnergyAccount &SecondOrderSystem::energy() const
+{
+  static const EnergyAccount none;
+  return none;
 }
 
 } // namespace gestell::coupling

@@ -80,7 +80,7 @@ FastForces::FastForces(const Machine &machine, const TimeIntegrator &integrator)
     return;
   limit_             = frame->frequency_limit_hz;
   const int      n_f = machine.n_frame(), n_b = machine.size() - n_f;
-  const MatrixXd W       = MatrixXd(machine.directions()).topRows(n_f);
+  const MatrixXd W       = MatrixXd(machine.forces().directions()).topRows(n_f);
   const MatrixXd springs = beside_frame(dense_stiffness(machine), frame->C),
                  dampers = beside_frame(dense_damping(machine), frame->B);
   int i                  = 0;
@@ -103,9 +103,9 @@ void FastForces::take_forces(const Machine &machine, const MatrixXd &W, const Ma
 {
   const Eigen::Index n_f = W.rows();
   by_measures_           = W;
-  if (!machine.excitation().is_constant())
+  if (!machine.linear().excitation().is_constant())
   {
-    excitation_ = &machine.excitation();
+    excitation_ = &machine.linear().excitation();
     by_loads_   = MatrixXd::Identity(n_f, machine.size());
     load_       = VectorXd::Zero(machine.size());
   }

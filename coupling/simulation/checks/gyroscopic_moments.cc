@@ -40,9 +40,9 @@ std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::Vec
     }
     if (!(speed > 0.) || w_a.isZero() || w_b.isZero())
       continue;
-    const auto      solver = machine.factorise(speed * speed, 0., 1.);
+    const auto      solver = machine.linear().factorise(speed * speed, 0., 1.);
     Eigen::VectorXd unit   = Eigen::VectorXd::Unit(machine.size(), body.coordinate), column(machine.size());
-    machine.mass_times(unit, column);
+    machine.linear().mass_times(unit, column);
     const auto flexibility = [&](const Eigen::VectorXd &w)
     {
       Eigen::VectorXd x(machine.size());

@@ -54,10 +54,10 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
   const double    h = options.step;
   Eigen::MatrixXd K, D, W = Eigen::MatrixXd::Zero(machine.size(), row);
   stiffest_matrices(machine, start.q, K, D);
-  const Eigen::VectorXd u = machine.directions().transpose() * start.q;
+  const Eigen::VectorXd u = machine.forces().directions().transpose() * start.q;
   for (const Watched &watched : watched_)
   {
-    const Eigen::MatrixXd own               = machine.directions().middleCols(watched.first, watched.size);
+    const Eigen::MatrixXd own               = machine.forces().directions().middleCols(watched.first, watched.size);
     W.middleCols(watched.row, watched.size) = own;
     K -= own * stiffness(watched, u) * own.transpose();
   }
@@ -72,7 +72,7 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
   F_         = (-w.stiffness * h * h) * (W.transpose() * A.solve(W));
   lightness_ = W.transpose() * M.llt().solve(W);
   last_.u    = u;
-  last_.v    = machine.directions().transpose() * start.v;
+  last_.v    = machine.forces().directions().transpose() * start.v;
 }
 
 Eigen::MatrixXd StiffnessCheck::stiffness(const Watched &watched, const Eigen::VectorXd &u) const

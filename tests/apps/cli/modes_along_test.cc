@@ -319,10 +319,10 @@ TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
   coupling::LocalState local;
   local.resize(machine);
   machine.gather(0., q, zero, zero, local);
-  machine.start(local);
-  const auto     &W  = machine.directions();
+  machine.events().start(local);
+  const auto     &W  = machine.forces().directions();
   Eigen::MatrixXd dp = Eigen::MatrixXd::Zero(W.cols(), W.cols()), K, D;
-  machine.local_tangent(local, 1., 0., 0., local.p, dp);
+  machine.forces().tangent(local, 1., 0., 0., local.p, dp);
   coupling::engaged_matrices(machine, q, {}, K, D);
   const Eigen::MatrixXd whole = -(W * dp * W.transpose()), geometric = coupling::geometric_stiffness(machine, local);
   EXPECT_GT(geometric.norm(), 1e-5 * whole.norm()); // F r = 900 kN 0.08 m

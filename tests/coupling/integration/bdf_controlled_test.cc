@@ -250,7 +250,7 @@ ModalSystem frame_of_many_modes()
 TEST(BdfControlled, OrdersThatWouldMakeAModeGrowAreNotUsed)
 {
   const ModalSystem      system   = frame_of_many_modes();
-  const auto             spectrum = system.spectrum();
+  const auto             spectrum = system.linear().spectrum();
   BdfControlled::Options options;
   options.tolerance    = 1e-3;
   options.largest_step = 0.01;

@@ -110,7 +110,7 @@ TEST(Bdf, CondensedStepSolvesTheWholeEquationOfTheStep)
   double        p, du, dv;
   const Vector  w = system.W * Vector::Ones(1);
   Vector        load(2);
-  system.excitation().at(h, load);
+  system.linear().excitation().at(h, load);
   stiffening(w.dot(q), 0., p, du, dv);
   const Vector right = system.M * q0 + h * (system.M * v0 + system.B * q0) + h * h * (load + w * p);
   const Vector left  = system.M * q + h * (system.B * q) + h * h * (system.C * q);

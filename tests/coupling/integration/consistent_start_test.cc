@@ -50,7 +50,7 @@ class ChainWithAddedMass : public Chain
 {
 public:
   explicit ChainWithAddedMass(double m) : mass(m) { W = Matrix(vector(1., -1., 2.)).sparseView(); }
-  void local_tangent(const LocalState &state, double, double, double w_a, Vector &p, Matrix &dp) const override
+  void tangent(const LocalState &state, double, double, double w_a, Vector &p, Matrix &dp) const override
   {
     p[0]     = -mass * state.a[0];
     dp(0, 0) = -w_a * mass;
@@ -69,8 +69,8 @@ public:
     W = w.sparseView();
   }
   const std::vector<HeldMeasure> &held() const override { return held_measures; }
-  void local_force(const LocalState &state, Vector &p) const override { p[0] = -50. * state.u[0]; }
-  void local_tangent(const LocalState &state, double w_u, double, double, Vector &p, Matrix &dp) const override
+  void                            force(const LocalState &state, Vector &p) const override { p[0] = -50. * state.u[0]; }
+  void tangent(const LocalState &state, double w_u, double, double, Vector &p, Matrix &dp) const override
   {
     dp.setZero();
     p[0]     = -50. * state.u[0];
@@ -85,8 +85,8 @@ LocalState measures(const SecondOrderSystem &system, double t, const Vector &q, 
   LocalState local;
   local.resize(system);
   local.t = t;
-  local.u = system.directions().transpose() * q;
-  local.v = system.directions().transpose() * v;
+  local.u = system.forces().directions().transpose() * q;
+  local.v = system.forces().directions().transpose() * v;
   return local;
 }
 

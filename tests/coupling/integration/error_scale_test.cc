@@ -24,7 +24,7 @@ ErrorScale::Motion motion(const Vector &q, const Vector &v)
 double error(const SecondOrderSystem &system, const Vector &q, const Vector &v, const Vector &e_q, const Vector &e_v,
              double h)
 {
-  ErrorScale   scale(system, system.spectrum(), 1e-6);
+  ErrorScale   scale(system, system.linear().spectrum(), 1e-6);
   const Vector rest = Vector::Zero(q.size());
   scale.begin(motion(rest, rest));
   EXPECT_TRUE(scale.consider(h, h, motion(rest, rest), motion(q, v), none));
@@ -70,7 +70,7 @@ TEST(ErrorScale, FreeRotationHasNoLargestExcursion)
   Matrix C(2, 2);
   C << 1250., -1250., -1250., 1250.; // two inertias on a spring: rigid rotation and 50 rad/s
   const ModalSystem system(Matrix::Identity(2, 2), Matrix::Zero(2, 2), C);
-  ErrorScale        scale(system, system.spectrum(), 1e-4);
+  ErrorScale        scale(system, system.linear().spectrum(), 1e-4);
   const auto        at = [](double t, double &twist, double &rate)
   {
     twist = 1e-2 * std::sin(50. * t);
@@ -107,7 +107,7 @@ TEST(ErrorScale, FreeRotationHasNoLargestExcursion)
 TEST(ErrorScale, AMotionFromRestIsMeasuredByWhereARefusedStepWouldHaveLed)
 {
   const ModalSystem system(Matrix::Identity(1, 1), Matrix::Zero(1, 1), Matrix::Identity(1, 1));
-  ErrorScale        scale(system, system.spectrum(), 1e-6);
+  ErrorScale        scale(system, system.linear().spectrum(), 1e-6);
   const Vector      rest = Vector::Zero(1), e = Vector::Constant(1, 1e-6);
   const auto        cube = [](double t) -> std::pair<Vector, Vector> {
     return {Vector::Constant(1, t * t * t), Vector::Constant(1, 3. * t * t)};
@@ -130,7 +130,7 @@ TEST(ErrorScale, AMotionFromRestIsMeasuredByWhereARefusedStepWouldHaveLed)
   scale.accept();
   // beyond 0.1 the motion has gone that way itself, and the refused step counts no more
   const double after = measured(0.1, 0.11);
-  ErrorScale   other(system, system.spectrum(), 1e-6);
+  ErrorScale   other(system, system.linear().spectrum(), 1e-6);
   other.begin(motion(rest, rest));
   const auto [q_0, v_0] = cube(0.1);
   const auto [q_1, v_1] = cube(0.11);
@@ -149,7 +149,7 @@ TEST(ErrorScale, AMeasureDoesNotCountForLessThanAMillionthOfItsGroup)
   const Vector rest = Vector::Zero(2), still = Vector::Zero(1);
   const auto   measured = [&](double far)
   {
-    ErrorScale   scale(system, system.spectrum(), 1e-6);
+    ErrorScale   scale(system, system.linear().spectrum(), 1e-6);
     const Vector q = Eigen::Vector2d(1e-3, far), v = 20. * q, u = q.tail(1), rate = v.tail(1),
                  e = Vector::Constant(1, 1e-12);
     scale.begin({rest, rest, still, still});
@@ -186,7 +186,7 @@ private:
 double error_of_torque(double J, double T, double gain, double way)
 {
   ControlledRotor system(J, T, gain);
-  ErrorScale      scale(system, system.spectrum(), 1e-6);
+  ErrorScale      scale(system, system.linear().spectrum(), 1e-6);
   const double    h = 1e-3, speed = 100.;
   const Vector    q = Vector::Zero(2), v = Eigen::Vector2d(speed, 0.), to_q = Eigen::Vector2d(speed * h, 0.),
                to_v = Eigen::Vector2d(speed + way, 0.), e = Eigen::Vector2d(0., 1e-6 * gain), none_moved = q;
@@ -222,7 +222,7 @@ TEST(ErrorScale, MotionsAreMeasuredByThoseThatLoadsToComeWouldBring)
   {
     const int         n = 1 + bystanders;
     const ModalSystem system(Matrix::Identity(n, n), Matrix::Zero(n, n), Matrix(900. * Matrix::Identity(n, n)));
-    ErrorScale        scale(system, system.spectrum(), 1e-6);
+    ErrorScale        scale(system, system.linear().spectrum(), 1e-6);
     const Vector      rest = Vector::Zero(n);
     Vector            q = rest, v = rest, e = rest;
     q[0] = 1e-15, v[0] = 1e-12, e[0] = 1e-16;
@@ -239,7 +239,7 @@ TEST(ErrorScale, MotionsAreMeasuredByThoseThatLoadsToComeWouldBring)
 TEST(ErrorScale, TellsOfMotionsThatAreNotFinite)
 {
   const ModalSystem system(Matrix::Identity(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2));
-  ErrorScale        scale(system, system.spectrum(), 1e-6);
+  ErrorScale        scale(system, system.linear().spectrum(), 1e-6);
   const Vector      rest = Vector::Zero(2), wild = Eigen::Vector2d(0., std::nan(""));
   scale.begin(motion(rest, rest));
   EXPECT_FALSE(scale.consider(1., 1., motion(rest, rest), motion(rest, wild), none));
@@ -249,7 +249,7 @@ TEST(ErrorScale, TellsOfMotionsThatAreNotFinite)
 TEST(ErrorScale, NamesTheCoordinateOrTheForceOfTheLargestError)
 {
   ModalSystem  system = duffing(1., 1.);
-  ErrorScale   scale(system, system.spectrum(), 1e-6);
+  ErrorScale   scale(system, system.linear().spectrum(), 1e-6);
   const Vector rest = Vector::Zero(1), one = Vector::Ones(1);
   scale.begin({rest, rest, rest, rest});
   ASSERT_TRUE(scale.consider(0.1, 0.1, {rest, rest, rest, rest}, {one, one, one, one}, rest));

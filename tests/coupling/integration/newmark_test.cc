@@ -103,7 +103,7 @@ TEST(Newmark, CondensedStepSolvesTheWholeEquationOfTheStep)
     const auto force = [&](const Instant &at) -> Vector
     {
       Vector f(2);
-      system.excitation().at(at.t, f);
+      system.linear().excitation().at(at.t, f);
       double       p, du, dv;
       const Vector w = Matrix(system.W);
       stiffening(w.dot(at.q), w.dot(at.v), p, du, dv);
@@ -177,8 +177,8 @@ class Sticking : public DrivenPair
 public:
   Sticking() { W = Matrix(pair(1., -1.)).sparseView(); }
   const std::vector<HeldMeasure> &held() const override { return sticking; }
-  void                            local_force(const LocalState &, Vector &) const override {}
-  void local_tangent(const LocalState &, double, double, double, Vector &, Matrix &dp) const override { dp.setZero(); }
+  void                            force(const LocalState &, Vector &) const override {}
+  void tangent(const LocalState &, double, double, double, Vector &, Matrix &dp) const override { dp.setZero(); }
   std::vector<HeldMeasure> sticking{{0, 0.25}};
 };
 

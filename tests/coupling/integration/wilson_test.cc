@@ -61,8 +61,8 @@ TEST(Wilson, FulfilsTheEquationOfMotionAtTPlusThetaH)
     double       p, du, dv;
     Vector       f0(1), f1(1);
     system.law(q, v, p, du, dv);
-    system.excitation().at(before.t, f0);
-    system.excitation().at(now.t, f1);
+    system.linear().excitation().at(before.t, f0);
+    system.linear().excitation().at(now.t, f1);
     EXPECT_NEAR(2. * a_theta + 0.5 * v + 30. * q, f0[0] + theta * (f1[0] - f0[0]) + p, 1e-10);
     system.law(now.q[0], now.v[0], p, du, dv);
     EXPECT_DOUBLE_EQ(now.local.p[0], p);
@@ -79,8 +79,8 @@ public:
     loads().add_harmonic(0, 5., 40., 0.);
   }
   const std::vector<HeldMeasure> &held() const override { return sticking; }
-  void                            local_force(const LocalState &, Vector &) const override {}
-  void local_tangent(const LocalState &, double, double, double, Vector &, Matrix &dp) const override { dp.setZero(); }
+  void                            force(const LocalState &, Vector &) const override {}
+  void tangent(const LocalState &, double, double, double, Vector &, Matrix &dp) const override { dp.setZero(); }
   std::vector<HeldMeasure> sticking{{0, 0.25}};
 
 private:

@@ -4,8 +4,8 @@
 #include "coupling/integration/method.h"
 #include "mechanism/elements/dynamic_motor.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/reference_table.h"
 #include "tests/support/jointed_machines.h"
+#include "tests/support/reference_table.h"
 
 #include <gtest/gtest.h>
 
@@ -171,7 +171,7 @@ TEST(ManyJoints, MeasuresThatStickAreHeld)
     const Vector v       = slider_crank_velocity(p, 10.);
     const auto   dense   = motion_of(machine, v, method(kind, 1e-3, JointSolver::condensed), 1000, 50);
     const auto   sparse  = motion_of(machine, v, method(kind, 1e-3, JointSolver::sparse), 1000, 50);
-    ASSERT_EQ(machine.held().size(), 1u) << "the crank should have come to rest";
+    ASSERT_EQ(machine.forces().held().size(), 1u) << "the crank should have come to rest";
     ASSERT_EQ(dense.instants.size(), sparse.instants.size());
     for (std::size_t i = 0; i < dense.instants.size(); ++i)
     {
@@ -249,7 +249,7 @@ TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
 TEST(ManyJoints, HaveNoFrequenciesOfTheirOwn)
 {
   const Machine machine = n_four_bar(101); // more coordinates than dense modes are found of
-  const auto    lines   = machine.spectrum();
+  const auto    lines   = machine.linear().spectrum();
   ASSERT_EQ(int(lines.size()), machine.size());
   for (const auto &line : lines)
     EXPECT_EQ(line.omega, 0.);

@@ -125,7 +125,7 @@ double measured_growth(Machine &machine, const MethodOptions &options, Random &r
   for (double &x : v)
     x = random.uniform(-1., 1.) / options.step;
   const auto integrator = make_integrator(machine, options);
-  if (machine.n_constraints() > 0) // the gear closes
+  if (machine.joints().n_rows() > 0) // the gear closes
   {
     LocalState local;
     local.resize(machine);

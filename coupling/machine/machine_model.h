@@ -1,0 +1,160 @@
+#pragma once
+
+#include "coupling/machine/marker.h"
+#include "mechanism/force_element.h"
+#include "mechanism/measures/combined_measure.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A scalar the user asks for: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the time +
+/// offset).
+struct Signal
+{
+  std::string name; ///< the user's, e.g. "F_P"
+  std::string unit; ///< "N"
+  Measure     on_q, on_v;
+  int         element  = -1;
+  int         quantity = -1;
+  double      scale    = 1.;
+  double      offset   = 0.;
+  int         load     = -1; ///< external load
+  std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
+  int         measure = -1;  ///< of add_measure(), whose value (quantity 0), rate (1) or acceleration (2) it is
+  double      on_t    = 0.;  ///< weight of the time
+  Measure     on_a{};
+
+  bool reads_acceleration() const { return !on_a.empty() || (measure >= 0 && quantity == 2); }
+};
+
+enum class BodyKind
+{
+  rotor,  ///< one angle [rad] about `axis`
+  slider, ///< one displacement [m] along `axis`
+  point,  ///< three displacements [m]
+  planar, ///< two displacements [m] across `axis` and the angle [rad] about it
+  rigid   ///< three displacements [m] and those of the three directors [1]: turns freely in space
+};
+
+/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point,
+/// planar or rigid body as such a box too, else as a sphere, a plate through its `points`, bars to them.  Its
+/// coordinates are zero in the position the scene describes.
+struct Body
+{
+  std::string name;
+  BodyKind    kind       = BodyKind::rotor;
+  int         coordinate = -1; ///< the first one
+  Vector3     axis{};
+  Vector3     position{}; ///< [m] at zero displacement
+  double      radius = 0.;
+  Vector3     size{};
+  Marker      marker;
+  Vector3     centre{};     ///< [m] about which it turns: that of a rotor, the centre of mass of the others
+  Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
+
+  std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
+};
+
+/// Two unit vectors across the unit vector n: global axes if n is one, in their order.
+std::pair<Vector3, Vector3> plane_across(const Vector3 &n);
+
+/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
+/// @param normal  unit vector
+std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
+
+/// A point on a body, the frame or the ground, and the measures its motion depends on.
+struct PlacedPoint
+{
+  mechanism::Placement placement;
+  std::vector<Measure> measures;
+};
+
+/// Bar drawn between the pin of a rotor and a slider.
+struct DrawnRod
+{
+  std::string name, crank, slider;
+  double      crank_radius = 0., length = 0.;
+};
+
+/// Bar drawn between two places whose distance matters: a rod, a rope, a cylinder, a spring.
+struct DrawnBar
+{
+  std::string name;
+  PlacedPoint from, to;
+};
+
+/// Pin drawn where two bodies turn against each other.
+struct DrawnPin
+{
+  PlacedPoint at;
+  Vector3     axis{}; ///< unit vector
+};
+
+/// amplitude sin(omega t + phase), omega > 0 [rad/s].
+struct Oscillation
+{
+  double omega, amplitude, phase;
+};
+
+/// A scalar of the motion of two points: signals "value", "rate" and "acceleration".
+struct NamedMeasure
+{
+  std::string                name, unit; ///< of the value: "m", "rad"
+  mechanism::CombinedMeasure measure;
+  std::vector<Measure>       measures;
+
+  mechanism::RelativeMeasure::Value evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                                             Eigen::VectorXd *gradient = nullptr) const; ///< gradient ds/dq [n]
+  /// s'' = ds/dq . q'' + d(ds/dq)/dt . q'
+  double acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const;
+};
+
+/// What is told to which element or joint.
+struct SwitchOrder
+{
+  std::string              element;
+  mechanism::SwitchCommand order;
+};
+
+enum class SwitchCrossing
+{
+  rising,
+  falling,
+  either ///< from the side on which the signal is when it begins to watch
+};
+
+/// When a signal crosses a level, elements are given orders: once, or every time.
+struct Switch
+{
+  std::string              name, signal; ///< path of the signal; "t": the time
+  double                   level    = 0.;
+  SwitchCrossing           crossing = SwitchCrossing::rising;
+  std::vector<SwitchOrder> orders;
+  double                   delay      = 0.; ///< [s] from the crossing to the orders
+  std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
+  bool                     repeat     = false;
+  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back (either: gone away)
+};
+
+/// What the measures of an element are.
+enum class MeasureKind
+{
+  displacement, ///< or several of all kinds, which the element itself tells apart
+  angle         ///< of an element that could act on a displacement, too: its forces are torques
+};
+
+struct ElementPlacement
+{
+  std::string                              name;
+  std::shared_ptr<mechanism::ForceElement> element;
+  std::vector<Measure>                     measures;   ///< one per measure of the element
+  int                                      joint = -1; ///< of friction in an ideal joint: which element that is
+  MeasureKind                              kind  = MeasureKind::displacement;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "coupling/integration/events/event_detection.h"
+#include "coupling/integration/method_options.h"
+#include "coupling/integration/system/time_integrator.h"
+#include "coupling/simulation/checks/stability_guard.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Where a signal is largest or smallest.
+struct SignalExtreme
+{
+  int  signal  = -1; ///< number
+  bool largest = true;
+};
+
+/// States of a run that are kept for what is computed from them afterwards, stresses for instance.
+struct StateRequest
+{
+  double                     step = 0.; ///< [s] of a grid from the begin of the run; 0: none
+  std::vector<double>        at;        ///< [s] instants, ascending
+  std::vector<SignalExtreme> extremes;
+
+  bool empty() const { return !(step > 0.) && at.empty() && extremes.empty(); }
+};
+
+struct KeptState
+{
+  double          t = 0.;
+  Eigen::VectorXd q; ///< empty: the run did not come so far
+};
+
+struct KeptStates
+{
+  std::vector<KeptState> grid, at, extremes; ///< the last two as in the request
+};
+
+struct RunOptions
+{
+  MethodOptions method;
+  double        begin = 0., end = 0.;   ///< [s]
+  double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
+  double        picture_step   = 0.;    ///< [s] between saved states for pictures; 0: none
+  StateRequest  states         = {};    ///< kept besides
+  bool          events         = true;  ///< located and restarted at; false: gone over, and told afterwards
+  bool          force_unstable = false; ///< runs although the method is unstable with this step
+  bool          energy         = true;
+  bool          allow_large    = false; ///< histories and pictures above 1 GB
+};
+
+/// Time between rows [s]: as asked for, or the fixed step, or with a controlled one a two thousandth of the run.
+double output_step(const RunOptions &options);
+
+struct SignalSummary
+{
+  std::string name, unit;
+  double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
+};
+
+/// What the integration cost.
+struct WorkCounts : IntegrationWork
+{
+  long chatter = 0; ///< steps in which events were so many that they were gone over
+};
+
+struct EnergySummary
+{
+  double input = 0., stored = 0., dissipated = 0., residual = 0.; ///< [J]
+  double exchanged = 0.; ///< [J] that the residual is measured against, see EnergyGuard
+};
+
+struct RunResult
+{
+  std::vector<SignalSummary> signals;
+  std::string                method;   ///< name of the method, for people
+  std::vector<ModeAccuracy>  accuracy; ///< what it makes of each mode; empty with a controlled step
+  /// Rows of history.csv: t, every signal, then energy input, stored, dissipated.
+  std::vector<std::string>     columns, units;
+  std::vector<double>          rows; ///< row major, columns.size() wide
+  std::vector<Event>           events;
+  WorkCounts                   work;
+  EnergySummary                energy;
+  std::vector<double>          picture_times;
+  std::vector<Eigen::VectorXd> picture_states; ///< q
+  KeptStates                   states;         ///< those asked for
+  std::vector<std::string>     warnings;
+  double                       wall_s = 0.;
+  std::string                  failure; ///< not empty: why it stopped early
+  bool                         interrupted = false;
+};
+
+} // namespace gestell::coupling
