@@ -28,7 +28,7 @@ struct SurfaceReport
 struct MeshReport
 {
   int                        n_points = 0, n_cells = 0, n_coordinates = 0;
-  std::string                cells;                  ///< "tetrahedra" or "hexahedra"
+  std::string                cells;                  ///< "tetrahedra", or "cells (12 tetrahedra, 8 prisms)"
   double                     size   = 0.;            ///< of the elements [m]; 0 for a mesh file
   double                     volume = 0., mass = 0.; ///< [m^3], [kg]
   double                     worst_quality = 0., mean_quality = 0.;

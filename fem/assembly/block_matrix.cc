@@ -20,23 +20,44 @@ void check(PetscErrorCode code)
     throw std::runtime_error("BlockMatrix: PETSc reports error " + std::to_string(code) + "; memory may be short.");
 }
 
+/// Elements of all lists, one after the other.
+struct Elements
+{
+  std::vector<const int *> nodes;
+  std::vector<int>         n_nodes;
+
+  explicit Elements(const std::vector<NodeLists> &lists)
+  {
+    for (const NodeLists &list : lists)
+      for (std::size_t i = 0; i < list.n_cells; ++i)
+      {
+        nodes.push_back(list.nodes + i * list.n_nodes);
+        n_nodes.push_back(list.n_nodes);
+      }
+  }
+};
+
 /// Number of different partners of each node, itself included.
-std::vector<int> partners(int n_nodes, const int *elements, std::size_t n_elements, std::size_t n)
+std::vector<int> partners(int n_nodes, const Elements &elements)
 {
   std::vector<int> first(n_nodes + 1, 0); // elements at a node, as compressed lists
-  for (std::size_t i = 0; i < n_elements * n; ++i)
-    ++first[elements[i] + 1];
+  const auto       for_each = [&](const auto &visit)
+  {
+    for (std::size_t element = 0; element < elements.nodes.size(); ++element)
+      for (int k = 0; k < elements.n_nodes[element]; ++k)
+        visit(element, elements.nodes[element][k]);
+  };
+  for_each([&](std::size_t, int node) { ++first[node + 1]; });
   for (int i = 0; i < n_nodes; ++i)
     first[i + 1] += first[i];
-  std::vector<int> at(n_elements * n), next(first.begin(), first.end() - 1);
-  for (std::size_t i = 0; i < n_elements * n; ++i)
-    at[next[elements[i]]++] = static_cast<int>(i / n);
+  std::vector<int> at(first.back()), next(first.begin(), first.end() - 1);
+  for_each([&](std::size_t element, int node) { at[next[node]++] = static_cast<int>(element); });
 
   std::vector<int> count(n_nodes, 0), seen(n_nodes, -1);
   for (int node = 0; node < n_nodes; ++node)
-    for (int k = first[node]; k < first[node + 1]; ++k)
-      for (std::size_t j = 0; j < n; ++j)
-        if (const int other = elements[at[k] * n + j]; seen[other] != node)
+    for (int i = first[node]; i < first[node + 1]; ++i)
+      for (int k = 0; k < elements.n_nodes[at[i]]; ++k)
+        if (const int other = elements.nodes[at[i]][k]; seen[other] != node)
         {
           seen[other] = node;
           ++count[node];
@@ -46,11 +67,11 @@ std::vector<int> partners(int n_nodes, const int *elements, std::size_t n_elemen
 
 } // namespace
 
-BlockMatrix::BlockMatrix(int block_size, int n_nodes, const int *elements, std::size_t n_elements, std::size_t n)
+BlockMatrix::BlockMatrix(int block_size, int n_nodes, const std::vector<NodeLists> &elements)
     : block_size_(block_size), n_nodes_(n_nodes)
 {
   petsc_session();
-  const std::vector<int> count = partners(n_nodes, elements, n_elements, n);
+  const std::vector<int> count = partners(n_nodes, Elements(elements));
   const int              size  = block_size * n_nodes;
   check(MatCreateSeqBAIJ(PETSC_COMM_SELF, block_size, size, size, 0, count.data(), &matrix_));
   check(MatSetOption(matrix_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fem/assembly/quadratic_mesh.h"
+
 #include <petscmat.h>
 
 #include <array>
@@ -17,11 +19,7 @@ class BlockMatrix
 {
 public:
   /// Room for all pairs of nodes that share an element.
-  template <std::size_t n>
-  BlockMatrix(int block_size, int n_nodes, const std::vector<std::array<int, n>> &elements)
-      : BlockMatrix(block_size, n_nodes, elements.empty() ? nullptr : elements[0].data(), elements.size(), n)
-  {
-  }
+  BlockMatrix(int block_size, int n_nodes, const std::vector<NodeLists> &elements);
   ~BlockMatrix();
   BlockMatrix(BlockMatrix &&other) noexcept;
   BlockMatrix(const BlockMatrix &)            = delete;
@@ -51,8 +49,6 @@ public:
   Rows rows() const;
 
 private:
-  BlockMatrix(int block_size, int n_nodes, const int *elements, std::size_t n_elements, std::size_t n);
-
   int block_size_, n_nodes_;
   Mat matrix_ = nullptr;
 };

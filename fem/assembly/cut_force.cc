@@ -47,11 +47,11 @@ std::vector<double> heights(const Plane &plane, const QuadraticMesh &mesh)
   result.reserve(mesh.n_cells());
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    Eigen::Vector3d         centroid = Eigen::Vector3d::Zero();
-    const std::vector<int> &corners  = reference_cell(mesh).corners;
-    for (const int k : corners)
+    Eigen::Vector3d centroid  = Eigen::Vector3d::Zero();
+    const int       n_corners = reference_cell(mesh.kind(cell)).n_corners;
+    for (int k = 0; k < n_corners; ++k)
       centroid += Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[k]].data());
-    result.push_back(plane.height(centroid / static_cast<double>(corners.size())));
+    result.push_back(plane.height(centroid / static_cast<double>(n_corners)));
   }
   return result;
 }
@@ -62,7 +62,7 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
   std::vector<char> below(mesh.n_nodes(), 0);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
     if (height[cell] <= 0.)
-      for (int a = 0; a < mesh.nodes_per_cell(); ++a)
+      for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
         below[mesh.nodes(cell)[a]] = 1;
   return below;
 }
@@ -102,14 +102,10 @@ double share_above(std::array<double, 4> d)
 double share_above(const Plane &plane, const QuadraticMesh &mesh, int cell)
 {
   std::vector<Eigen::Vector3d> x;
-  for (const int k : reference_cell(mesh).corners)
+  for (const int k : reference_cell(mesh.kind(cell)).node_of_corner)
     x.emplace_back(Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[k]].data()));
-  using Corners                                      = std::array<int, 4>;
-  static const std::vector<Corners> whole            = {{0, 1, 2, 3}},
-                                    about_a_diagonal = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                                                        {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
   double volume = 0., above = 0.;
-  for (const auto &[a, b, c, d] : x.size() == 4 ? whole : about_a_diagonal)
+  for (const auto &[a, b, c, d] : cell_shape(mesh.kind(cell)).pieces)
   {
     const double part = std::abs((x[b] - x[a]).cross(x[c] - x[a]).dot(x[d] - x[a]));
     volume += part;
@@ -130,10 +126,10 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
   bool            divides = false;
   double          mass    = 0.; // above the plane, less that of the nodes whose loads the row contains
   Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-  const int       n       = mesh.nodes_per_cell();
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
     const int   *nodes      = mesh.nodes(cell);
+    const int    n          = mesh.n_nodes_of(cell);
     const double share      = share_above(plane, mesh, cell);
     const bool   stands_out = height[cell] > 0.; // of the cells below
     const bool   touches    = stands_out && std::any_of(nodes, nodes + n, [&](int node) { return below[node]; });

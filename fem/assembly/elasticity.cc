@@ -1,11 +1,12 @@
 #include "fem/assembly/elasticity.h"
 
 #include "fem/assembly/reference_cell.h"
-#include "fem/mesh/hexahedron.h"
+#include "fem/assembly/reference_integrals.h"
 
 #include <Eigen/LU>
 
 #include <cmath>
+#include <type_traits>
 
 namespace gestell::fem
 {
@@ -48,19 +49,20 @@ CellStiffness tetrahedron_stiffness(const QuadraticMesh &mesh, int cell, const M
 }
 
 /// By quadrature, for cells of n nodes whose geometry is interpolated as their displacements are.
-template <int n, typename Points>
-CellStiffness isoparametric_stiffness(const Eigen::Matrix<double, 3, n> &X, const Points &points,
+template <int n>
+CellStiffness isoparametric_stiffness(const Eigen::Matrix<double, 3, n> &X, const ReferenceCell::Points &points,
                                       const Material &material)
 {
   const double lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
   const double mu     = material.E / (2. * (1. + material.nu));
 
   CellStiffness C = CellStiffness::Zero(3 * n, 3 * n);
-  for (const auto &point : points)
+  for (int k = 0; k < points.size(); ++k)
   {
-    const Eigen::Matrix3d             J      = X * point.dN;
-    const Eigen::Matrix<double, n, 3> G      = point.dN * J.inverse();
-    const double                      volume = point.weight * J.determinant();
+    const Eigen::Map<const Eigen::Matrix<double, n, 3>> dN(points.dN.data() + 3 * n * k);
+    const Eigen::Matrix3d                               J      = X * dN;
+    const Eigen::Matrix<double, n, 3>                   G      = dN * J.inverse();
+    const double                                        volume = points.weight[k] * J.determinant();
     for (int a = 0; a < n; ++a)
       for (int b = a; b < n; ++b)
       {
@@ -77,55 +79,68 @@ CellStiffness isoparametric_stiffness(const Eigen::Matrix<double, 3, n> &X, cons
   return C;
 }
 
-template <int n, typename Points>
-CellMass isoparametric_mass(const Eigen::Matrix<double, 3, n> &X, const Points &points, const Material &material)
+template <int n>
+CellMass isoparametric_mass(const Eigen::Matrix<double, 3, n> &X, const ReferenceCell::Points &points,
+                            const Material &material)
 {
   CellMass M = CellMass::Zero(n, n);
-  for (const auto &point : points)
+  for (int k = 0; k < points.size(); ++k)
   {
-    const Eigen::Matrix3d J = X * point.dN;
-    M += material.rho * point.weight * J.determinant() * point.N * point.N.transpose();
+    const Eigen::Map<const Eigen::Matrix<double, n, 3>> dN(points.dN.data() + 3 * n * k);
+    const Eigen::Map<const Eigen::Matrix<double, n, 1>> N(points.N.data() + n * k);
+    M += material.rho * points.weight[k] * (X * dN).determinant() * N * N.transpose();
   }
   return 0.5 * (M + M.transpose());
-}
-
-template <std::size_t n, typename Matrix>
-BlockMatrix assemble(int block_size, const QuadraticMesh &mesh, const std::vector<std::array<int, n>> &cells,
-                     const Matrix &matrix)
-{
-  BlockMatrix result(block_size, mesh.n_nodes(), cells);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
-    result.add(cells[cell], matrix(static_cast<int>(cell)).data());
-  result.finish();
-  return result;
 }
 
 template <typename Matrix>
 BlockMatrix assemble(int block_size, const QuadraticMesh &mesh, const Matrix &matrix)
 {
-  return mesh.hexahedra.empty() ? assemble(block_size, mesh, mesh.cells, matrix)
-                                : assemble(block_size, mesh, mesh.hexahedra, matrix);
+  BlockMatrix result(block_size, mesh.n_nodes(), mesh.lists());
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    result.add(mesh.nodes(cell), mesh.n_nodes_of(cell), matrix(cell).data());
+  result.finish();
+  return result;
+}
+
+/// Calls function(n) with the number of nodes as a constant.
+template <typename Function>
+auto with_nodes_of(CellKind kind, const Function &function)
+{
+  if (kind == CellKind::hexahedron)
+    return function(std::integral_constant<int, 27>());
+  if (kind == CellKind::prism)
+    return function(std::integral_constant<int, 18>());
+  return function(std::integral_constant<int, 10>());
+}
+
+bool is_straight_tetrahedron(const QuadraticMesh &mesh, int cell)
+{
+  return mesh.kind(cell) == CellKind::tetrahedron && !mesh.is_curved(cell);
 }
 
 } // namespace
 
 CellStiffness cell_stiffness(const QuadraticMesh &mesh, int cell, const Material &material)
 {
-  if (!mesh.hexahedra.empty())
-    return isoparametric_stiffness<hexahedron::n_nodes>(positions(mesh, cell), hexahedron::quadrature(3), material);
-  if (mesh.is_curved(cell))
-    return isoparametric_stiffness<10>(positions(mesh, cell), reference_integrals().tetrahedron, material);
-  return tetrahedron_stiffness(mesh, cell, material);
+  if (is_straight_tetrahedron(mesh, cell))
+    return tetrahedron_stiffness(mesh, cell, material);
+  const CellKind kind = mesh.kind(cell);
+  return with_nodes_of(kind,
+                       [&](auto n) {
+                         return isoparametric_stiffness<decltype(n)::value>(positions(mesh, cell),
+                                                                            reference_cell(kind).rule, material);
+                       });
 }
 
 CellMass cell_mass(const QuadraticMesh &mesh, int cell, const Material &material)
 {
-  if (!mesh.hexahedra.empty())
-    return isoparametric_mass<hexahedron::n_nodes>(positions(mesh, cell), hexahedron::quadrature(3), material);
-  if (mesh.is_curved(cell))
-    return isoparametric_mass<10>(positions(mesh, cell), reference_integrals().tetrahedron, material);
-  const double determinant = std::abs(jacobian(mesh, mesh.cells[cell]).determinant());
-  return material.rho * determinant * reference_integrals().mass;
+  if (is_straight_tetrahedron(mesh, cell))
+    return material.rho * std::abs(jacobian(mesh, mesh.cells[cell]).determinant()) * reference_integrals().mass;
+  const CellKind kind = mesh.kind(cell);
+  return with_nodes_of(
+      kind, [&](auto n)
+      { return isoparametric_mass<decltype(n)::value>(positions(mesh, cell), reference_cell(kind).rule, material); });
 }
 
 BlockMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials)

@@ -1,13 +1,19 @@
 #include "fem/assembly/quadratic_mesh.h"
 
+#include "fem/assembly/reference_cell.h"
+#include "fem/mesh/cell_measures.h"
+#include "fem/mesh/mesh_quality.h"
 #include "fem/parallel/petsc_session.h"
+#include "fem/values/number_text.h"
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_wedge_p.h>
 #include <deal.II/grid/tria.h>
+#include <deal.II/hp/fe_collection.h>
 
-#include <cstdint>
-#include <sstream>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -18,36 +24,22 @@ namespace gestell::fem
 namespace
 {
 
-using EdgeNodes = std::unordered_map<std::uint64_t, int>; // node in the middle of an edge between two points
-
-std::uint64_t edge_key(unsigned int a, unsigned int b)
-{
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
-}
-
-double signed_volume(const Mesh &mesh, const std::array<int, 4> &cell)
-{
-  double e[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int d = 0; d < 3; ++d)
-      e[k][d] = mesh.points[cell[k + 1]][d] - mesh.points[cell[0]][d];
-  return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-         6.;
-}
+using Cell = dealii::DoFHandler<3>::active_cell_iterator;
 
 void require_sound(const Mesh &mesh)
 {
-  if (mesh.cells.empty())
+  if (mesh.n_cells() == 0)
     throw std::invalid_argument("quadratic_mesh: the mesh has no cells; a solid volume is needed, not surfaces.");
   for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-    if (const double volume = signed_volume(mesh, mesh.cells[i]); !(volume > 0.))
-    {
-      std::ostringstream message;
-      message << "quadratic_mesh: tetrahedron " << i << " has the volume " << volume
-              << " m^3, but a positive one is needed; mesh again with another size.";
-      throw std::invalid_argument(message.str());
-    }
+    if (const double volume = six_volumes(mesh, mesh.cells[i]) / 6.; !(volume > 0.))
+      throw std::invalid_argument("quadratic_mesh: tetrahedron " + std::to_string(i) + " has the volume " +
+                                  text(volume) + " m^3, but a positive one is needed; mesh again with another size.");
+  for (int i = static_cast<int>(mesh.cells.size()); i < mesh.n_cells(); ++i)
+    if (const double q = corner_quality(mesh, i); !(q > 0.))
+      throw std::invalid_argument(
+          "quadratic_mesh: " + std::string(mesh.kind(i) == CellKind::prism ? "prism" : "hexahedron") + ", cell " +
+          std::to_string(i) + ", folds: the determinant at a corner is " + text(q) +
+          " times the edges there, but a positive one is needed; mesh again, or order its corners as gmsh does.");
 }
 
 dealii::Triangulation<3> triangulation(const Mesh &mesh)
@@ -57,43 +49,204 @@ dealii::Triangulation<3> triangulation(const Mesh &mesh)
   for (const Point3 &p : mesh.points)
     points.emplace_back(p[0], p[1], p[2]);
 
-  std::vector<dealii::CellData<3>> cells(mesh.cells.size(), dealii::CellData<3>(4));
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    for (int k = 0; k < 4; ++k)
-      cells[i].vertices[k] = mesh.cells[i][k];
-
+  std::vector<dealii::CellData<3>> cells;
+  cells.reserve(mesh.n_cells());
+  for (int i = 0; i < mesh.n_cells(); ++i)
+  {
+    const std::vector<int> &node_of_corner = reference_cell(mesh.kind(i)).node_of_corner;
+    cells.emplace_back(static_cast<unsigned int>(node_of_corner.size()));
+    for (std::size_t k = 0; k < node_of_corner.size(); ++k)
+      cells.back().vertices[node_of_corner[k]] = mesh.corners(i)[k];
+  }
   dealii::Triangulation<3> result;
   result.create_triangulation(points, cells, dealii::SubCellData());
   return result;
 }
 
-/// The two corners an edge node of the reference tetrahedron lies between, read off its support points.
-std::array<std::array<int, 2>, 6> edge_corners(const dealii::FiniteElement<3> &element)
+/// Prisms come first: FE_WedgeP of 9.4 knows which of its functions are those of its neighbours, these do not.
+void distribute(dealii::DoFHandler<3> &nodes, const Mesh &mesh)
 {
-  const auto                       &support = element.get_unit_support_points();
-  std::array<std::array<int, 2>, 6> result{};
-  for (int e = 0; e < 6; ++e)
-    for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b)
-        if (support[4 + e].distance(0.5 * (support[a] + support[b])) < 1e-12)
-          result[e] = {a, b};
-  return result;
+  const dealii::FE_WedgeP<3>   prism(2);
+  const dealii::FE_SimplexP<3> tetrahedron(2);
+  const dealii::FE_Q<3>        hexahedron(2);
+  if (mesh.only_tetrahedra())
+    return nodes.distribute_dofs(tetrahedron);
+  if (mesh.cells.empty() && mesh.prisms.empty())
+    return nodes.distribute_dofs(hexahedron);
+  if (mesh.cells.empty() && mesh.hexahedra.empty())
+    return nodes.distribute_dofs(prism);
+  for (const auto &cell : nodes.active_cell_iterators())
+  {
+    const CellKind kind = mesh.kind(cell->index());
+    cell->set_active_fe_index(kind == CellKind::prism ? 0 : kind == CellKind::tetrahedron ? 1 : 2);
+  }
+  nodes.distribute_dofs(dealii::hp::FECollection<3>(prism, tetrahedron, hexahedron));
 }
 
-std::array<int, 6> triangle_nodes(const std::array<int, 3> &corners, const std::vector<int> &node_of,
-                                  const EdgeNodes &edge_nodes)
+int *nodes_of(QuadraticMesh &mesh, int cell)
 {
-  std::array<int, 6> nodes{};
-  for (int k = 0; k < 3; ++k)
+  return const_cast<int *>(mesh.nodes(cell));
+}
+
+/// Between a prism and a hexahedron get_dof_indices() of 9.4 names the right node of their face for the second alone.
+void take_from_hexahedra(const Cell &cell, QuadraticMesh &mesh)
+{
+  constexpr int first_quad_face = 2, of_prism = 15, of_hexahedron = 20; // nodes amid faces
+  for (int face = first_quad_face; face < 5; ++face)
+    if (!cell->at_boundary(face) && mesh.kind(cell->neighbor(face)->index()) == CellKind::hexahedron)
+      nodes_of(mesh, cell->index())[of_prism + face - first_quad_face] =
+          mesh.nodes(cell->neighbor(face)->index())[of_hexahedron + cell->neighbor_of_neighbor(face)];
+}
+
+void read_numbers(const dealii::DoFHandler<3> &handler, const Mesh &mesh, QuadraticMesh &result)
+{
+  result.points.resize(handler.n_dofs());
+  result.cells.resize(mesh.cells.size());
+  result.hexahedra.resize(mesh.hexahedra.size());
+  result.prisms.resize(mesh.prisms.size());
+  std::vector<dealii::types::global_dof_index> numbers;
+  for (const auto &cell : handler.active_cell_iterators())
   {
-    const auto edge = edge_nodes.find(edge_key(corners[k], corners[(k + 1) % 3]));
-    if (edge == edge_nodes.end())
-      throw std::invalid_argument("quadratic_mesh: a triangle of the skin is no face of a tetrahedron; surface and "
-                                  "volume mesh must share their points.");
-    nodes[k]     = node_of[corners[k]];
-    nodes[3 + k] = edge->second;
+    numbers.resize(result.n_nodes_of(cell->index()));
+    cell->get_dof_indices(numbers);
+    std::copy(numbers.begin(), numbers.end(), nodes_of(result, cell->index()));
   }
-  return nodes;
+  if (!mesh.hexahedra.empty() && !mesh.prisms.empty())
+    for (const auto &cell : handler.active_cell_iterators())
+      if (mesh.kind(cell->index()) == CellKind::prism)
+        take_from_hexahedra(cell, result);
+}
+
+/// Nodes amid the corners around them.
+void place_nodes(const Mesh &mesh, QuadraticMesh &result)
+{
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    const ReferenceCell &reference = reference_cell(mesh.kind(cell));
+    const int           *nodes     = result.nodes(cell);
+    for (std::size_t k = 0; k < reference.node_of_corner.size(); ++k)
+    {
+      const int node                        = nodes[reference.node_of_corner[k]];
+      result.points[node]                   = mesh.points[mesh.corners(cell)[k]];
+      result.node_of[mesh.corners(cell)[k]] = node;
+    }
+    for (int a = reference.n_corners; a < reference.n_nodes; ++a)
+      for (int d = 0; d < 3; ++d)
+      {
+        double sum = 0.;
+        for (const int corner : reference.between[a])
+          sum += result.points[nodes[corner]][d];
+        result.points[nodes[a]][d] = sum / static_cast<double>(reference.between[a].size());
+      }
+  }
+}
+
+/// Moves the middles of curved edges of tetrahedra.
+void bend_edges(const Mesh &mesh, QuadraticMesh &result)
+{
+  const ReferenceCell &reference = reference_cell(CellKind::tetrahedron);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (int a = reference.n_corners; a < reference.n_nodes; ++a)
+    {
+      const auto [i, j] =
+          std::minmax(mesh.cells[cell][reference.between[a][0]], mesh.cells[cell][reference.between[a][1]]);
+      const auto middle = mesh.middles.find({i, j});
+      if (middle == mesh.middles.end())
+        continue;
+      result.points[result.cells[cell][a]] = middle->second;
+      result.curved.resize(mesh.cells.size(), 0);
+      result.curved[cell] = 1;
+    }
+}
+
+/// Nodes of the outer faces, found by the corners they stand amid: two of an edge, the diagonal's of a quadrilateral.
+class OuterNodes
+{
+public:
+  OuterNodes(const dealii::DoFHandler<3> &handler, const QuadraticMesh &mesh) : mesh_(mesh)
+  {
+    for (const auto &cell : handler.active_cell_iterators())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face))
+          add(cell->index(), reference_cell(mesh.kind(cell->index())).faces[face]);
+  }
+
+  std::array<int, 6> triangle(const std::array<int, 3> &corners) const
+  {
+    const auto [a, b, c] = at(corners);
+    return {a, b, c, amid(a, b), amid(b, c), amid(c, a)};
+  }
+  std::array<int, 9> quadrilateral(const std::array<int, 4> &corners) const
+  {
+    const auto [a, b, c, d] = at(corners);
+    const int centre        = amid(a, c);
+    if (centre != amid(b, d))
+      refuse();
+    return {a, b, d, c, amid(a, d), amid(b, c), amid(a, b), amid(d, c), centre};
+  }
+
+private:
+  static std::uint64_t key(int a, int b)
+  {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+  }
+  [[noreturn]] static void refuse()
+  {
+    throw std::invalid_argument(
+        "quadratic_mesh: an outer face is no face of a cell; surface and volume mesh must share "
+        "their points.");
+  }
+
+  /// @param corners of a face, local; of a quadrilateral in deal.II's order.
+  void add(int cell, const std::vector<int> &corners)
+  {
+    const ReferenceCell &reference = reference_cell(mesh_.kind(cell));
+    const int           *nodes     = mesh_.nodes(cell);
+    const auto           is_in     = [&](int k) { return std::count(corners.begin(), corners.end(), k) > 0; };
+    for (int a = reference.n_corners; a < reference.n_nodes; ++a)
+    {
+      const std::vector<int> &amid = reference.between[a];
+      if (!std::all_of(amid.begin(), amid.end(), is_in))
+        continue;
+      if (amid.size() == 2)
+        middles_.emplace(key(nodes[amid[0]], nodes[amid[1]]), nodes[a]);
+      else
+        for (const auto &[i, j] : {std::pair(0, 3), std::pair(1, 2)})
+          middles_.emplace(key(nodes[corners[i]], nodes[corners[j]]), nodes[a]);
+    }
+  }
+
+  template <std::size_t n>
+  std::array<int, n> at(std::array<int, n> points) const
+  {
+    for (int &point : points)
+      point = mesh_.node_of[point];
+    return points;
+  }
+  int amid(int a, int b) const
+  {
+    const auto found = middles_.find(key(a, b));
+    if (found == middles_.end())
+      refuse();
+    return found->second;
+  }
+
+  const QuadraticMesh                   &mesh_;
+  std::unordered_map<std::uint64_t, int> middles_;
+};
+
+void number_skin(const Mesh &mesh, const OuterNodes &outer, QuadraticMesh &result)
+{
+  result.skin.reserve(mesh.skin.size());
+  for (const auto &corners : mesh.skin_quads)
+  {
+    result.skin_quads.push_back(outer.quadrilateral(corners));
+    const auto &[a, b, d, c, ad, bc, ab, dc, centre] = result.skin_quads.back();
+    result.skin.push_back({a, b, c, ab, bc, centre});
+    result.skin.push_back({a, c, d, centre, dc, ad});
+  }
+  for (std::size_t k = 2 * mesh.skin_quads.size(); k < mesh.skin.size(); ++k)
+    result.skin.push_back(outer.triangle(mesh.skin[k]));
 }
 
 } // namespace
@@ -103,50 +256,17 @@ QuadraticMesh quadratic_mesh(const Mesh &mesh)
   require_sound(mesh);
   petsc_session(); // deal.II asks MPI for its rank
 
-  const dealii::Triangulation<3> cells_of_mesh = triangulation(mesh);
-  const dealii::FE_SimplexP<3>   element(2);
-  dealii::DoFHandler<3>          nodes(cells_of_mesh);
-  nodes.distribute_dofs(element);
-  const auto corners_of_edge = edge_corners(element);
+  const dealii::Triangulation<3> cells = triangulation(mesh);
+  dealii::DoFHandler<3>          handler(cells);
+  distribute(handler, mesh);
 
   QuadraticMesh result;
-  result.points.resize(nodes.n_dofs());
-  result.cells.resize(mesh.cells.size());
   result.node_of.assign(mesh.points.size(), -1);
-
-  EdgeNodes                                    edge_nodes;
-  std::vector<dealii::types::global_dof_index> numbers(10);
-  for (const auto &cell : nodes.active_cell_iterators())
-  {
-    cell->get_dof_indices(numbers);
-    std::copy(numbers.begin(), numbers.end(), result.cells[cell->index()].begin());
-    for (int k = 0; k < 4; ++k)
-    {
-      const int point           = cell->vertex_index(k);
-      result.points[numbers[k]] = mesh.points[point];
-      result.node_of[point]     = numbers[k];
-    }
-    for (int e = 0; e < 6; ++e)
-    {
-      const auto [a, b] = corners_of_edge[e];
-      edge_nodes.emplace(edge_key(cell->vertex_index(a), cell->vertex_index(b)), numbers[4 + e]);
-      for (int d = 0; d < 3; ++d)
-        result.points[numbers[4 + e]][d] = 0.5 * (cell->vertex(a)[d] + cell->vertex(b)[d]);
-      if (mesh.middles.empty())
-        continue;
-      const int  i = cell->vertex_index(a), j = cell->vertex_index(b);
-      const auto middle = mesh.middles.find({std::min(i, j), std::max(i, j)});
-      if (middle == mesh.middles.end())
-        continue;
-      result.points[numbers[4 + e]] = middle->second;
-      result.curved.resize(mesh.cells.size(), 0);
-      result.curved[cell->index()] = 1;
-    }
-  }
-
-  result.skin.reserve(mesh.skin.size());
-  for (const std::array<int, 3> &corners : mesh.skin)
-    result.skin.push_back(triangle_nodes(corners, result.node_of, edge_nodes));
+  read_numbers(handler, mesh, result);
+  place_nodes(mesh, result);
+  if (!mesh.middles.empty())
+    bend_edges(mesh, result);
+  number_skin(mesh, OuterNodes(handler, result), result);
   return result;
 }
 

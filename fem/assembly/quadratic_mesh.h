@@ -8,34 +8,71 @@
 namespace gestell::fem
 {
 
+/// Cells with the same number of nodes.
+struct NodeLists
+{
+  const int  *nodes; ///< cell after cell
+  std::size_t n_cells;
+  int         n_nodes; ///< of a cell
+
+  NodeLists(const int *nodes_of_cells, std::size_t count, int n) : nodes(nodes_of_cells), n_cells(count), n_nodes(n) {}
+  template <std::size_t n>
+  NodeLists(const std::vector<std::array<int, n>> &cells)
+      : nodes(cells.empty() ? nullptr : cells[0].data()), n_cells(cells.size()), n_nodes(int(n))
+  {
+  }
+};
+
 /**
- * Nodes of quadratic cells: the corners of a mesh and the middles of its edges, curved or straight; of hexahedra those
- * of faces and cells as well.
+ * Nodes of quadratic cells (10 of a tetrahedron, 27 of a hexahedron, 18 of a prism): corners of a mesh, middles of its
+ * edges, curved or straight, of its quadrilateral faces and of hexahedra.
  *
- * Displacement d of node i is number 3 i + d of the nodal vector u [3 n_nodes].  Within a cell or triangle the nodes
- * stand in the order of the reference elements: corners first, then edges.
+ * Displacement d of node i is number 3 i + d of the nodal vector u [3 n_nodes], as a DoFHandler of deal.II numbers it
+ * with an FESystem of three such elements.  Within a cell the nodes stand in the order of deal.II's elements.
  */
 struct QuadraticMesh
 {
   std::vector<Point3>              points;    ///< [m]
-  std::vector<std::array<int, 10>> cells;     ///< into points; same order as Mesh::cells
+  std::vector<std::array<int, 10>> cells;     ///< tetrahedra, into points; cells are counted as in Mesh
+  std::vector<std::array<int, 27>> hexahedra; ///< FE_Q(2)
+  std::vector<std::array<int, 18>> prisms;    ///< FE_WedgeP(2)
   std::vector<char>                curved;    ///< of each tetrahedron whether one of its edges is; empty if none is
-  std::vector<std::array<int, 27>> hexahedra; ///< in place of tetrahedra, in the order of hexahedron::corners
   std::vector<std::array<int, 6>>  skin; ///< corners a b c, then the middles of ab, bc, ca; same order as Mesh::skin
-  std::vector<std::array<int, 9>>  skin_quads; ///< of hexahedra, node i + 3 j; same order as Mesh::skin_quads
+  std::vector<std::array<int, 9>>  skin_quads; ///< FE_Q(2) of two dimensions; same order as Mesh::skin_quads
   std::vector<int>                 node_of;    ///< node at point i of the mesh, or -1 where no cell uses it
 
-  int        n_nodes() const { return static_cast<int>(points.size()); }
-  int        n_cells() const { return static_cast<int>(cells.size() + hexahedra.size()); }
-  int        nodes_per_cell() const { return hexahedra.empty() ? 10 : 27; }
-  bool       is_curved(int cell) const { return !curved.empty() && curved[cell] != 0; }
-  const int *nodes(int cell) const { return hexahedra.empty() ? cells[cell].data() : hexahedra[cell].data(); }
+  int  n_nodes() const { return static_cast<int>(points.size()); }
+  int  n_cells() const { return static_cast<int>(cells.size() + hexahedra.size() + prisms.size()); }
+  bool is_curved(int cell) const { return !curved.empty() && curved[cell] != 0; }
+
+  CellKind kind(int cell) const
+  {
+    const std::size_t i = static_cast<std::size_t>(cell);
+    return i < cells.size()                      ? CellKind::tetrahedron
+           : i < cells.size() + hexahedra.size() ? CellKind::hexahedron
+                                                 : CellKind::prism;
+  }
+  int n_nodes_of(int cell) const
+  {
+    const CellKind of = kind(cell);
+    return of == CellKind::tetrahedron ? 10 : of == CellKind::hexahedron ? 27 : 18;
+  }
+  const int *nodes(int cell) const
+  {
+    const std::size_t i = static_cast<std::size_t>(cell), j = i - cells.size();
+    return i < cells.size()       ? cells[i].data()
+           : j < hexahedra.size() ? hexahedra[j].data()
+                                  : prisms[j - hexahedra.size()].data();
+  }
+  std::vector<NodeLists> lists() const { return {cells, hexahedra, prisms}; }
 };
 
 /**
- * Numbers the nodes of tetrahedra by a DoFHandler of deal.II with FE_SimplexP<3>(2); see number_nodes() for both kinds.
+ * The nodes as deal.II's DoFHandler numbers them on the cells of a mesh: FE_SimplexP(2), FE_Q(2), FE_WedgeP(2), several
+ * of them as an hp::FECollection.
  *
- * @throws std::invalid_argument for a mesh without cells, a cell without volume or a skin triangle that is no face.
+ * @throws std::invalid_argument for a mesh without cells, a cell without volume or turned inside out at a corner, or an
+ *         outer face that is no face of a cell.
  */
 QuadraticMesh quadratic_mesh(const Mesh &mesh);
 

@@ -2,7 +2,6 @@
 
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/reference_cell.h"
-#include "fem/mesh/hexahedron.h"
 
 #include <Eigen/LU>
 
@@ -19,58 +18,104 @@ namespace
 
 using Local = CubicFunctions::Local;
 
-/// L_i of the corners as linear functions of xi.
-Eigen::Vector4d barycentric(int corner)
+using Line = Eigen::Vector4d; // a + b . xi
+
+/// L_k of the corners of a triangle or a tetrahedron.
+Line barycentric(int corner, int dim)
 {
-  Eigen::Vector4d line = Eigen::Vector4d::Zero();
+  Line line = Line::Zero();
   if (corner == 0)
-    line << 1., -1., -1., -1.;
+    line.head(dim + 1) << 1., Eigen::VectorXd::Constant(dim, -1.);
   else
     line[corner] = 1.;
   return line;
 }
 
-std::vector<Local> of_tetrahedron(const ReferenceCell &cell)
+/// The functions of one kind of cell.
+class Collector
 {
-  std::vector<Local> functions;
-  const auto         amid = [&](int a, int b)
+public:
+  explicit Collector(CellKind kind) : cell_(reference_cell(kind))
   {
-    for (int node = 4; node < cell.n_nodes; ++node)
-      if (const auto &of = cell.between[node]; std::minmax(a, b) == std::minmax(of[0], of[1]))
-        return node;
-    return -1;
-  };
-  for (int a = 0; a < 4; ++a)
-    for (int b = a + 1; b < 4; ++b)
+    if (kind == CellKind::hexahedron)
+      for (int d = 0; d < 3; ++d)
+        add_along(d);
+    else if (kind == CellKind::tetrahedron)
     {
-      const int middle = amid(a, b);
-      functions.push_back({middle, barycentric(a) - barycentric(b), {a, middle, b}, true, {middle}});
+      for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+          add_edge({a, b}, 3, 0.);
+      for (int out = 0; out < 4; ++out)
+        add_triangle({(out + 1) % 4, (out + 2) % 4, (out + 3) % 4}, 3, 0.);
     }
-  for (int out = 0; out < 4; ++out)
-  {
-    const int a = (out + 1) % 4, b = (out + 2) % 4, c = (out + 3) % 4;
-    functions.push_back({amid(a, b),
-                         barycentric(c),
-                         {amid(a, b), amid(b, c), amid(c, a)},
-                         false,
-                         {amid(a, b), amid(b, c), amid(c, a)}});
-  }
-  return functions;
-}
-
-std::vector<Local> of_hexahedron()
-{
-  std::vector<Local> functions;
-  for (int node = 0; node < hexahedron::n_nodes; ++node)
-    for (int d = 0, stride = 1; d < 3; ++d, stride *= 3)
-      if (node / stride % 3 == 1)
+    else
+    {
+      for (const double level : {0., 0.5, 1.})
       {
-        Eigen::Vector4d line = Eigen::Vector4d::Zero();
-        line[d + 1]          = 1.;
-        functions.push_back({node, line, {node - stride, node, node + stride}, true, {node}});
+        for (int a = 0; a < 3; ++a)
+          add_edge({a, (a + 1) % 3}, 2, level);
+        add_triangle({0, 1, 2}, 2, level);
       }
-  return functions;
-}
+      add_along(2);
+    }
+  }
+  std::vector<Local> functions;
+
+private:
+  int node_at(const Eigen::Vector3d &xi) const
+  {
+    Eigen::Index node = 0;
+    (cell_.nodes.xi.colwise() - xi).colwise().norm().minCoeff(&node);
+    return static_cast<int>(node);
+  }
+  /// Corner of the simplex, at a height of the prism.
+  static Eigen::Vector3d corner(int k, int dim, double level)
+  {
+    Eigen::Vector3d xi = Eigen::Vector3d::Zero();
+    if (k > 0)
+      xi[k - 1] = 1.;
+    if (dim == 2)
+      xi[2] = level;
+    return xi;
+  }
+  int amid(int a, int b, int dim, double level) const
+  {
+    return node_at(0.5 * (corner(a, dim, level) + corner(b, dim, level)));
+  }
+
+  /// (L_a - L_b) N_ab
+  void add_edge(const std::array<int, 2> &ends, int dim, double level)
+  {
+    const auto [a, b] = ends;
+    const int middle  = amid(a, b, dim, level);
+    functions.push_back({middle,
+                         barycentric(a, dim) - barycentric(b, dim),
+                         {node_at(corner(a, dim, level)), middle, node_at(corner(b, dim, level))},
+                         true,
+                         {middle}});
+  }
+  /// L_c N_ab
+  void add_triangle(const std::array<int, 3> &corners, int dim, double level)
+  {
+    const auto [a, b, c] = corners;
+    const int ab = amid(a, b, dim, level), bc = amid(b, c, dim, level), ca = amid(c, a, dim, level);
+    functions.push_back({ab, barycentric(c, dim), {ab, bc, ca}, false, {ab, bc, ca}});
+  }
+  /// (2 xi_d - 1) N_m of nodes m half way along xi_d
+  void add_along(int d)
+  {
+    Line line   = Line::Zero();
+    line[0]     = -1.;
+    line[d + 1] = 2.;
+    for (int node = 0; node < cell_.n_nodes; ++node)
+      if (const Eigen::Vector3d xi = cell_.nodes.xi.col(node); std::abs(xi[d] - 0.5) < 0.1)
+      {
+        const Eigen::Vector3d half = 0.5 * Eigen::Vector3d::Unit(d);
+        functions.push_back({node, line, {node_at(xi - half), node, node_at(xi + half)}, true, {node}});
+      }
+  }
+  const ReferenceCell &cell_;
+};
 
 /// Quadratics and cubics of the reference cell at a point of a rule.
 struct Point
@@ -80,17 +125,18 @@ struct Point
   Eigen::Matrix<double, -1, 3> dN; // [n x 3]
 };
 
-Point with_cubics(double weight, const Eigen::VectorXd &N, const Eigen::Matrix<double, -1, 3> &dN,
-                  const Eigen::Vector3d &xi, const std::vector<Local> &functions)
+Point with_cubics(const ReferenceCell::Points &points, int p, const std::vector<Local> &functions)
 {
-  const auto n = N.size(), m = Eigen::Index(functions.size());
-  Point      point{weight, Eigen::VectorXd(n + m), Eigen::Matrix<double, -1, 3>(n + m, 3)};
+  const auto                         n = points.N.rows(), m = Eigen::Index(functions.size());
+  const Eigen::VectorXd              N  = points.N.col(p);
+  const Eigen::Matrix<double, -1, 3> dN = points.dN.middleCols<3>(3 * p);
+  Point point{points.weight[p], Eigen::VectorXd(n + m), Eigen::Matrix<double, -1, 3>(n + m, 3)};
   point.N.head(n)     = N;
   point.dN.topRows(n) = dN;
   for (Eigen::Index k = 0; k < m; ++k)
   {
     const auto  &own    = functions[k];
-    const double l      = own.line[0] + own.line.tail<3>().dot(xi);
+    const double l      = own.line[0] + own.line.tail<3>().dot(points.xi.col(p));
     point.N[n + k]      = l * N[own.amid];
     point.dN.row(n + k) = l * dN.row(own.amid) + N[own.amid] * own.line.tail<3>().transpose();
   }
@@ -98,18 +144,12 @@ Point with_cubics(double weight, const Eigen::VectorXd &N, const Eigen::Matrix<d
 }
 
 /// Exact for the stiffness of straight cells; of masses, whose cubics carry next to nothing, nearly so.
-std::vector<Point> rule(const QuadraticMesh &mesh, const std::vector<Local> &functions)
+std::vector<Point> rule(CellKind kind, const std::vector<Local> &functions)
 {
-  std::vector<Point> points;
-  if (!mesh.hexahedra.empty())
-    for (const auto &point : hexahedron::quadrature(4))
-      points.push_back(with_cubics(point.weight, point.N, point.dN, point.xi, functions));
-  else
-    for (const auto &[weight, N, dN] : reference_integrals().tetrahedron)
-    {
-      const Eigen::Vector3d xi(0.25 * (dN(1, 0) + 1.), 0.25 * (dN(2, 1) + 1.), 0.25 * (dN(3, 2) + 1.)); // L_1, L_2, L_3
-      points.push_back(with_cubics(weight, N, dN, xi, functions));
-    }
+  const ReferenceCell::Points &finer = reference_cell(kind).finer;
+  std::vector<Point>           points;
+  for (int p = 0; p < finer.size(); ++p)
+    points.push_back(with_cubics(finer, p, functions));
   return points;
 }
 
@@ -175,7 +215,36 @@ public:
 
   RaisedFrame frame(const CellMaterials &materials, const SparseMatrix &C, const SparseMatrix &M) const
   {
-    return mesh_.hexahedra.empty() ? assembled<20>(materials, C, M) : assembled<54>(materials, C, M);
+    const CellKind   all[] = {CellKind::tetrahedron, CellKind::hexahedron, CellKind::prism};
+    std::vector<int> begin, nodes; // of the cells with the functions as further nodes
+    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
+    {
+      begin.push_back(static_cast<int>(nodes.size()));
+      nodes.insert(nodes.end(), mesh_.nodes(cell), mesh_.nodes(cell) + mesh_.n_nodes_of(cell));
+      for (const auto &number : functions_.numbers(cell))
+        nodes.push_back(mesh_.n_nodes() + number.first);
+    }
+    begin.push_back(static_cast<int>(nodes.size()));
+    std::vector<NodeLists>                 lists;
+    std::map<CellKind, std::vector<Point>> points;
+    for (const CellKind kind : all)
+      points[kind] = rule(kind, functions_.of_cell(kind));
+    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
+      lists.push_back({&nodes[begin[cell]], 1, begin[cell + 1] - begin[cell]});
+
+    const int   n_all = mesh_.n_nodes() + functions_.size();
+    BlockMatrix C_cells(3, n_all, lists), M_cells(1, n_all, lists);
+    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
+    {
+      CellMatrices own = cell_matrices(positions(mesh_, cell), points[mesh_.kind(cell)], materials[cell]);
+      turn(functions_.numbers(cell), mesh_.n_nodes_of(cell), own);
+      C_cells.add(lists[cell].nodes, lists[cell].n_nodes, own.C.data());
+      M_cells.add(lists[cell].nodes, lists[cell].n_nodes, own.M.data());
+    }
+    C_cells.finish();
+    M_cells.finish();
+    SparseMatrix all_C = extended(std::move(C_cells), C);
+    return {std::move(all_C), extended(std::move(M_cells), M), place_};
   }
 
 private:
@@ -238,37 +307,18 @@ private:
     }
   }
 
-  template <std::size_t n>
-  RaisedFrame assembled(const CellMaterials &materials, const SparseMatrix &C, const SparseMatrix &M) const
+  /// Functions that the cell counts against their direction.
+  static void turn(const std::vector<std::pair<int, double>> &numbers, int n_nodes, CellMatrices &own)
   {
-    const auto                      points  = rule(mesh_, functions_.of_cell());
-    const int                       n_nodes = mesh_.nodes_per_cell(), n_all = mesh_.n_nodes() + functions_.size();
-    std::vector<std::array<int, n>> cells(mesh_.n_cells());
-    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
-    {
-      std::copy_n(mesh_.nodes(cell), n_nodes, cells[cell].begin());
-      std::transform(functions_.numbers(cell).begin(), functions_.numbers(cell).end(), cells[cell].begin() + n_nodes,
-                     [&](const auto &number) { return mesh_.n_nodes() + number.first; });
-    }
-    BlockMatrix C_cells(3, n_all, cells), M_cells(1, n_all, cells);
-    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
-    {
-      CellMatrices own = cell_matrices(positions(mesh_, cell), points, materials[cell]);
-      for (std::size_t k = n_nodes; k < n; ++k)
-        if (functions_.numbers(cell)[k - n_nodes].second < 0.)
-        {
-          own.C.middleRows<3>(3 * k) *= -1.;
-          own.C.middleCols<3>(3 * k) *= -1.;
-          own.M.row(k) *= -1.;
-          own.M.col(k) *= -1.;
-        }
-      C_cells.add(cells[cell], own.C.data());
-      M_cells.add(cells[cell], own.M.data());
-    }
-    C_cells.finish();
-    M_cells.finish();
-    SparseMatrix all_C = extended(std::move(C_cells), C);
-    return {std::move(all_C), extended(std::move(M_cells), M), place_};
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      if (numbers[k].second < 0.)
+      {
+        const Eigen::Index i = n_nodes + Eigen::Index(k);
+        own.C.middleRows<3>(3 * i) *= -1.;
+        own.C.middleCols<3>(3 * i) *= -1.;
+        own.M.row(i) *= -1.;
+        own.M.col(i) *= -1.;
+      }
   }
 
   const QuadraticMesh &mesh_;
@@ -280,12 +330,11 @@ private:
 
 } // namespace
 
-CubicFunctions::CubicFunctions(const QuadraticMesh &mesh)
-    : local_(mesh.hexahedra.empty() ? of_tetrahedron(reference_cell(mesh)) : of_hexahedron()), numbers_(mesh.n_cells())
+CubicFunctions::CubicFunctions(const QuadraticMesh &mesh) : numbers_(mesh.n_cells())
 {
   std::map<std::array<int, 3>, int> known;
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    for (const Local &own : local_)
+    for (const Local &own : of_cell(mesh.kind(cell)))
     {
       const int         *nodes = mesh.nodes(cell);
       std::array<int, 3> key{nodes[own.nodes[0]], nodes[own.nodes[1]], nodes[own.nodes[2]]};
@@ -302,9 +351,18 @@ CubicFunctions::CubicFunctions(const QuadraticMesh &mesh)
     }
 }
 
+const std::vector<Local> &CubicFunctions::of_cell(CellKind kind)
+{
+  static const std::vector<Local> four  = Collector(CellKind::tetrahedron).functions,
+                                  eight = Collector(CellKind::hexahedron).functions,
+                                  six   = Collector(CellKind::prism).functions;
+  return kind == CellKind::tetrahedron ? four : kind == CellKind::hexahedron ? eight : six;
+}
+
 double raised_coordinates(const QuadraticMesh &mesh, double n)
 {
-  return n + 3. * (mesh.hexahedra.empty() ? 3.5 : 16.) * mesh.n_cells();
+  const auto count = [](const auto &cells) { return static_cast<double>(cells.size()); };
+  return n + 3. * (3.5 * count(mesh.cells) + 16. * count(mesh.hexahedra) + 9.5 * count(mesh.prisms));
 }
 
 RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,

@@ -15,7 +15,8 @@ namespace gestell::fem
  * Functions of degree three beside the quadratics N of a mesh, each a linear function times one of them:
  *
  *     tetrahedra:  (L_a - L_b) N_ab  of every edge,  L_c N_ab  of every face: with them all cubics
- *     hexahedra:   xi_d N_m  amid every line of nodes along xi_d
+ *     hexahedra:   (2 xi_d - 1) N_m  amid every line of nodes along xi_d
+ *     prisms:      those of the triangle at each of three heights, and along the height
  *
  * They vanish at the nodes' faces, edges and lines they do not belong to, so that neighbours that share these share
  * them.
@@ -35,14 +36,13 @@ public:
     std::vector<int>   vanish_with; ///< where all these nodes are held it is
   };
 
-  int                       size() const { return static_cast<int>(vanish_with_.size()); }
-  const std::vector<Local> &of_cell() const { return local_; }
+  int                              size() const { return static_cast<int>(vanish_with_.size()); }
+  static const std::vector<Local> &of_cell(CellKind kind);
   /// Number and sign of every function of a cell.
   const std::vector<std::pair<int, double>> &numbers(int cell) const { return numbers_[cell]; }
   const std::vector<int>                    &vanish_with(int function) const { return vanish_with_[function]; }
 
 private:
-  std::vector<Local>                               local_;
   std::vector<std::vector<std::pair<int, double>>> numbers_;
   std::vector<std::vector<int>>                    vanish_with_;
 };
@@ -63,7 +63,8 @@ struct RaisedFrame
 RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
                          const SparseMatrix &C, const SparseMatrix &M);
 
-/// Coordinates it will have about, of a frame with n: tetrahedra share 3.5 functions each, hexahedra 16 (thin walls).
+/// Coordinates it will have about, of a frame with n: tetrahedra share 3.5 functions each, hexahedra 16 and
+/// prisms 9.5 (thin walls).
 double raised_coordinates(const QuadraticMesh &mesh, double n);
 
 } // namespace gestell::fem

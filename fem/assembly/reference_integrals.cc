@@ -1,6 +1,7 @@
-#include "fem/assembly/elasticity.h"
+#include "fem/assembly/reference_integrals.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
 namespace gestell::fem
@@ -12,6 +13,23 @@ namespace
 // Rules of Witherden and Vincent with parameter n integrate degree 2 n - 1 exactly: n = 3 carries the masses (degree
 // 4).
 constexpr unsigned int rule = 3;
+
+template <int n>
+std::vector<FacePoint<n>> face_rule(const dealii::FiniteElement<2> &element, const dealii::Quadrature<2> &rule)
+{
+  std::vector<FacePoint<n>> points(rule.size());
+  for (unsigned int p = 0; p < rule.size(); ++p)
+  {
+    points[p].weight = rule.weight(p);
+    for (int a = 0; a < n; ++a)
+    {
+      points[p].N[a] = element.shape_value(a, rule.point(p));
+      for (int i = 0; i < 2; ++i)
+        points[p].dN(a, i) = element.shape_grad(a, rule.point(p))[i];
+    }
+  }
+  return points;
+}
 
 ReferenceIntegrals integrate()
 {
@@ -36,23 +54,6 @@ ReferenceIntegrals integrate()
                 volume.weight(p) * tetrahedron.shape_grad(a, x)[i] * tetrahedron.shape_grad(b, x)[j];
       }
 
-  for (unsigned int p = 0; p < volume.size(); ++p)
-  {
-    result.tetrahedron.emplace_back().weight = volume.weight(p);
-    for (int a = 0; a < 10; ++a)
-    {
-      result.tetrahedron.back().N[a] = tetrahedron.shape_value(a, volume.point(p));
-      for (int i = 0; i < 3; ++i)
-        result.tetrahedron.back().dN(a, i) = tetrahedron.shape_grad(a, volume.point(p))[i];
-    }
-  }
-
-  const auto &corners = tetrahedron.get_unit_support_points(); // the first four
-  for (int k = 0; k < 4; ++k)
-    for (int a = 0; a < 10; ++a)
-      for (int i = 0; i < 3; ++i)
-        result.corner_gradients[k](a, i) = tetrahedron.shape_grad(a, corners[k])[i];
-
   const dealii::FE_SimplexP<2>              triangle(2);
   const dealii::QWitherdenVincentSimplex<2> area(rule);
   for (unsigned int p = 0; p < area.size(); ++p)
@@ -61,16 +62,8 @@ ReferenceIntegrals integrate()
         result.triangle_mass(a, b) +=
             area.weight(p) * triangle.shape_value(a, area.point(p)) * triangle.shape_value(b, area.point(p));
 
-  for (unsigned int p = 0; p < area.size(); ++p)
-  {
-    result.triangle.emplace_back().weight = area.weight(p);
-    for (int a = 0; a < 6; ++a)
-    {
-      result.triangle.back().N[a] = triangle.shape_value(a, area.point(p));
-      for (int i = 0; i < 2; ++i)
-        result.triangle.back().dN(a, i) = triangle.shape_grad(a, area.point(p))[i];
-    }
-  }
+  result.triangle      = face_rule<6>(triangle, area);
+  result.quadrilateral = face_rule<9>(dealii::FE_Q<2>(2), dealii::QGauss<2>(3));
 
   // Symmetric to the last bit, as the solvers of symmetric matrices read one triangle only.
   result.mass          = 0.5 * (result.mass + result.mass.transpose()).eval();

@@ -148,7 +148,7 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
       faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
       quads.insert(quads.end(), patch.quads.begin(), patch.quads.end());
     }
-  BlockMatrix B = quads.empty() ? BlockMatrix(3, n_nodes, faces) : BlockMatrix(3, n_nodes, quads);
+  BlockMatrix B(3, n_nodes, {faces, quads});
   add_foundations(supports, totals, B);
   return B;
 }

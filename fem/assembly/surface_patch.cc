@@ -1,7 +1,6 @@
 #include "fem/assembly/surface_patch.h"
 
-#include "fem/assembly/elasticity.h"
-#include "fem/mesh/hexahedron.h"
+#include "fem/assembly/reference_integrals.h"
 #include "fem/values/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -55,21 +54,24 @@ bool is_curved(const QuadraticMesh &mesh, const std::array<int, 6> &face)
   return false;
 }
 
-/// Area, int x dA and int N_a N_b dA of a triangle with curved sides.
-struct CurvedTriangle
+/// Area, int x dA and int N_a N_b dA of a face of n nodes.
+template <int n>
+struct FaceIntegrals
 {
   double                      area   = 0.;
   Eigen::Vector3d             moment = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 6, 6> mass   = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, n, n> mass   = Eigen::Matrix<double, n, n>::Zero();
 };
 
-CurvedTriangle curved_triangle(const QuadraticMesh &mesh, const std::array<int, 6> &face)
+template <std::size_t n>
+FaceIntegrals<int(n)> integrals(const QuadraticMesh &mesh, const std::array<int, n> &face,
+                                const std::vector<FacePoint<int(n)>> &rule)
 {
-  Eigen::Matrix<double, 3, 6> X;
-  for (int a = 0; a < 6; ++a)
+  Eigen::Matrix<double, 3, int(n)> X;
+  for (std::size_t a = 0; a < n; ++a)
     X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[face[a]].data());
-  CurvedTriangle result;
-  for (const auto &point : reference_integrals().triangle)
+  FaceIntegrals<int(n)> result;
+  for (const auto &point : rule)
   {
     const Eigen::Matrix<double, 3, 2> tangents = X * point.dN;
     const double dA = point.weight * Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
@@ -86,7 +88,9 @@ double triangle_area(const QuadraticMesh &mesh, const std::array<int, 6> &face)
   return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
 }
 
-/// The quadrilaterals whose halves are given, each once; none in a mesh of tetrahedra.
+constexpr std::size_t centre = 8; // of a quadrilateral among its nodes
+
+/// The quadrilaterals whose halves are given, each once.
 std::vector<std::array<int, 9>> quads_of(const QuadraticMesh &mesh, const std::vector<std::array<int, 6>> &halves)
 {
   std::vector<std::array<int, 9>> quads;
@@ -96,7 +100,7 @@ std::vector<std::array<int, 9>> quads_of(const QuadraticMesh &mesh, const std::v
   for (const std::array<int, 6> &half : halves)
     nodes.insert(half.begin() + 3, half.end());
   for (const std::array<int, 9> &quad : mesh.skin_quads)
-    if (nodes.count(quad[4]) > 0)
+    if (nodes.count(quad[centre]) > 0)
       quads.push_back(quad);
   return quads;
 }
@@ -110,8 +114,14 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   for (const std::array<int, 6> &face : faces)
     nodes.insert(face.begin(), face.end());
   patch.quads = quads_of(mesh, faces);
+  std::set<int> centres;
   for (const std::array<int, 9> &quad : patch.quads)
+  {
     nodes.insert(quad.begin(), quad.end());
+    centres.insert(quad[centre]);
+  }
+  const auto is_half = [&](const std::array<int, 6> &face)
+  { return std::any_of(face.begin() + 3, face.end(), [&](int node) { return centres.count(node) > 0; }); };
   patch.faces = std::move(faces);
   patch.nodes.assign(nodes.begin(), nodes.end());
   const auto local = [&](int node)
@@ -128,7 +138,7 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   {
     if (!mesh.curved.empty() && is_curved(mesh, face))
     {
-      const CurvedTriangle triangle = curved_triangle(mesh, face);
+      const auto triangle = integrals(mesh, face, reference_integrals().triangle);
       patch.area += triangle.area;
       patch.centroid += triangle.moment;
       add(face, triangle.mass);
@@ -138,15 +148,13 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
     patch.area += area;
     for (int k = 0; k < 3; ++k)
       patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
-    if (patch.quads.empty())
+    if (!is_half(face))
       add(face, (2. * area * reference_integrals().triangle_mass).eval());
   }
   for (const std::array<int, 9> &quad : patch.quads)
   {
-    Eigen::Matrix<double, 3, 9> X;
-    for (int a = 0; a < 9; ++a)
-      X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[quad[a]].data());
-    add(quad, hexahedron::face_mass(X));
+    const Eigen::Matrix<double, 9, 9> mass = integrals(mesh, quad, reference_integrals().quadrilateral).mass;
+    add(quad, (0.5 * (mass + mass.transpose())).eval());
   }
   patch.centroid /= patch.area;
   patch.S.resize(patch.nodes.size(), patch.nodes.size());

@@ -17,7 +17,7 @@ struct SurfacePatch
 {
   std::vector<int>                nodes;  ///< of the quadratic mesh, ascending
   std::vector<std::array<int, 6>> faces;  ///< into the quadratic mesh; of a quadrilateral its two halves
-  std::vector<std::array<int, 9>> quads;  ///< quadrilaterals, of hexahedra
+  std::vector<std::array<int, 9>> quads;  ///< quadrilaterals, FE_Q(2)
   Eigen::SparseMatrix<double>     S;      ///< int N_a N_b dA [m^2], over `nodes`
   Eigen::VectorXd                 weight; ///< int N_a dA = S 1 [m^2]; 0 at corners, a third of the area at middles
   double                          area     = 0.;                      ///< [m^2]

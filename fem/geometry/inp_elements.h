@@ -24,14 +24,14 @@ struct InpElementKind
 };
 
 /// The kind of elements of a type in capitals, variants (C3D10M, C3D8R, ...) included; null if they are not read.
-/// Prisms and pyramids are known, so that a mesh that holds some is refused with their number.
+/// Pyramids are known, so that a mesh that holds some is refused with their number.
 const InpElementKind *inp_element_kind(const std::string &type);
 
-/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of prisms and pyramids.
+/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of pyramids.
 const std::vector<std::vector<int>> &inp_faces(int gmsh_type);
 
-/// Edges of a cell of quadratic tetrahedra or hexahedra, by its corners, in the order of their middle nodes in the
-/// file; none of others.
+/// Edges of a cell of quadratic tetrahedra, hexahedra or prisms, by its corners, in the order of their middle nodes in
+/// the file; none of others.
 const std::vector<std::array<int, 2>> &inp_edges(int gmsh_type);
 
 } // namespace gestell::fem

@@ -17,7 +17,7 @@ struct InpMesh
   {
     std::string solid;     ///< element set of a *SOLID SECTION, else that of the *ELEMENT line, "" for none
     int         gmsh_type; ///< 4, 11: tetrahedra of 4, 10 nodes; 5, 17: hexahedra of 8, 20;
-                           ///< 6, 7: prisms, pyramids
+                           ///< 6, 18: prisms of 6, 15; 7: pyramids
     std::vector<std::size_t> numbers;
     std::vector<std::size_t> nodes; ///< in the order of gmsh
   };
@@ -35,10 +35,10 @@ struct InpMesh
  *
  * Reads *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *SOLID SECTION (for the names of solids), and the files that
  * *INCLUDE and INPUT= name (keywords or data lines, which stand where they are named); what ties nodes to each other is
- * noted, and so are the keywords of all else, such as materials and steps.  Elements: C3D4, C3D10, C3D8, C3D20 and
- * their variants (C3D10M, C3D8R, ...).  Middle nodes are taken for the edges they lie on.  Triangles and quadrilaterals
- * without a section, as meshers write them, only name surfaces; trusses without a section are left out.  Parts and
- * instances are read if there is one of them, not moved.
+ * noted, and so are the keywords of all else, such as materials and steps.  Elements: C3D4, C3D10, C3D8, C3D20, C3D6,
+ * C3D15 and their variants (C3D10M, C3D8R, ...).  Middle nodes are taken for the edges they lie on.  Triangles and
+ * quadrilaterals without a section, as meshers write them, only name surfaces; trusses without a section are left out.
+ * Parts and instances are read if there is one of them, not moved.
  *
  * @throws std::invalid_argument with file and line for what cannot be read, other elements, elements with nodes that
  *         are not there, nodes or elements that come twice, middle nodes on no edges, and for keywords that say of the

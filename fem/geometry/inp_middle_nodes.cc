@@ -55,7 +55,10 @@ std::vector<std::string> InpMiddleNodes::notes() const
   std::vector<std::string> result;
   for (const auto &[kind, edges] : order_of_)
     if (!std::is_sorted(edges.begin(), edges.end()))
-      result.push_back("the middle nodes of its " + std::string(kind == 11 ? "tetrahedra" : "hexahedra") +
+      result.push_back("the middle nodes of its " +
+                       std::string(kind == 11   ? "tetrahedra"
+                                   : kind == 17 ? "hexahedra"
+                                                : "prisms") +
                        " stand in the order of another program than Abaqus; they are taken for the edges they lie on");
   return result;
 }

@@ -45,18 +45,22 @@ std::string in_words(const std::map<int, std::size_t> &count)
 
 } // namespace
 
-CellKind kind_of_cells(const CadModel &model, const std::string &head)
+bool only_tetrahedra(const CadModel &model, const std::string &head)
 {
   const auto count = count_by_corners(model);
-  if (count.empty() || (count.size() == 1 && count.begin()->first == tetrahedron))
-    return CellKind::tetrahedra;
-  if (count.size() == 1 && count.begin()->first == hexahedron)
-    return CellKind::hexahedra;
+  const auto holds = [&](int corners) { return count.count(corners) > 0; };
+  bool       known = true;
+  for (const auto &[corners, n] : count)
+    known = known && (corners == tetrahedron || corners == prism || corners == hexahedron);
+  if (known && (!holds(tetrahedron) || !holds(hexahedron) || holds(prism)))
+    return !holds(prism) && !holds(hexahedron);
   throw std::invalid_argument(
       head + " holds " + in_words(count) +
-      ", but a mesh must be of tetrahedra throughout or of hexahedra throughout. Mesh it with tetrahedra alone (gmsh: "
-      "without Recombine; Abaqus: C3D10), or with hexahedra alone (gmsh: every volume transfinite, or extruded in "
-      "Layers from quadrilaterals, with Recombine; Abaqus: C3D8 or C3D20).");
+      ", but a mesh must be of tetrahedra, of hexahedra or of prisms, or of prisms with others: no quadratic pyramid "
+      "stands between tetrahedra and hexahedra. Mesh it with tetrahedra alone (gmsh: without Recombine; Abaqus: "
+      "C3D10), "
+      "or extruded in Layers: hexahedra from quadrilaterals, prisms from triangles, with Recombine (Abaqus: C3D20, "
+      "C3D15).");
 }
 
 } // namespace gestell::fem

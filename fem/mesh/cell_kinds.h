@@ -7,17 +7,12 @@
 namespace gestell::fem
 {
 
-enum class CellKind
-{
-  tetrahedra,
-  hexahedra
-};
-
 /**
- * What the solids of gmsh's mesh are made of; tetrahedra if they have no cells.
+ * Whether the solids of gmsh's mesh are made of tetrahedra alone (or have no cells), not of hexahedra, prisms, or
+ * prisms with tetrahedra or hexahedra.
  *
- * @throws std::invalid_argument with the number of cells of each kind if there are several, or others.
+ * @throws std::invalid_argument with the number of cells of each kind for others.
  */
-CellKind kind_of_cells(const CadModel &model, const std::string &head);
+bool only_tetrahedra(const CadModel &model, const std::string &head);
 
 } // namespace gestell::fem

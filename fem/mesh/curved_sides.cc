@@ -1,6 +1,6 @@
 #include "fem/mesh/curved_sides.h"
 
-#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/values/vector3.h"
 

@@ -3,7 +3,7 @@
 #include "fem/geometry/cad_file.h"
 #include "fem/geometry/gmsh_session.h"
 #include "fem/geometry/read_cad.h"
-#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mesh_extraction.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/values/triangle_surface.h"

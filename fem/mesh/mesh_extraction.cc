@@ -1,9 +1,9 @@
 #include "fem/mesh/mesh_extraction.h"
 
 #include "fem/mesh/cell_kinds.h"
-#include "fem/mesh/hexahedral_extraction.h"
 #include "fem/mesh/mesh_nodes.h"
 #include "fem/mesh/mesh_quality.h"
+#include "fem/mesh/mixed_extraction.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
@@ -227,8 +227,8 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
 
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
-  if (kind_of_cells(model, head) == CellKind::hexahedra)
-    return extract_hexahedra(model, head, options);
+  if (!only_tetrahedra(model, head))
+    return extract_mixed(model, head, options);
   ExtractedMesh result;
   Mesh         &mesh = result.mesh;
   MeshNodes     nodes(model.unit, options.gap, head);

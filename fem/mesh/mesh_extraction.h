@@ -10,8 +10,9 @@ namespace gestell::fem
 
 /**
  * Takes the tetrahedra out of gmsh, in metres: cells positively oriented however the file numbers them, the skin (faces
- * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  A mesh of hexahedra is
- * taken by extract_hexahedra().  Coincident nodes that join nothing, and nodes no cell uses, become notes of the mesh.
+ * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  Meshes with
+ * hexahedra or prisms are taken by extract_mixed().  Coincident nodes that join nothing, and nodes no cell uses, become
+ * notes of the mesh.
  *
  * @param head  "<place>: <file>", heads messages
  * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra or twice the same point, more than two

@@ -21,7 +21,7 @@ const double bend = std::cos(40. * std::acos(-1.) / 180.); // sharper edges end 
 /// Corners of the face a triangle of the skin is (or is half of).
 std::vector<int> corners_of(const Mesh &mesh, std::size_t triangle)
 {
-  if (mesh.skin_quads.empty())
+  if (!mesh.is_half(triangle))
     return {mesh.skin[triangle].begin(), mesh.skin[triangle].end()};
   const auto &quad = mesh.skin_quads[triangle / 2];
   return {quad.begin(), quad.end()};
@@ -96,7 +96,7 @@ std::vector<std::size_t> pieces_of(const ExtractedMesh &extracted, const std::ve
     for (std::size_t i = 1; i < triangles.size(); ++i)
     {
       const std::size_t a = triangles[0], b = triangles[i];
-      const bool        halves = !mesh.skin_quads.empty() && a / 2 == b / 2;
+      const bool        halves = mesh.is_half(a) && mesh.is_half(b) && a / 2 == b / 2;
       const int         of_a = extracted.skin_surface[a], of_b = extracted.skin_surface[b];
       if (halves || (of_a == of_b && members[a] == members[b] &&
                      (of_a != 0 || dot(normal_of(mesh, a), normal_of(mesh, b)) > bend)))

@@ -90,18 +90,6 @@ double quality(const Mesh &mesh, const std::array<int, 4> &cell)
   return 12. * std::pow(std::max(0., six_volumes(mesh, cell)) / 2., 2. / 3.) / squares;
 }
 
-int number_of_edges(const Mesh &mesh)
-{
-  std::vector<std::array<int, 2>> edges;
-  edges.reserve(6 * mesh.cells.size());
-  for (const auto &cell : mesh.cells)
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < i; ++j)
-        edges.push_back({std::min(cell[i], cell[j]), std::max(cell[i], cell[j])});
-  std::sort(edges.begin(), edges.end());
-  return static_cast<int>(std::unique(edges.begin(), edges.end()) - edges.begin());
-}
-
 void improve_quality(Mesh &mesh, const std::vector<Freedom> &freedom, double wanted)
 {
   const std::vector<std::vector<int>> stars = stars_of(mesh);

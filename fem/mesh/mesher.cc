@@ -7,8 +7,8 @@
 #include "fem/geometry/small_features.h"
 #include "fem/geometry/solid_materials.h"
 #include "fem/geometry/surface_selection.h"
+#include "fem/mesh/cell_measures.h"
 #include "fem/mesh/curved_sides.h"
-#include "fem/mesh/hexahedral_mesh.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesh_extraction.h"
 #include "fem/mesh/mesh_grading.h"
@@ -70,13 +70,14 @@ void check_materials(const CadModel &model, const FrameSpecification &specificat
   check_solids_of_materials(specification, names);
 }
 
-/// Sides of hexahedra are straight.
+/// Sides of hexahedra and prisms are straight.
 void require_straight(const ExtractedMesh &extracted, const FrameSpecification &specification)
 {
   const MeshOptions &options = specification.mesh;
-  if (options.curved && !extracted.mesh.hexahedra.empty())
+  if (options.curved && !extracted.mesh.only_tetrahedra())
     throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
-                                " are hexahedra, whose sides are straight; leave curved out and make cells smaller "
+                                std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
+                                ", whose sides are straight; leave curved out and make cells smaller "
                                 "along curved faces, or mesh with tetrahedra.");
 }
 
@@ -201,7 +202,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
                 "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
   if (refined.empty()) // who refines judges beforehand
     judge_memory(result, specification);
-  if (!result.extracted.mesh.hexahedra.empty())
+  if (!result.extracted.mesh.only_tetrahedra())
     return;
   improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
   if (options.curved)
@@ -216,17 +217,20 @@ void measure_solids(CadModel &model, const Mesh &mesh)
     solid.min = model.max;
     solid.max = model.min;
   }
-  const std::vector<std::array<int, 4>> pieces  = tetrahedra_of(mesh);
-  const std::vector<double>             volumes = curved_volumes(mesh);
-  for (std::size_t c = 0; c < pieces.size(); ++c)
+  const std::vector<double> volumes = curved_volumes(mesh);
+  std::size_t               piece   = 0;
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    Solid &solid = model.solids[mesh.cell_solid[c * mesh.cell_solid.size() / pieces.size()]];
-    solid.volume += volumes[c];
-    for (const int point : pieces[c])
+    const CellShape &shape = cell_shape(mesh.kind(cell));
+    Solid           &solid = model.solids[mesh.cell_solid[cell]];
+    for (std::size_t k = 0; k < shape.pieces.size(); ++k)
+      solid.volume += volumes[piece++];
+    for (int k = 0; k < shape.n_corners; ++k)
       for (int d = 0; d < 3; ++d)
       {
-        solid.min[d] = std::min(solid.min[d], mesh.points[point][d]);
-        solid.max[d] = std::max(solid.max[d], mesh.points[point][d]);
+        const double x = mesh.points[mesh.corners(cell)[k]][d];
+        solid.min[d]   = std::min(solid.min[d], x);
+        solid.max[d]   = std::max(solid.max[d], x);
       }
   }
 }
@@ -273,14 +277,15 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
-template <typename Cell>
-void require_thick(const Mesh &mesh, const Cell &cell, double q, const std::string &head, const std::string &way_out)
+void require_thick(const Mesh &mesh, int cell, const std::string &head, const std::string &way_out)
 {
+  const double q = cell_quality(mesh, cell);
   if (q >= flattest)
     return;
-  Vector3 centre{};
-  for (const int point : cell)
-    centre = centre + (1. / static_cast<double>(cell.size())) * mesh.points[point];
+  const int n = cell_shape(mesh.kind(cell)).n_corners;
+  Vector3   centre{};
+  for (int k = 0; k < n; ++k)
+    centre = centre + (1. / n) * mesh.points[mesh.corners(cell)[k]];
   throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
                               ", needed " + text(flattest) + "); " + way_out);
 }
@@ -289,10 +294,8 @@ void check_flatness(const Mesh &mesh, bool meshed, const std::string &head)
 {
   const std::string way_out = meshed ? "its volume is nearly zero, or less: mend it in the program that made the mesh."
                                      : "choose another mesh.size, or a smaller one on the surface there.";
-  for (const auto &cell : mesh.cells)
-    require_thick(mesh, cell, quality(mesh, cell), head, way_out);
-  for (const auto &cell : mesh.hexahedra)
-    require_thick(mesh, cell, corner_quality(mesh, cell), head, way_out);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    require_thick(mesh, cell, head, way_out);
 }
 
 /// Colours and layers are wanted where a surface is asked for by name.
@@ -389,7 +392,7 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   report.statements     = mesh.statements;
   report.smallest       = meshed.smallest;
   report.walls          = wall_thickness(mesh);
-  report.hexahedra      = !mesh.hexahedra.empty();
+  report.n_of_kind      = {mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()};
   for (Face &face : report.faces)
     face.samples.clear();
 
@@ -397,15 +400,12 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   report.n_cells       = mesh.n_cells();
   report.n_coordinates = 3 * number_of_nodes(mesh);
   report.worst_quality = 1.;
-  const auto count     = [&](double q)
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
+    const double q       = cell_quality(mesh, cell);
     report.worst_quality = std::min(report.worst_quality, q);
     report.mean_quality += q / report.n_cells;
-  };
-  for (const auto &cell : mesh.cells)
-    count(quality(mesh, cell));
-  for (const auto &cell : mesh.hexahedra)
-    count(corner_quality(mesh, cell));
+  }
   report.volume = curved_volume(mesh);
   return report;
 }

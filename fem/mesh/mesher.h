@@ -48,9 +48,9 @@ struct GeometryReport
   double                                  expected_cells = 0.; ///< judged before meshing; 0 for a mesh file
   std::string                             smallest;            ///< edge and face of the geometry
   WallThickness                           walls;
-  bool                                    hexahedra = false;
-  std::vector<std::string>                notes;      ///< what a user should look at in the file
-  std::vector<std::string>                statements; ///< what is as it should be
+  std::array<std::size_t, 3>              n_of_kind{}; ///< tetrahedra, hexahedra, prisms
+  std::vector<std::string>                notes;       ///< what a user should look at in the file
+  std::vector<std::string>                statements;  ///< what is as it should be
 };
 
 /// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.

@@ -10,7 +10,6 @@
 #include "fem/assembly/rigid_motions.h"
 #include "fem/assembly/sparse_sum.h"
 #include "fem/assembly/supports.h"
-#include "fem/mesh/hexahedral_mesh.h"
 #include "fem/recovery/skin.h"
 #include "fem/recovery/skin_stress.h"
 
@@ -102,14 +101,16 @@ BlockMatrix stiffness_at_supports(const Ingredients &of)
   for (int cell = 0; cell < of.mesh.n_cells(); ++cell)
   {
     const int *nodes = of.mesh.nodes(cell);
-    if (std::none_of(nodes, nodes + of.mesh.nodes_per_cell(), [&](int node) { return clamped[node]; }))
+    if (std::none_of(nodes, nodes + of.mesh.n_nodes_of(cell), [&](int node) { return clamped[node]; }))
       continue;
     if (!of.mesh.curved.empty())
       near.curved.push_back(of.mesh.curved[cell]);
-    if (of.mesh.hexahedra.empty())
-      near.cells.push_back(of.mesh.cells[cell]);
+    if (const CellKind kind = of.mesh.kind(cell); kind == CellKind::tetrahedron)
+      std::copy_n(nodes, 10, near.cells.emplace_back().begin());
+    else if (kind == CellKind::hexahedron)
+      std::copy_n(nodes, 27, near.hexahedra.emplace_back().begin());
     else
-      near.hexahedra.push_back(of.mesh.hexahedra[cell]);
+      std::copy_n(nodes, 18, near.prisms.emplace_back().begin());
     materials.of_cell.push_back(of.materials.of_cell[cell]);
   }
   return assemble_stiffness(near, materials);
@@ -191,7 +192,7 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
 Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
 {
   const CellMaterials               materials = cell_materials(mesh, specification);
-  const QuadraticMesh               quadratic = number_nodes(mesh);
+  const QuadraticMesh               quadratic = quadratic_mesh(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   Constraints                       constraints(quadratic.n_nodes());
   const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);

@@ -11,8 +11,8 @@ namespace gestell::fem
 {
 
 /**
- * M, B, C of an elastic frame in quadratic tetrahedra (P2) with straight or curved sides, or hexahedra, with supports,
- * interfaces, cuts and picture.
+ * M, B, C of an elastic frame in quadratic tetrahedra with straight or curved sides, hexahedra and prisms, with
+ * supports, interfaces, cuts and picture.
  *
  *     M q'' + B q' + C q = f,    u = G q,    M = G^T M_full G  and so on
  *

@@ -16,9 +16,9 @@ namespace
 
 using Stress = Eigen::Matrix<double, 6, 1>;
 
-constexpr int         monomials = 10;   // 1 x y z xx yy zz xy yz zx
-constexpr std::size_t fewest    = 16;   // samples of a patch; fewer do not carry a quadratic fit
-constexpr double      ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
+constexpr int          monomials = 10;   // 1 x y z xx yy zz xy yz zx
+constexpr Eigen::Index fewest    = 16;   // samples of a patch; fewer do not carry a quadratic fit
+constexpr double       ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
 
 using Monomials = Eigen::Matrix<double, monomials, 1>;
 
@@ -46,8 +46,8 @@ void stresses_at(const ReferenceCell::Points &points, const QuadraticMesh &mesh,
                  const NodalFields &u, Eigen::Ref<Stresses> result)
 {
   const int  *nodes = mesh.nodes(cell);
-  NodalFields of_cell(u.rows(), mesh.nodes_per_cell());
-  for (int a = 0; a < mesh.nodes_per_cell(); ++a)
+  NodalFields of_cell(u.rows(), mesh.n_nodes_of(cell));
+  for (int a = 0; a < of_cell.cols(); ++a)
     of_cell.col(a) = u.col(nodes[a]);
   const Eigen::MatrixXd slopes = of_cell * points.dN; // du_i / dxi_d of point k in column 3 k + d
   const Eigen::MatrixXd J      = positions(mesh, cell) * points.dN;
@@ -64,26 +64,29 @@ Eigen::Vector3d point(const QuadraticMesh &mesh, int node)
   return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
 }
 
-/// Places and stresses of all samples; those of a cell stand together.
+/// Places and stresses of all samples; those of cell i of a list stand from begin[i] on.
 struct Samples
 {
-  int             per_cell = 0;
-  Eigen::MatrixXd x; // [3 x samples]
-  Stresses        stress;
+  std::vector<Eigen::Index> begin{0};
+  Eigen::MatrixXd           x; // [3 x samples]
+  Stresses                  stress;
+
+  Eigen::Index count(int i) const { return begin[i + 1] - begin[i]; }
 };
 
 Samples sample(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells, const NodalFields &u)
 {
-  const ReferenceCell &reference = reference_cell(mesh);
-  Samples              result;
-  result.per_cell = reference.samples.size();
-  result.x.resize(3, cells.size() * result.per_cell);
-  result.stress.resize(2 * u.rows(), cells.size() * result.per_cell);
+  Samples result;
+  for (const int cell : cells)
+    result.begin.push_back(result.begin.back() + reference_cell(mesh.kind(cell)).samples.size());
+  result.x.resize(3, result.begin.back());
+  result.stress.resize(2 * u.rows(), result.begin.back());
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    const auto first                            = static_cast<Eigen::Index>(i) * result.per_cell;
-    result.x.middleCols(first, result.per_cell) = positions(mesh, cells[i]) * reference.samples.N;
-    stresses_at(reference.samples, mesh, material, cells[i], u, result.stress.middleCols(first, result.per_cell));
+    const auto  first = result.begin[i], n = result.begin[i + 1] - first;
+    const auto &samples           = reference_cell(mesh.kind(cells[i])).samples;
+    result.x.middleCols(first, n) = positions(mesh, cells[i]) * samples.N;
+    stresses_at(samples, mesh, material, cells[i], u, result.stress.middleCols(first, n));
   }
   return result;
 }
@@ -95,37 +98,42 @@ struct CellsAround
   std::vector<int>        begin, cells;
 };
 
+/// Calls visit(node) for the corners of a cell.
+template <typename Visit>
+void for_each_corner(const QuadraticMesh &mesh, int cell, const Visit &visit)
+{
+  std::for_each_n(mesh.nodes(cell), reference_cell(mesh.kind(cell)).n_corners, visit);
+}
+
 CellsAround cells_around(const QuadraticMesh &mesh, const std::vector<int> &list)
 {
-  const std::vector<int> &corners = reference_cell(mesh).corners;
-  CellsAround             around{list, {}, {}};
+  CellsAround around{list, {}, {}};
   around.begin.assign(mesh.n_nodes() + 1, 0);
   for (const int cell : list)
-    for (const int k : corners)
-      ++around.begin[mesh.nodes(cell)[k] + 1];
+    for_each_corner(mesh, cell, [&](int node) { ++around.begin[node + 1]; });
   for (int i = 0; i < mesh.n_nodes(); ++i)
     around.begin[i + 1] += around.begin[i];
   around.cells.resize(around.begin.back());
   std::vector<int> next(around.begin.begin(), around.begin.end() - 1);
   for (std::size_t i = 0; i < list.size(); ++i)
-    for (const int k : corners)
-      around.cells[next[mesh.nodes(list[i])[k]]++] = static_cast<int>(i);
+    for_each_corner(mesh, list[i], [&](int node) { around.cells[next[node]++] = static_cast<int>(i); });
   return around;
 }
 
-std::vector<int> patch_of(const QuadraticMesh &mesh, const CellsAround &around, int corner, std::size_t samples)
+std::vector<int> patch_of(const QuadraticMesh &mesh, const CellsAround &around, int corner, const Samples &samples)
 {
   const auto       begin = around.cells.begin();
   std::vector<int> patch(begin + around.begin[corner], begin + around.begin[corner + 1]);
-  if (patch.size() * samples >= fewest)
+  Eigen::Index     count = 0;
+  for (const int i : patch)
+    count += samples.count(i);
+  if (count >= fewest)
     return patch;
   const std::vector<int> own = patch;
   for (const int cell : own)
-    for (const int k : reference_cell(mesh).corners)
-    {
-      const int other = mesh.nodes(around.list[cell])[k];
-      patch.insert(patch.end(), begin + around.begin[other], begin + around.begin[other + 1]);
-    }
+    for_each_corner(mesh, around.list[cell],
+                    [&](int other)
+                    { patch.insert(patch.end(), begin + around.begin[other], begin + around.begin[other + 1]); });
   std::sort(patch.begin(), patch.end());
   patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
   return patch;
@@ -137,13 +145,18 @@ class PatchFit
 public:
   PatchFit(const Samples &samples, const std::vector<int> &patch, const Eigen::Vector3d &centre) : centre_(centre)
   {
-    const int        n = samples.per_cell;
-    Eigen::Matrix3Xd x(3, n * patch.size());
-    Stresses         stress(samples.stress.rows(), x.cols());
-    for (std::size_t i = 0; i < patch.size(); ++i)
+    Eigen::Index count = 0;
+    for (const int i : patch)
+      count += samples.count(i);
+    Eigen::Matrix3Xd x(3, count);
+    Stresses         stress(samples.stress.rows(), count);
+    Eigen::Index     at = 0;
+    for (const int i : patch)
     {
-      x.middleCols(n * i, n)      = samples.x.middleCols(n * patch[i], n).colwise() - centre_;
-      stress.middleCols(n * i, n) = samples.stress.middleCols(n * patch[i], n);
+      const Eigen::Index n = samples.count(i), first = samples.begin[i];
+      x.middleCols(at, n)      = samples.x.middleCols(first, n).colwise() - centre_;
+      stress.middleCols(at, n) = samples.stress.middleCols(first, n);
+      at += n;
     }
     scale_ = x.array().abs().rowwise().maxCoeff().max(std::numeric_limits<double>::min()).inverse();
 
@@ -180,17 +193,18 @@ public:
 
   void collect(const CellsAround &around, int corner)
   {
-    const ReferenceCell &reference = reference_cell(mesh_);
     nodes.clear();
     share.clear();
     for (int k = around.begin[corner]; k < around.begin[corner + 1]; ++k)
     {
-      const int *of_cell = mesh_.nodes(around.list[around.cells[k]]);
+      const int            cell      = around.list[around.cells[k]];
+      const int           *of_cell   = mesh_.nodes(cell);
+      const ReferenceCell &reference = reference_cell(mesh_.kind(cell));
       for (int a = 0; a < reference.n_nodes; ++a)
       {
         const std::vector<int> &amid = reference.between[a];
         if (seen_[of_cell[a]] == corner ||
-            std::none_of(amid.begin(), amid.end(), [&](int c) { return of_cell[reference.corners[c]] == corner; }))
+            std::none_of(amid.begin(), amid.end(), [&](int c) { return of_cell[c] == corner; }))
           continue;
         seen_[of_cell[a]] = corner;
         nodes.push_back(of_cell[a]);
@@ -211,7 +225,7 @@ private:
 
 Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u)
 {
-  const auto &nodes = reference_cell(mesh).nodes;
+  const auto &nodes = reference_cell(mesh.kind(cell)).nodes;
   Stresses    result(2 * u.rows(), nodes.size());
   stresses_at(nodes, mesh, material, cell, u, result);
   return result;
@@ -228,7 +242,7 @@ Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material,
   {
     if (around.begin[corner] == around.begin[corner + 1])
       continue; // no corner
-    const PatchFit fit(samples, patch_of(mesh, around, corner, samples.per_cell), point(mesh, corner));
+    const PatchFit fit(samples, patch_of(mesh, around, corner, samples), point(mesh, corner));
     takers.collect(around, corner);
     Eigen::Matrix3Xd x(3, takers.nodes.size());
     for (std::size_t k = 0; k < takers.nodes.size(); ++k)

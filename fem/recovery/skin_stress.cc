@@ -1,8 +1,6 @@
 #include "fem/recovery/skin_stress.h"
 
-#include "fem/assembly/elasticity.h"
 #include "fem/assembly/reference_cell.h"
-#include "fem/mesh/hexahedron.h"
 
 #include <Eigen/LU>
 
@@ -34,17 +32,15 @@ Triple sorted(Triple corners)
 }
 
 /// Corners of the triangles that may stand for a face of a cell: local nodes, of a quadrilateral along both diagonals.
-std::vector<Triple> face_triangles(const QuadraticMesh &mesh)
+std::vector<Triple> face_triangles(CellKind kind)
 {
-  if (mesh.hexahedra.empty())
-    return {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
   std::vector<Triple> triangles;
-  for (const auto &face : hexahedron::faces)
-    for (int left_out = 0; left_out < 4; ++left_out)
-    {
-      const auto corner = [&](int k) { return hexahedron::corners[face[(left_out + k) % 4]]; };
-      triangles.push_back({corner(1), corner(2), corner(3)});
-    }
+  for (const std::vector<int> &face : reference_cell(kind).faces)
+    if (face.size() == 3)
+      triangles.push_back({face[0], face[1], face[2]});
+    else
+      for (int left_out = 0; left_out < 4; ++left_out)
+        triangles.push_back({face[(left_out + 1) % 4], face[(left_out + 2) % 4], face[(left_out + 3) % 4]});
   return triangles;
 }
 
@@ -59,9 +55,11 @@ std::map<Triple, int> owners(const QuadraticMesh &mesh)
     for (int k = 0; k < 3; ++k)
       on_skin[face[k]] = 1;
   }
-  const std::vector<Triple> triangles = face_triangles(mesh);
+  std::map<CellKind, std::vector<Triple>> triangles;
+  for (const CellKind kind : {CellKind::tetrahedron, CellKind::hexahedron, CellKind::prism})
+    triangles[kind] = face_triangles(kind);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    for (const auto &[a, b, c] : triangles)
+    for (const auto &[a, b, c] : triangles[mesh.kind(cell)])
     {
       const int *nodes = mesh.nodes(cell);
       if (!on_skin[nodes[a]] || !on_skin[nodes[b]] || !on_skin[nodes[c]])
@@ -81,47 +79,41 @@ struct CornerGradients
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;
 
   double               volume = 0.;
-  std::vector<Weights> of_corner; // in the order of ReferenceCell::corners
+  std::vector<Weights> of_corner;
 };
 
 CornerGradients tetrahedron_gradients(const QuadraticMesh &mesh, int cell)
 {
-  const auto     &nodes = mesh.cells[cell];
-  Eigen::Matrix3d J;
-  for (int k = 0; k < 3; ++k)
-    for (int d = 0; d < 3; ++d)
-      J(d, k) = mesh.points[nodes[k + 1]][d] - mesh.points[nodes[0]][d];
-  const Eigen::Matrix3d inverse = J.inverse();
-  CornerGradients       result;
+  const Eigen::Matrix<double, 3, 10> X      = positions(mesh, cell);
+  const Eigen::Matrix3d              J      = X.middleCols<3>(1).colwise() - X.col(0);
+  const Eigen::MatrixXd             &slopes = reference_cell(CellKind::tetrahedron).nodes.dN;
+  CornerGradients                    result;
   result.volume = std::abs(J.determinant()) / 6.;
   for (int corner = 0; corner < 4; ++corner)
   {
-    const auto           &dN = reference_integrals().corner_gradients[corner];
-    const Eigen::Matrix3d slope =
-        mesh.is_curved(cell) ? Eigen::Matrix3d((positions(mesh, cell) * dN).inverse()) : inverse;
-    result.of_corner.push_back(dN * slope);
+    const Eigen::Matrix<double, 10, 3> dN = slopes.middleCols<3>(3 * corner);
+    result.of_corner.push_back(dN * (mesh.is_curved(cell) ? Eigen::Matrix3d(X * dN) : J).inverse());
   }
   return result;
 }
 
-/// Trilinear through the 2 x 2 x 2 points of Gauss, where the stresses of this element are best.
-CornerGradients hexahedron_gradients(const QuadraticMesh &mesh, int cell)
+/// Carried on to the corners from the points where the stresses of these elements are best.
+CornerGradients extrapolated_gradients(const QuadraticMesh &mesh, int cell)
 {
-  const hexahedron::Positions X = positions(mesh, cell);
-  CornerGradients             result;
-  result.of_corner.assign(8, CornerGradients::Weights::Zero(hexahedron::n_nodes, 3));
-  for (const auto &point : hexahedron::quadrature(2))
+  const ReferenceCell &reference = reference_cell(mesh.kind(cell));
+  const auto           X         = positions(mesh, cell);
+  CornerGradients      result;
+  result.of_corner.assign(reference.n_corners, CornerGradients::Weights::Zero(reference.n_nodes, 3));
+  for (int k = 0; k < reference.samples.size(); ++k)
   {
-    const Eigen::Matrix3d          J      = hexahedron::jacobian(X, point.dN);
-    const CornerGradients::Weights slopes = point.dN * J.inverse();
-    result.volume += point.weight * J.determinant();
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      // xi_g = +-1/sqrt(3), so that xi_c xi_g / xi_g^2 = 3 xi_c xi_g
-      const Eigen::Array3d xi = hexahedron::node_position(hexahedron::corners[corner]).array() * point.xi.array();
-      result.of_corner[corner] += (0.5 * (1. + 3. * xi)).prod() * slopes;
-    }
+    const CornerGradients::Weights dN     = reference.samples.dN.middleCols<3>(3 * k);
+    const Eigen::Matrix3d          J      = X * dN;
+    const CornerGradients::Weights slopes = dN * J.inverse();
+    for (int corner = 0; corner < reference.n_corners; ++corner)
+      result.of_corner[corner] += reference.to_corners(k, corner) * slopes;
   }
+  for (int k = 0; k < reference.rule.size(); ++k)
+    result.volume += reference.rule.weight[k] * (X * reference.rule.dN.middleCols<3>(3 * k)).determinant();
   return result;
 }
 
@@ -195,16 +187,16 @@ private:
 
   void add(int cell)
   {
-    const int              *nodes   = mesh_.nodes(cell);
-    const std::vector<int> &corners = reference_cell(mesh_).corners;
-    if (std::none_of(corners.begin(), corners.end(), [&](int corner) { return on_skin_[nodes[corner]]; }))
+    const int *nodes     = mesh_.nodes(cell);
+    const int  n_corners = reference_cell(mesh_.kind(cell)).n_corners;
+    if (std::none_of(nodes, nodes + n_corners, [&](int node) { return on_skin_[node]; }))
       return;
-    const CornerGradients gradients =
-        mesh_.hexahedra.empty() ? tetrahedron_gradients(mesh_, cell) : hexahedron_gradients(mesh_, cell);
-    const Lame moduli = lame(material_of_(cell));
-    for (std::size_t corner = 0; corner < corners.size(); ++corner)
+    const CornerGradients gradients = mesh_.kind(cell) == CellKind::tetrahedron ? tetrahedron_gradients(mesh_, cell)
+                                                                                : extrapolated_gradients(mesh_, cell);
+    const Lame            moduli    = lame(material_of_(cell));
+    for (int corner = 0; corner < n_corners; ++corner)
     {
-      const auto point = point_of_.find({nodes[corners[corner]], moduli[0], moduli[1]});
+      const auto point = point_of_.find({nodes[corner], moduli[0], moduli[1]});
       if (point == point_of_.end())
         continue;
       const int   i       = point->second;
@@ -244,10 +236,10 @@ private:
       for (int cell = 0; cell < mesh_.n_cells(); ++cell)
       {
         const int *nodes = mesh_.nodes(cell);
-        if (std::none_of(nodes, nodes + mesh_.nodes_per_cell(), [&](int node) { return held[node]; }))
+        if (std::none_of(nodes, nodes + mesh_.n_nodes_of(cell), [&](int node) { return held[node]; }))
           continue;
         const Lame moduli = lame(material_of_(cell));
-        for (const int k : reference_cell(mesh_).corners)
+        for (int k = 0; k < reference_cell(mesh_.kind(cell)).n_corners; ++k)
           if (const auto point = point_of_.find({nodes[k], moduli[0], moduli[1]});
               point != point_of_.end() && result_.beside[point->second] < 0)
             result_.beside[point->second] = static_cast<int>(r);

@@ -21,10 +21,11 @@ using RigidNodes = std::vector<std::pair<std::string, std::vector<int>>>;
  *
  * In a quadratic tetrahedron with straight sides the gradient of the displacement is linear.  The line through the
  * points of Gauss, from which finite element programs extrapolate to the corners, is therefore the field itself, and it
- * is taken at the corner directly.  In a hexahedron of 27 nodes it is carried on to the corners trilinearly from the 2
- * x 2 x 2 points of Gauss, where it is best.  Cells of one material that meet in a point are averaged by their volumes,
- * cells of different materials never.  The error falls with the square of the size of the cells, and a displacement
- * that is quadratic in x, so that the stress is linear, has none.
+ * is taken at the corner directly.  In a hexahedron it is carried on to the corners trilinearly from the 2 x 2 x 2
+ * points of Gauss, where it is best; in a prism from 3 points of the triangle times 2 of Gauss, linearly in each. Cells
+ * of one material that meet in a point are averaged by their volumes, cells of different materials never.  The error
+ * falls with the square of the size of the cells, and a displacement that is quadratic in x, so that the stress is
+ * linear, has none.
  *
  * @param material_of  of a cell.
  */

@@ -2,8 +2,8 @@
 // CalculiX.
 #include "coupling/eigensolvers/blas_threads.h"
 #include "coupling/reduction/craig_bampton.h"
+#include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/supports.h"
-#include "fem/mesh/hexahedral_mesh.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
 
@@ -65,7 +65,7 @@ std::array<int, 10> order_of_calculix(const fem::QuadraticMesh &mesh)
 
 void write_deck(const std::string &file, const fem::Mesh &mesh, const fem::FrameSpecification &frame, int n_modes)
 {
-  const fem::QuadraticMesh quadratic = fem::number_nodes(mesh);
+  const fem::QuadraticMesh quadratic = fem::quadratic_mesh(mesh);
   const auto               order     = order_of_calculix(quadratic);
   std::ofstream            deck(file);
   deck.precision(13);

@@ -1,58 +1,127 @@
 #include "tests/support/brick_mesh.h"
 
-#include "fem/mesh/hexahedron.h"
-
 #include <algorithm>
+#include <map>
 #include <random>
+#include <vector>
 
 namespace gestell::test
 {
 
-fem::Mesh brick_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double distortion)
+namespace
 {
-  fem::Mesh                              mesh;
-  std::vector<std::array<int, 3>>        grid;
-  std::mt19937                           generator(1);
-  std::uniform_real_distribution<double> shift(-distortion, distortion);
-  for (int k = 0; k <= n[2]; ++k)
-    for (int j = 0; j <= n[1]; ++j)
-      for (int i = 0; i <= n[0]; ++i)
-      {
-        const std::array<int, 3> at = {i, j, k};
-        fem::Point3              x{};
-        const bool               inside = i > 0 && i < n[0] && j > 0 && j < n[1] && k > 0 && k < n[2];
-        for (int d = 0; d < 3; ++d)
-          x[d] = size[d] / n[d] * (at[d] + (inside ? shift(generator) : 0.));
-        grid.push_back(at);
-        mesh.points.push_back(x);
-      }
 
-  const auto point = [&](int i, int j, int k) { return i + (n[0] + 1) * (j + (n[1] + 1) * k); };
+using Grid = std::vector<std::array<int, 3>>;
+
+/// Points of the grid, those that cells use, and the cells.
+class Builder
+{
+public:
+  Builder(const std::array<int, 3> &n, const std::array<double, 3> &size, double distortion) : n_(n)
+  {
+    std::mt19937                           generator(1);
+    std::uniform_real_distribution<double> shift(-distortion, distortion);
+    for (int k = 0; k <= n[2]; ++k)
+      for (int j = 0; j <= n[1]; ++j)
+        for (int i = 0; i <= n[0]; ++i)
+        {
+          const std::array<int, 3> at     = {i, j, k};
+          const bool               inside = i > 0 && i < n[0] && j > 0 && j < n[1] && k > 0 && k < n[2];
+          fem::Point3              x{};
+          for (int d = 0; d < 3; ++d)
+            x[d] = size[d] / n[d] * (at[d] + (inside ? shift(generator) : 0.));
+          grid_.push_back(at);
+          mesh.points.push_back(x);
+        }
+  }
+
+  void fill(int i, int j, int k, fem::CellKind kind)
+  {
+    const auto               point = [&](int a, int b, int c) { return a + (n_[0] + 1) * (b + (n_[1] + 1) * c); };
+    const std::array<int, 8> brick = {
+        point(i, j, k),     point(i + 1, j, k),     point(i + 1, j + 1, k),     point(i, j + 1, k),
+        point(i, j, k + 1), point(i + 1, j, k + 1), point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)};
+    const auto of = [&](int corner) { return brick[corner]; };
+    if (kind == fem::CellKind::hexahedron)
+      mesh.hexahedra.push_back(brick);
+    else if (kind == fem::CellKind::prism)
+    {
+      mesh.prisms.push_back({of(0), of(1), of(2), of(4), of(5), of(6)});
+      mesh.prisms.push_back({of(0), of(2), of(3), of(4), of(6), of(7)});
+    }
+    else
+      for (const auto &[a, b, c, d] : fem::cell_shape(fem::CellKind::hexahedron).pieces)
+        mesh.cells.push_back({of(a), of(b), of(c), of(d)});
+  }
+
+  void add_skin()
+  {
+    std::map<std::vector<int>, std::vector<std::vector<int>>> faces; // sorted corners to the faces that have them
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      for (std::vector<int> face : fem::cell_shape(mesh.kind(cell)).faces)
+      {
+        for (int &corner : face)
+          corner = mesh.corners(cell)[corner];
+        std::vector<int> key = face;
+        std::sort(key.begin(), key.end());
+        faces[key].push_back(face);
+      }
+    for (const std::size_t n : {4u, 3u})
+      for (const auto &entry : faces)
+        if (entry.second.size() == 1 && entry.first.size() == n)
+          add(entry.second.front());
+    mesh.cell_solid.assign(mesh.n_cells(), 0);
+    mesh.solids = {"box"};
+  }
+
+  fem::Mesh mesh;
+
+private:
+  void add(const std::vector<int> &face)
+  {
+    const int first = static_cast<int>(mesh.skin.size());
+    mesh.skin.push_back({face[0], face[1], face[2]});
+    if (face.size() == 4)
+    {
+      mesh.skin_quads.push_back({face[0], face[1], face[2], face[3]});
+      mesh.skin.push_back({face[0], face[2], face[3]});
+    }
+    for (int d = 0; d < 3; ++d)
+      for (const int end : {0, n_[d]})
+        if (std::all_of(face.begin(), face.end(), [&](int point) { return grid_[point][d] == end; }))
+          for (std::size_t triangle = first; triangle < mesh.skin.size(); ++triangle)
+            mesh.surfaces[std::string(1, "xyz"[d]) + (end == 0 ? "0" : "1")].push_back(static_cast<int>(triangle));
+  }
+
+  std::array<int, 3> n_;
+  Grid               grid_;
+};
+
+} // namespace
+
+fem::Mesh filled_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, const Filling &filling,
+                      double distortion)
+{
+  Builder builder(n, size, distortion);
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-      {
-        const std::array<int, 8> cell = {
-            point(i, j, k),     point(i + 1, j, k),     point(i + 1, j + 1, k),     point(i, j + 1, k),
-            point(i, j, k + 1), point(i + 1, j, k + 1), point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)};
-        mesh.hexahedra.push_back(cell);
-        for (const auto &face : fem::hexahedron::faces)
-          for (int d = 0; d < 3; ++d)
-            for (const int end : {0, n[d]})
-              if (std::all_of(face.begin(), face.end(), [&](int c) { return grid[cell[c]][d] == end; }))
-              {
-                const int first         = static_cast<int>(mesh.skin.size());
-                const auto [a, b, c, e] = face;
-                mesh.skin_quads.push_back({cell[a], cell[b], cell[c], cell[e]});
-                mesh.skin.push_back({cell[a], cell[b], cell[c]});
-                mesh.skin.push_back({cell[a], cell[c], cell[e]});
-                auto &surface = mesh.surfaces[std::string(1, "xyz"[d]) + (end == 0 ? "0" : "1")];
-                surface.insert(surface.end(), {first, first + 1});
-              }
-      }
-  mesh.cell_solid.assign(mesh.hexahedra.size(), 0);
-  mesh.solids = {"box"};
-  return mesh;
+        if (const auto kind = filling(i, j, k))
+          builder.fill(i, j, k, *kind);
+  builder.add_skin();
+  return builder.mesh;
+}
+
+fem::Mesh brick_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double distortion)
+{
+  return filled_mesh(
+      n, size, [](int, int, int) { return fem::CellKind::hexahedron; }, distortion);
+}
+
+fem::Mesh prism_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double distortion)
+{
+  return filled_mesh(
+      n, size, [](int, int, int) { return fem::CellKind::prism; }, distortion);
 }
 
 } // namespace gestell::test

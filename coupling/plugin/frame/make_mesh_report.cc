@@ -86,6 +86,21 @@ std::vector<std::string> features_of(const fem::GeometryReport &geometry)
   return lines;
 }
 
+/// "tetrahedra", or of several kinds "cells (12 tetrahedra, 8 prisms)".
+std::string kinds_of(const fem::GeometryReport &geometry)
+{
+  const std::array<std::string, 3> names = {"tetrahedra", "hexahedra", "prisms"};
+  std::string                      counts, last;
+  int                              n = 0;
+  for (std::size_t kind = 0; kind < names.size(); ++kind)
+    if (geometry.n_of_kind[kind] > 0)
+    {
+      counts += (n++ > 0 ? ", " : "") + std::to_string(geometry.n_of_kind[kind]) + " " + names[kind];
+      last = names[kind];
+    }
+  return n == 1 ? last : "cells (" + counts + ")";
+}
+
 } // namespace
 
 MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &progress)
@@ -95,7 +110,7 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
   report.n_points       = geometry.n_points;
   report.n_cells        = geometry.n_cells;
   report.n_coordinates  = geometry.n_coordinates;
-  report.cells          = geometry.hexahedra ? "hexahedra" : "tetrahedra";
+  report.cells          = kinds_of(geometry);
   report.size           = geometry.size;
   report.volume         = geometry.volume;
   report.mass           = geometry.volume * frame.material.rho;

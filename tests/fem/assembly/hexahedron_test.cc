@@ -1,6 +1,6 @@
 #include "fem/assembly/elasticity.h"
+#include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/rigid_motions.h"
-#include "fem/mesh/hexahedral_mesh.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
@@ -41,7 +41,7 @@ Eigen::SparseMatrix<double> free_matrix(const fem::BlockMatrix &A, int n_nodes)
 TEST(Hexahedra, PassThePatchTestHoweverDistorted)
 {
   // A linear displacement has constant stress: no force on inner nodes, and the energy V eps : C : eps.
-  const auto      quadratic = fem::hexahedral_nodes(brick_mesh({3, 3, 3}, {1., 2., 0.5}, 0.25));
+  const auto      quadratic = fem::quadratic_mesh(brick_mesh({3, 3, 3}, {1., 2., 0.5}, 0.25));
   const auto      C = free_matrix(fem::assemble_stiffness(quadratic, all_of(quadratic, steel)), quadratic.n_nodes());
   Eigen::Matrix3d H;
   H << 1., 0.4, -0.2, 0.1, -0.5, 0.3, 0.6, 0.2, 0.8;
@@ -51,7 +51,9 @@ TEST(Hexahedra, PassThePatchTestHoweverDistorted)
   {
     const auto &x = quadratic.points[i];
     if (x[0] > 1e-9 && x[0] < 1. - 1e-9 && x[1] > 1e-9 && x[1] < 2. - 1e-9 && x[2] > 1e-9 && x[2] < 0.5 - 1e-9)
+    {
       EXPECT_LT(f.segment<3>(3 * i).norm(), 1e-10 * f.cwiseAbs().maxCoeff());
+    }
   }
   const Eigen::Matrix3d eps    = 0.5 * (H + H.transpose());
   const double          lambda = steel.E * steel.nu / ((1. + steel.nu) * (1. - 2. * steel.nu));
@@ -62,7 +64,7 @@ TEST(Hexahedra, PassThePatchTestHoweverDistorted)
 
 TEST(Hexahedra, LetRigidMotionsPassWithoutEnergyAndWeighWhatTheyShould)
 {
-  const auto quadratic = fem::hexahedral_nodes(brick_mesh({2, 3, 2}, {1., 2., 0.5}, 0.2));
+  const auto quadratic = fem::quadratic_mesh(brick_mesh({2, 3, 2}, {1., 2., 0.5}, 0.2));
   const auto C         = free_matrix(fem::assemble_stiffness(quadratic, all_of(quadratic, steel)), quadratic.n_nodes());
   const auto M         = free_matrix(fem::assemble_mass(quadratic, all_of(quadratic, steel)), quadratic.n_nodes());
   const Eigen::MatrixXd R = fem::rigid_displacements(quadratic, Eigen::Vector3d::Zero());
@@ -143,7 +145,7 @@ TEST(Hexahedra, ThatFoldAreRefused)
 {
   auto mesh      = brick_mesh({1, 1, 1}, {1., 1., 1.});
   mesh.points[7] = {-1., -1., -1.};
-  EXPECT_NE(refusal([&] { fem::hexahedral_nodes(mesh); }).find("folds"), std::string::npos);
+  EXPECT_NE(refusal([&] { fem::quadratic_mesh(mesh); }).find("folds"), std::string::npos);
 }
 
 } // namespace

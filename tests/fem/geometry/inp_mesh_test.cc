@@ -161,8 +161,48 @@ TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
                     HasSubstr("mesh.inp holds 6 tetrahedra, 1 pyramids, 1 prisms "
                               "(wedges) and 1 hexahedra, but a mesh must be of"),
                     HasSubstr("Abaqus: C3D10")));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D15\n1, 1,2,3,5,6,7,1,1,1,1,1,1,1,1,1\n"),
-              HasSubstr("holds 1 prisms (wedges), but"));
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D5\n1, 1,2,4,3,5\n"),
+              AllOf(HasSubstr("holds 1 pyramids, but"), HasSubstr("Mesh it with tetrahedra alone")));
+}
+
+/// Lower half of the cube along the diagonal of x and y, corners 1 2 4 and 5 6 8, with its middle nodes.
+std::string quadratic_prism(double bulge)
+{
+  std::ostringstream text;
+  text << "*NODE\n9, .5," << -bulge << ",0\n10, 1,.5,0\n11, .5,.5,0\n12, .5,0,1\n13, 1,.5,1\n14, .5,.5,1\n"
+       << "15, 0,0,.5\n16, 1,0,.5\n17, 1,1,.5\n*ELEMENT, TYPE=C3D15\n1, 1,2,4,5,6,8,9,10,11,12,13,14,15,16,17\n";
+  return nodes_of_cube(1, 0.) + text.str();
+}
+
+TEST(InpMesh, OfPrismsIsTakenLinearOrQuadraticWithTheirFacesAsSurfaces)
+{
+  const std::string both = quadratic_prism(0.) +
+                           "*ELEMENT, TYPE=C3D6\n2, 1,4,3,5,8,7\n*SURFACE, NAME=TOP\n1, S2\n2, S2\n"
+                           "*SURFACE, NAME=FRONT\n1, S3\n";
+  FrameSpecification s = specification(write_text("prisms.inp", both), 0.);
+  s.surfaces["top"]    = group("TOP");
+  s.surfaces["front"]  = group("FRONT");
+  const Mesh mesh      = make_mesh(s);
+  EXPECT_EQ(mesh.prisms.size(), 2u);
+  EXPECT_EQ(mesh.points.size(), 8u);
+  EXPECT_TRUE(mesh.notes.empty());
+  EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-14);
+  EXPECT_NEAR(norm(area_vector(mesh, "front") - Vector3{0., -1., 0.}), 0., 1e-14);
+  const Mesh bulged = make_mesh(specification(write_text("bulged.inp", quadratic_prism(0.05)), 0.));
+  EXPECT_THAT(bulged.notes, Contains(AllOf(HasSubstr("straight edges"), HasSubstr("up to 50 mm"))));
+}
+
+TEST(InpMesh, TakesTetrahedraUponPrismsButNotUponTheirQuadrilaterals)
+{
+  const std::string prism = nodes_of_cube(1, 0.) +
+                            "*NODE\n9, .5,.2,2\n10, .5,-1,.5\n*ELEMENT, TYPE=C3D6\n1, 1,2,4,5,6,8\n"
+                            "*ELEMENT, TYPE=C3D4\n2, 5,6,8,9\n";
+  const Mesh mesh = make_mesh(specification(write_text("upon.inp", prism), 0.));
+  EXPECT_EQ(mesh.prisms.size(), 1u);
+  EXPECT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.skin.size(), 10u) << "a triangle and three quadrilaterals of the prism, three of the tetrahedron";
+  EXPECT_THAT(told_of(prism + "3, 1,2,6,10\n"),
+              AllOf(HasSubstr("1 triangles of cells lie on quadrilaterals"), HasSubstr("displacements would part")));
 }
 
 TEST(InpMesh, OfHexahedraIsTaken)

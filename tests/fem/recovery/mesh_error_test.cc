@@ -1,4 +1,4 @@
-#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/assembly/quadratic_mesh.h"
 #include "fem/mesh/wall_thickness.h"
 #include "fem/recovery/discretisation.h"
 #include "fem/recovery/refinement.h"
@@ -20,7 +20,7 @@ const fem::Material steel = free_steel().material;
 
 fem::MeshError free_error(const fem::Mesh &mesh)
 {
-  const auto quadratic = fem::number_nodes(mesh);
+  const auto quadratic = fem::quadratic_mesh(mesh);
   return {quadratic,
           {{steel}, std::vector<int>(quadratic.n_cells(), 0)},
           fem::Kinematics(fem::Constraints(quadratic.n_nodes()))};

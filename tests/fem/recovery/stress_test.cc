@@ -1,6 +1,6 @@
 #include "fem/recovery/skin_stress.h"
 
-#include "fem/mesh/hexahedral_mesh.h"
+#include "fem/assembly/quadratic_mesh.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
@@ -53,7 +53,7 @@ Vector3d place(const fem::FrameMatrices &frame, std::size_t i)
 template <typename Field>
 VectorXd nodal(const fem::Mesh &mesh, const Field &field)
 {
-  const auto nodes = fem::number_nodes(mesh).points;
+  const auto nodes = fem::quadratic_mesh(mesh).points;
   VectorXd   q(3 * nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     q.segment<3>(3 * Eigen::Index(i)) = field(Vector3d(nodes[i].data()));
