@@ -50,6 +50,8 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
       table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "fixed-interface"
           ? coupling::InnerModes::interface_held
           : coupling::InnerModes::interface_free;
+  request.options.eigensolver =
+      table->choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, request.options.eigensolver);
   request.options.inertia_relief = table->boolean("inertia_relief", false);
   return request;
 }

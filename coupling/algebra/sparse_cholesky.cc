@@ -154,6 +154,11 @@ SparseCholesky SparseCholesky::without_numbers(const Eigen::SparseMatrix<double>
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available)
     : SparseCholesky(without_numbers(A, held))
 {
+  factorise(A, available);
+}
+
+void SparseCholesky::factorise(const Eigen::SparseMatrix<double> &A, double available)
+{
   Factor      &f      = *factor_;
   const Fronts fronts = f.fronts();
   const double needed = sizeof(double) * (double(f.L.size()) + double(multifrontal_workspace(fronts)));

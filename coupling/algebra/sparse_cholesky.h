@@ -61,6 +61,9 @@ public:
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
 
+  /// The numbers of L, for A with the pattern this was analysed with, both triangles; as the constructor otherwise.
+  void factorise(const Eigen::SparseMatrix<double> &A, double available = INFINITY);
+
   int size() const;
 
   /// X <- A^-1 X for all columns.

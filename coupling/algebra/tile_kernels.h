@@ -1,7 +1,7 @@
 // Included by sources that are compiled for different processors: everything here is theirs alone.
 #pragma once
 
-#include "coupling/algebra/triangular_solve_kernels.h"
+#include "coupling/algebra/kernel_types.h"
 
 namespace gestell::coupling
 {

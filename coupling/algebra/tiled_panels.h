@@ -1,8 +1,8 @@
 #pragma once
 
+#include "coupling/algebra/kernel_types.h"
 #include "coupling/algebra/large_array.h"
 #include "coupling/algebra/multifrontal.h"
-#include "coupling/algebra/triangular_solve_kernels.h"
 
 #include <algorithm>
 #include <cstddef>

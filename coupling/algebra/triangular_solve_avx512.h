@@ -1,11 +1,11 @@
 #pragma once
 
-#include "coupling/algebra/triangular_solve_kernels.h"
+#include "coupling/algebra/kernel_types.h"
 
 namespace gestell::coupling
 {
 
-/// Those of tile_sweeps.h for processors with AVX-512 alone.
+/// Those of tile_kernels.h for processors with AVX-512 alone.
 const TriangularSolveKernels &avx512_triangular_solve_kernels();
 const AlgebraKernels         &avx512_block_algebra();
 

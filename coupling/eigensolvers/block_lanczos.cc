@@ -78,6 +78,14 @@ std::vector<int> all_of(int n)
 
 } // namespace
 
+void InverseStiffness::solve_columns(Eigen::Ref<MatrixXd> X) const
+{
+  MultiVector block(int(X.rows()), int(X.cols()));
+  block.take(X, order());
+  solve_in_place(block);
+  block.give(X, order());
+}
+
 InverseByColumns::InverseByColumns(int n, Solve solve) : solve_(std::move(solve)), order_(all_of(n)) {}
 
 void InverseByColumns::solve_in_place(MultiVector &X) const
@@ -88,7 +96,7 @@ void InverseByColumns::solve_in_place(MultiVector &X) const
   X.take(columns, order_);
 }
 
-BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
+BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr<const InverseStiffness> inverse,
                            const Options &options, const LowestModes &known)
     : inverse_(std::move(inverse)), M_(M, inverse_->order(), inverse_->held()), options_(options), n_(int(M.rows())),
       Q_(n_)
@@ -282,13 +290,18 @@ void BlockLanczos::find(int count)
   }
 }
 
-LowestModes BlockLanczos::modes(int count) const
+LowestModes BlockLanczos::values(int count) const
 {
   if (count > n_found())
     throw std::logic_error("BlockLanczos::modes: only " + std::to_string(n_found()) + " are found");
   const VectorXd share = residual_.head(count).cwiseQuotient(theta_.head(count));
-  LowestModes    found{theta_.head(count).cwiseSqrt().cwiseInverse(), MatrixXd(),
-                    0.5 * (share.array() / (1. - share.array())).matrix()};
+  return {theta_.head(count).cwiseSqrt().cwiseInverse(), MatrixXd(),
+          0.5 * (share.array() / (1. - share.array())).matrix()};
+}
+
+LowestModes BlockLanczos::modes(int count) const
+{
+  LowestModes found = values(count);
   Q_.give(S_.leftCols(count), inverse_->order(), found.V);
   return found;
 }

@@ -2,7 +2,6 @@
 
 #include "coupling/algebra/multivector.h"
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/algebra/triangular_solve_kernels.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -26,7 +25,17 @@ public:
   /// Coordinates (ascending) without motion.
   virtual const std::vector<int> &held() const = 0;
 
+  /// X [coordinates x k] <- C^-1 X.
+  virtual void solve_columns(Eigen::Ref<Eigen::MatrixXd> X) const;
+
   // Where several processes have rows of X each, all of them do the same at the same time:
+
+  /// The first coordinates here are this process' own, those behind them another's.
+  virtual int owned() const { return int(order().size()); }
+  /// X [coordinates x k]: where another owns them, motions as they are there.
+  virtual void complete(Eigen::MatrixXd &) const {}
+  /// The same for loads: what lies here on another's coordinates is added there.
+  virtual void add_up(Eigen::MatrixXd &) const {}
 
   /// Coordinates, those of other processes included.
   virtual int size() const { return int(order().size()); }
@@ -48,6 +57,7 @@ public:
   {
   }
   void                    solve_in_place(MultiVector &X) const override { factor_.solve_in_place(X); }
+  void                    solve_columns(Eigen::Ref<Eigen::MatrixXd> X) const override { factor_.solve_in_place(X); }
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return held_; }
 
@@ -63,6 +73,7 @@ public:
   using Solve = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
   InverseByColumns(int n, Solve solve);
   void                    solve_in_place(MultiVector &X) const override;
+  void                    solve_columns(Eigen::Ref<Eigen::MatrixXd> X) const override { solve_(X); }
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return none_; }
 
@@ -135,15 +146,17 @@ public:
   /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; of several processes each has a
   ///               part, whose sum is the whole.
   /// @param known  modes found elsewhere: part of the space from the start.
-  BlockLanczos(const Eigen::SparseMatrix<double> &M, std::unique_ptr<const InverseStiffness> inverse,
+  BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr<const InverseStiffness> inverse,
                const Options &options, const LowestModes &known = {});
 
   void        find(int count) override;
   LowestModes modes(int count) const override;
   Gap         gap_above(int count) const override;
+  LowestModes values(int count) const; ///< modes() without V
 
-  int n_found() const;                           ///< in an unbroken sequence from the lowest
-  int n_vectors() const { return Q_.columns(); } ///< of the space
+  int  n_found() const;                           ///< in an unbroken sequence from the lowest
+  int  n_vectors() const { return Q_.columns(); } ///< of the space
+  bool exhausted() const { return exhausted_; }   ///< the space has the whole range of M
 
 private:
   Eigen::MatrixXd product(const MultiVector &X, const MultiVector &MX) const;
@@ -155,7 +168,7 @@ private:
   void            solve_projected();
   int             gap_index(int count) const;
 
-  std::unique_ptr<const InverseStiffness> inverse_;
+  std::shared_ptr<const InverseStiffness> inverse_;
   ReorderedMatrix                         M_;
   Options                                 options_;
   int                                     n_, room_;      // rows here, and vectors of the space at most

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduction_options.h"
+#include "fem/values/frame_matrices.h"
+#include "fem/values/frame_specification.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "coupling/machine/sparse_base.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/algebra/subspace_modes.h"
+#include "coupling/eigensolvers/sparse_modes.h"
 
 #include <Eigen/Cholesky>
 
@@ -129,7 +129,7 @@ std::vector<SpectrumLine> SparseBase::spectrum() const
   if (C_.nonZeros() == 0) // bodies that nothing but joints and elements hold
     return std::vector<SpectrumLine>(size(), SpectrumLine{0., 0.});
   const bool dense = size() <= dense_limit;
-  const auto modes = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : subspace_modes(C_, M_, lowest_lines, 1e-6);
+  const auto modes = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : sparse_modes(C_, M_, lowest_lines);
 
   std::vector<SpectrumLine> lines;
   for (Eigen::Index j = 0; j < modes.omega.size(); ++j)

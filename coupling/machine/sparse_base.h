@@ -32,7 +32,7 @@ public:
   /// @throws std::invalid_argument if the sparse part of A is not positive definite, naming the coordinate by its index
   std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const override;
 
-  /// All modes up to 600 coordinates; beyond, the twenty lowest (see subspace_modes()) and one line for the highest,
+  /// All modes up to 600 coordinates; beyond, the twenty lowest (see sparse_modes()) and one line for the highest,
   /// with an upper bound of its frequency by Gershgorin's circles and no damping.
   std::vector<SpectrumLine> spectrum() const override;
 

@@ -171,6 +171,17 @@ fem::SparseMatrix DividedFactor::own_M() const
   return additive_part(*on_first_.M, coordinates_, n_own(), true);
 }
 
+fem::SparseMatrix DividedFactor::own_C() const
+{
+  if (ranks_.first())
+    return additive_part(*on_first_.C, coordinates_, n_own(), true);
+  SparseMatrix lower(n_rows(), n_rows());
+  lower.leftCols(n_own()) = C_.leftCols(n_own()); // without the diagonal of the border
+  SparseMatrix full       = lower.selfadjointView<Eigen::Lower>();
+  full.makeCompressed();
+  return full;
+}
+
 /// Where the matrix that is eliminated has the rows of this rank.
 void DividedFactor::mark_held_rows()
 {
@@ -397,6 +408,26 @@ void DividedFactor::collect(const MatrixXd &rows, Eigen::Ref<MatrixXd> X) const
 }
 
 InverseOnRanks::InverseOnRanks(const DividedFactor &factor) : factor_(factor), order_(counted(factor.n_rows())) {}
+
+/// The border is rank 0's.
+int InverseOnRanks::owned() const
+{
+  return factor_.ranks().first() ? factor_.n_rows() : factor_.n_own();
+}
+
+void InverseOnRanks::complete(MatrixXd &X) const
+{
+  MatrixXd border = X.bottomRows(X.rows() - factor_.n_own());
+  factor_.ranks().broadcast(border.data(), border.size());
+  X.bottomRows(border.rows()) = border;
+}
+
+void InverseOnRanks::add_up(MatrixXd &X) const
+{
+  MatrixXd border = X.bottomRows(X.rows() - factor_.n_own());
+  factor_.ranks().sum_on_first(border.data(), border.size());
+  X.bottomRows(border.rows()) = border;
+}
 
 void InverseOnRanks::sum(MatrixXd &X) const
 {

@@ -58,6 +58,8 @@ public:
   const std::vector<int> &held() const { return held_; }
   /// This rank's part of M, by its rows.
   fem::SparseMatrix own_M() const;
+  /// The same of C, if it was not given away.
+  fem::SparseMatrix own_C() const;
 
   /// Makes the factor where it is not there.  @returns -1, or the coordinate of a pivot that is not positive, on rank
   /// 0.
@@ -116,6 +118,9 @@ public:
   const std::vector<int> &order() const override { return order_; }
   const std::vector<int> &held() const override { return factor_.held(); }
   int                     size() const override { return factor_.n(); }
+  int                     owned() const override;
+  void                    complete(Eigen::MatrixXd &X) const override;
+  void                    add_up(Eigen::MatrixXd &X) const override;
   void                    sum(Eigen::MatrixXd &X) const override;
   void                    share(Eigen::MatrixXd &X) const override;
   int                     place(int row) const override { return factor_.places()[row]; }

@@ -1,6 +1,7 @@
 #include "coupling/parallel/divided_tasks.h"
 
 #include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/integration/system/second_order_system.h"
 
 #include <map>
@@ -14,8 +15,9 @@ namespace
 
 struct Search
 {
-  const DividedFactor          *factor;
-  std::unique_ptr<BlockLanczos> lanczos;
+  const DividedFactor        *factor = nullptr;
+  fem::SparseMatrix           M, C; // this rank's parts; C but for block Lanczos
+  std::unique_ptr<ModeSearch> modes;
 };
 
 /// What this rank has of factors and searches, by number.  Never destroyed: at the end of the process MPI has ended
@@ -29,6 +31,25 @@ auto &searches()
 {
   static auto *const kept = new std::map<int, Search>;
   return *kept;
+}
+
+/// Of work in which all ranks find the same, so that all fail alike.
+template <typename Work>
+auto agreed(const Work &work)
+{
+  using Kind = fem::AgreedFailure::Kind;
+  try
+  {
+    return work();
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    throw fem::AgreedFailure(Kind::method, failure.what());
+  }
+  catch (const std::invalid_argument &failure)
+  {
+    throw fem::AgreedFailure(Kind::wrong_input, failure.what());
+  }
 }
 
 } // namespace
@@ -79,6 +100,7 @@ void SearchTask::run(const fem::Ranks &ranks)
 {
   ranks.broadcast(number);
   ranks.broadcast(search);
+  ranks.broadcast(eigensolver);
   ranks.broadcast(options);
   const DividedFactor &factor = *factors().at(number);
   int                  count  = known ? int(known->omega.size()) : 0;
@@ -92,33 +114,35 @@ void SearchTask::run(const fem::Ranks &ranks)
     const Eigen::MatrixXd none(0, count);
     factor.deal_out(known ? known->V : none, rows.V);
   }
-  searches()[search] = {
-      &factor, std::make_unique<BlockLanczos>(factor.own_M(), std::make_unique<InverseOnRanks>(factor), options, rows)};
+  Search &made = searches()[search];
+  made.factor  = &factor;
+  made.M       = factor.own_M();
+  if (eigensolver != "block-lanczos")
+    made.C = factor.own_C();
+  made.modes = agreed(
+      [&]
+      {
+        return search_modes(fem::Ranks::comm(),
+                            {std::make_shared<InverseOnRanks>(factor), &made.M, made.C.size() > 0 ? &made.C : nullptr},
+                            eigensolver, options, rows);
+      });
 }
 
-/// All ranks find the same, so that all fail alike.
 void FindTask::run(const fem::Ranks &ranks)
 {
   ranks.broadcast(search);
   ranks.broadcast(count);
-  BlockLanczos &lanczos = *searches().at(search).lanczos;
-  found                 = &lanczos;
-  try
-  {
-    lanczos.find(count);
-  }
-  catch (const ConvergenceFailure &failure)
-  {
-    throw fem::AgreedFailure(fem::AgreedFailure::Kind::method, failure.what());
-  }
+  ModeSearch &modes = *searches().at(search).modes;
+  found             = &modes;
+  agreed([&] { modes.find(count); });
 }
 
 void FoundTask::run(const fem::Ranks &ranks)
 {
   ranks.broadcast(search);
   ranks.broadcast(count);
-  const auto &[factor, lanczos] = searches().at(search);
-  modes                         = lanczos->modes(count);
+  const auto &[factor, M, C, found] = searches().at(search);
+  agreed([&] { modes = found->modes(count); });
   Eigen::MatrixXd V(ranks.first() ? factor->n() : 0, count);
   factor->collect(modes.V, V);
   modes.V = std::move(V);

@@ -3,6 +3,8 @@
 #include "coupling/parallel/divided_factor.h"
 #include "coupling/parallel/team.h"
 
+#include <string>
+
 namespace gestell::coupling
 {
 
@@ -68,6 +70,7 @@ struct SearchTask
 {
   static constexpr RankTask order  = RankTask::search;
   int                       number = 0, search = 0; ///< names the search
+  std::string               eigensolver;
   BlockLanczos::Options     options;
   const LowestModes        *known = nullptr;
   void                      run(const fem::Ranks &ranks);

@@ -18,12 +18,7 @@ enum class RankTask
   search,
   find,
   found,
-  end_search,
-  hold,
-  release,
-  solve,
-  modes,
-  count
+  end_search
 };
 
 /**
@@ -82,8 +77,5 @@ private:
 
   fem::Ranks ranks_;
 };
-
-/// Ranks above 0: the task of this order, with all others.
-void obey(int order);
 
 } // namespace gestell::coupling

@@ -75,11 +75,6 @@ bool TeamFactor::factorise()
   return failed_ < 0;
 }
 
-std::string TeamFactor::failed_at() const
-{
-  return failed_ < 0 ? "" : " at coordinate " + std::to_string(failed_);
-}
-
 void TeamFactor::release()
 {
   ReleaseFactorTask task;
@@ -104,13 +99,15 @@ Inertia TeamFactor::below(double omega) const
   return task.inertia;
 }
 
-std::unique_ptr<ModeSearch> TeamFactor::search(const BlockLanczos::Options &options, const LowestModes &known) const
+std::unique_ptr<ModeSearch> TeamFactor::search(const std::string &eigensolver, const BlockLanczos::Options &options,
+                                               const LowestModes &known) const
 {
   SearchTask task;
-  task.number  = number_;
-  task.search  = Team::next_number();
-  task.options = options;
-  task.known   = &known;
+  task.number      = number_;
+  task.search      = Team::next_number();
+  task.eigensolver = eigensolver;
+  task.options     = options;
+  task.known       = &known;
   return std::make_unique<DividedSearch>(team_, task);
 }
 

@@ -1,31 +1,36 @@
 #pragma once
 
 #include "coupling/parallel/divided_factor.h"
-#include "coupling/parallel/held_by_ranks.h"
 #include "coupling/parallel/team.h"
+
+#include <string>
 
 namespace gestell::coupling
 {
 
 /// Rank 0's hand on a DividedFactor, and on the search for modes by it: each call orders all ranks to do theirs.
-class TeamFactor final : public HeldByRanks
+class TeamFactor
 {
 public:
   /// Divided, not yet factored.  @param matrices must outlive this.
   TeamFactor(const Team &team, const MatricesOnFirst &matrices);
-  ~TeamFactor() override;
+  ~TeamFactor();
   TeamFactor(const TeamFactor &)            = delete;
   TeamFactor &operator=(const TeamFactor &) = delete;
 
-  bool        factorise() override;
-  int         failed() const { return failed_; } ///< coordinate of a pivot that is not positive, or -1
-  std::string failed_at() const override;
-  double      softest() const override { return pivot_ratio_; }
-  void        release() override;
-  void        solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const override;
+  /// Makes the factor where it is not there.  @returns whether all pivots are positive.
+  bool   factorise();
+  int    failed() const { return failed_; } ///< coordinate of a pivot that is not positive, or -1
+  double pivot_ratio() const { return pivot_ratio_; }
+  /// Gives its memory back.
+  void release();
+  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
 
-  Inertia                     below(double omega) const override;
-  std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const override;
+  /// Of C - omega^2 M; works when released, too.
+  Inertia below(double omega) const;
+  /// See search_modes().
+  std::unique_ptr<ModeSearch> search(const std::string &eigensolver, const BlockLanczos::Options &options,
+                                     const LowestModes &known) const;
 
 private:
   const Team &team_;

@@ -1,36 +1,13 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
+#include "coupling/frame/reduction_options.h"
 #include "fem/values/cad_body.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace gestell::coupling
 {
-
-/// The modes that describe the inside of a frame beside the static shapes of its interface.
-enum class InnerModes
-{
-  interface_held, ///< Craig & Bampton
-  interface_free  ///< of the frame as supported: MacNeal, Rubin
-};
-
-struct ReductionOptions
-{
-  int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
-  double      tolerance = 0.01; ///< relative error of the interface's receptance up to `frequency` (automatic number)
-  double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
-  std::string place;            ///< "press.toml:60: reduction", heads messages
-  InnerModes  inner          = InnerModes::interface_held;
-  bool        inertia_relief = false; ///< with the deflections under the inertia of rigid motions beside the modes
-};
-
-/// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
-using Progress = std::function<void(const std::string &phase, double share)>;
 
 struct MeshReport; // coupling/plugin/mesh_report.h
 

@@ -371,7 +371,7 @@ Reduction craig_bampton_with_basis(const fem::FrameMatrices &frame, const Reduct
   const auto q1 = frame.interface_coordinates();
   require_valid(frame, q1, options);
   tell(progress, "factorisation");
-  FixedInterfaceFrame held(frame, q1);
+  FixedInterfaceFrame held(frame, q1, options.eigensolver);
   tell(progress, "constraint modes");
   ReductionBasis basis = basis_without_modes(held, frame, q1);
   Statics        statics{frame.translations.rows() > 0 ? acceleration_load(frame) : MatrixXd(frame.M.rows(), 0),

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/frame/reduction_options.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
-
-namespace gestell::fem
-{
-class RowsOnRanks;
-}
 
 namespace gestell::coupling
 {

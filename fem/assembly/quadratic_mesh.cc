@@ -4,7 +4,7 @@
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/parallel/petsc_session.h"
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>

@@ -4,7 +4,7 @@
 #include "fem/mesh/gmsh_elements.h"
 #include "fem/mesh/mesh_nodes.h"
 #include "fem/mesh/mesh_quality.h"
-#include "fem/values/number_text.h"
+#include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>

@@ -112,10 +112,17 @@ TEST(Includes, OfIntegratorsAndPeriodicSolversKnowNoFrameAndNoMechanism)
 TEST(Includes, OfCouplingLeaveTheHeavyLibrariesToTheReduction)
 {
   EXPECT_TRUE(none(includes_matching(tree(), {"coupling/"},
-                                     {"coupling/reduction/", "coupling/parallel/", "coupling/eigensolvers/",
+                                     {"coupling/reduction/", "coupling/parallel/", "coupling/eigensolvers/slepc/",
                                       "coupling/plugin/frame/", "coupling/plugin/team/"},
                                      heavy)));
   EXPECT_TRUE(none(includes_matching(tree(), {"coupling/"}, {}, "apps/|tests/")));
+}
+
+TEST(Includes, OfPrivateHeadersOfPetscAndSlepcStandInOneFile)
+{
+  const std::string internals = "(petsc|slepc)/private/", door = "coupling/eigensolvers/slepc/registered_types.cc";
+  EXPECT_TRUE(none(includes_matching(tree(), everywhere, {door}, internals)));
+  EXPECT_FALSE(includes_matching(tree(), {door}, {}, internals).empty());
 }
 
 TEST(Includes, GoByThePathFromTheTop)

@@ -1,10 +1,13 @@
 // Frequencies of a clamped CAD frame and the CPU time they took; with --deck the same mesh as an input file of
-// CalculiX.
+// CalculiX, with --eigensolvers by factors and eigensolvers of ours and of PETSc and SLEPc in turn.
 #include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/eigensolvers/slepc/mode_search.h"
+#include "coupling/eigensolvers/slepc/registered_types.h"
 #include "coupling/reduction/craig_bampton.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/supports.h"
 #include "fem/mesh/mesher.h"
+#include "fem/parallel/petsc_session.h"
 #include "fem/recovery/discretisation.h"
 
 #include <ctime>
@@ -122,13 +125,86 @@ void solve(const fem::Mesh &mesh, const fem::FrameSpecification &frame, int n_mo
     std::cout << "frequency " << j + 1 << " [Hz] " << reduced.omega0(j) / 6.283185307179586 << '\n';
 }
 
+/// CPU seconds of `work`, told with its name.
+template <typename Work>
+double tell_time(const std::string &name, const Work &work)
+{
+  const double began = cpu_seconds();
+  work();
+  const double seconds = cpu_seconds() - began;
+  std::cout << "cpu " << name << " [s] " << seconds << std::endl;
+  return seconds;
+}
+
+/// Factor of C by a solver of PETSc, and solutions one by one and eight at once.
+void time_factor(Mat C, const std::string &solver)
+{
+  using coupling::require_petsc;
+  coupling::PetscOwned<Mat> factor;
+  tell_time(solver + ": factor",
+            [&]
+            {
+              Mat           F = nullptr;
+              MatFactorInfo info;
+              MatFactorInfoInitialize(&info);
+              require_petsc(MatGetFactor(C, solver.c_str(), MAT_FACTOR_CHOLESKY, &F), "bench");
+              factor.reset(F);
+              require_petsc(MatCholeskyFactorSymbolic(F, C, nullptr, &info), "bench");
+              require_petsc(MatCholeskyFactorNumeric(F, C, &info), "bench");
+            });
+  for (const int columns : {1, 8})
+  {
+    PetscInt n = 0;
+    MatGetSize(C, &n, nullptr);
+    Mat f = nullptr, x = nullptr;
+    MatCreateSeqDense(PETSC_COMM_SELF, n, columns, nullptr, &f);
+    MatDuplicate(f, MAT_DO_NOT_COPY_VALUES, &x);
+    const coupling::PetscOwned<Mat> loads(f), motions(x);
+    MatSetRandom(f, nullptr);
+    tell_time(solver + ": solution for " + std::to_string(columns),
+              [&] { require_petsc(MatMatSolve(factor.get(), f, x), "bench"); });
+  }
+}
+
+void compare_eigensolvers(const fem::FrameMatrices &frame, int n_modes)
+{
+  fem::petsc_session();
+  coupling::register_own_types();
+  const int n     = int(frame.C.rows());
+  auto     &whole = const_cast<fem::SparseMatrix &>(frame.C); // PETSc promises not to change it
+  Mat       C     = nullptr;
+  MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, whole.outerIndexPtr(), whole.innerIndexPtr(), whole.valuePtr(), &C);
+  const coupling::PetscOwned<Mat> owned(C);
+  MatSetOption(C, MAT_SYMMETRIC, PETSC_TRUE);
+  for (const char *solver : {coupling::own_factor, "cholmod"})
+    time_factor(C, solver);
+
+  std::cout << "coordinates " << n << '\n';
+  const auto search = [&](std::shared_ptr<const coupling::InverseStiffness> inverse, const std::string &eigensolver)
+  {
+    const auto modes =
+        coupling::search_modes(MPI_COMM_SELF, {std::move(inverse), &frame.M, &frame.C}, eigensolver, {}, {});
+    modes->find(n_modes);
+    std::cout << "highest frequency [Hz] " << modes->modes(n_modes).omega(n_modes - 1) / 6.283185307179586 << '\n';
+  };
+  const coupling::SparseCholesky factor(frame.C, {});
+  for (const char *eigensolver : {"block-lanczos", "krylov-schur"})
+    tell_time(std::string("gestell's factor, without it: ") + eigensolver,
+              [&] { search(std::make_shared<coupling::InverseByFactor>(factor), eigensolver); });
+  PetscOptionsSetValue(nullptr, "-reduction_st_pc_factor_mat_solver_type", "cholmod");
+  for (const char *eigensolver : {"block-lanczos", "krylov-schur"})
+    tell_time(std::string("cholmod, with its factor: ") + eigensolver,
+              [&] { search(std::make_shared<coupling::InverseByFactor>(factor), eigensolver); });
+}
+
 } // namespace
 
 int main(int n_arguments, char **arguments)
 {
-  if (n_arguments != 4 && !(n_arguments == 6 && arguments[4] == std::string("--deck")))
+  const std::string wish = n_arguments > 4 ? arguments[4] : "";
+  if (n_arguments != 4 && !(n_arguments == 6 && wish == "--deck") && !(n_arguments == 5 && wish == "--eigensolvers"))
   {
-    std::cerr << "usage: gestell_frame_bench CAD SIZE_IN_M MODES [--deck FILE.inp]\n";
+    std::cerr << "usage: gestell_frame_bench CAD SIZE_IN_M MODES [--deck FILE.inp | --eigensolvers]\n";
     return 2;
   }
   try
@@ -140,6 +216,8 @@ int main(int n_arguments, char **arguments)
     const double                  meshing = cpu_seconds();
     if (n_arguments == 6)
       write_deck(arguments[5], mesh, frame, n_modes);
+    else if (!wish.empty())
+      compare_eigensolvers(fem::discretise(mesh, frame), n_modes);
     else
       solve(mesh, frame, n_modes, meshing);
   }

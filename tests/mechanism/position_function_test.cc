@@ -226,7 +226,8 @@ TEST(ProfileMotion, IsTheIntegralOfItsSpeed)
   using Ramp = Profile::Ramp;
   const Profile       speed("speed", 1., {Ramp{0.5, 3., 4., 20.}, Ramp{3., -1., 2., Profile::unlimited}});
   const ProfileMotion motion(speed);
-  double              history[2];
+  std::vector<double> state(motion.n_history());
+  double *const       history = state.data();
   motion.start(0.2, history);
   EXPECT_EQ(motion.at(0.2, history).value, 0.);
   double last = 0., t_last = 0.2;

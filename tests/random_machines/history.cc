@@ -23,7 +23,7 @@ std::string at_time(const std::string &what, double t)
 
 History::History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary,
                  bool accurate)
-    : machine_(machine), way_(way), dense_(dense), summary_(summary), accurate_()
+    : machine_(machine), way_(way), dense_(dense), summary_(summary), accurate_(accurate)
 {
 }
 

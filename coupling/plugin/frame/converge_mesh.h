@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/frame/mesh_convergence.h"
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduction_options.h"
 #include "fem/values/frame_specification.h"
 
 namespace gestell::coupling

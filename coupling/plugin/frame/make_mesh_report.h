@@ -1,7 +1,8 @@
 #pragma once
 
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduction_options.h"
 #include "coupling/plugin/mesh_report.h"
+#include "fem/values/frame_specification.h"
 
 namespace gestell::coupling
 {

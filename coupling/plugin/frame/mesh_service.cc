@@ -2,8 +2,8 @@
 
 #include "coupling/eigensolvers/blas_threads.h"
 #include "coupling/plugin/frame/converge_mesh.h"
+#include "coupling/plugin/frame/mesh_statement.h"
 #include "coupling/reduction/craig_bampton.h"
-#include "coupling/reduction/estimates/mesh_statement.h"
 #include "fem/assembly/attached_masses.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"

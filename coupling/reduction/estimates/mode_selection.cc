@@ -1,6 +1,6 @@
 #include "coupling/reduction/estimates/mode_selection.h"
 
-#include "coupling/reduction/shapes/damper_attachment_modes.h"
+#include "coupling/reduction/estimates/damper_attachment_modes.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 

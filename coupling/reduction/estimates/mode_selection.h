@@ -1,9 +1,9 @@
 #pragma once
 
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduction_options.h"
+#include "coupling/reduction/estimates/damper_attachment_modes.h"
 #include "coupling/reduction/estimates/interface_receptance.h"
 #include "coupling/reduction/estimates/refined_modes.h"
-#include "coupling/reduction/shapes/damper_attachment_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_modes.h"
 
 #include <string>

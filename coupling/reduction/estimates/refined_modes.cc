@@ -73,6 +73,13 @@ RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &s
   return modes;
 }
 
+RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
+{
+  const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
+  const auto       elastic = ritz.omega.size() - n_rigid;
+  return {n_rigid, ritz.omega.tail(elastic), star.M * ritz.V.rightCols(elastic)};
+}
+
 FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const RefinedModes &refined)
 {
   const int         n = n1 + m;

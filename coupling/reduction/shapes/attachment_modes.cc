@@ -1,7 +1,5 @@
 #include "coupling/reduction/shapes/attachment_modes.h"
 
-#include "coupling/algebra/dense_modes.h"
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -65,13 +63,6 @@ MatrixXd inertia_relief_shapes(const FixedInterfaceFrame &held, const fem::Frame
   for (const int i : q1)
     load.row(i).setZero();
   return load;
-}
-
-RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
-{
-  const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
-  const auto       elastic = ritz.omega.size() - n_rigid;
-  return {n_rigid, ritz.omega.tail(elastic), star.M * ritz.V.rightCols(elastic)};
 }
 
 } // namespace gestell::coupling

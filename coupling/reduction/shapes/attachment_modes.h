@@ -1,7 +1,5 @@
 #pragma once
 
-#include "coupling/plugin/frame_service.h"
-#include "coupling/reduction/estimates/refined_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 
@@ -20,10 +18,6 @@ namespace gestell::coupling
  * @return       number of modes appended, at most k.
  */
 int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &frame, Eigen::MatrixXd W);
-
-/// The elastic modes of the reduced model itself, behind n_rigid rigid motions: where its shapes are no modes of the
-/// held frame, for damping and as what its frequencies are compared with.
-RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
 /**
  * Inertia relief: the static deflections of the inside under the inertia of rigid motions,

@@ -1,13 +1,13 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 
+#include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/parallel/team_factor.h"
-#include "coupling/parallel/team_held_frame.h"
 #include "coupling/reduction/shapes/rigid_body_modes.h"
 #include "fem/mesh/memory_estimate.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -48,11 +48,12 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
   return lower;
 }
 
-[[noreturn]] void refuse_indefinite(const std::string &where)
+[[noreturn]] void refuse_indefinite(int coordinate)
 {
   throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
-                              "definite" +
-                              where + "; it must be symmetric with positive energy for every motion");
+                              "definite at coordinate " +
+                              std::to_string(coordinate) +
+                              "; it must be symmetric with positive energy for every motion");
 }
 
 std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
@@ -67,7 +68,7 @@ std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, con
   catch (const NotPositiveDefinite &failure)
   {
     require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
-    refuse_indefinite(" at coordinate " + std::to_string(failure.row));
+    refuse_indefinite(failure.row);
   }
 }
 
@@ -82,30 +83,24 @@ void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
                                 " at most, or mesh more finely.  Some thousand cells per rank are worth the effort.");
 }
 
-/// In place of what is built in: MUMPS, and SLEPc for the modes.
-bool wants_mumps()
-{
-  const char *const wish = std::getenv("GESTELL_FACTOR");
-  return wish && wish == std::string("mumps");
-}
-
 } // namespace
 
-FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-    : frame_(frame), q1_(q1)
+FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                                         std::string eigensolver)
+    : frame_(frame), q1_(q1), eigensolver_(std::move(eigensolver)), team_(on_ranks(q1))
 {
-  if (const Team *team = Team::of_this_run())
-    team_ = held_by(*team, q1);
   factorise();
 }
 
+/// None in one process.
 /// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
-std::unique_ptr<HeldByRanks> FixedInterfaceFrame::held_by(const Team &team, const std::vector<int> &q1) const
+std::unique_ptr<TeamFactor> FixedInterfaceFrame::on_ranks(const std::vector<int> &q1) const
 {
-  require_work_for_all(team.ranks().size(), frame_);
-  if (wants_mumps())
-    return std::make_unique<TeamHeldFrame>(team, frame_, q1);
-  return std::make_unique<TeamFactor>(team, MatricesOnFirst{&frame_.C, &frame_.M, q1});
+  const Team *const team = Team::of_this_run();
+  if (!team)
+    return nullptr;
+  require_work_for_all(team->ranks().size(), frame_);
+  return std::make_unique<TeamFactor>(*team, MatricesOnFirst{&frame_.C, &frame_.M, q1});
 }
 
 void FixedInterfaceFrame::factorise()
@@ -116,10 +111,10 @@ void FixedInterfaceFrame::factorise()
     return;
   }
   const bool positive = team_->factorise();
-  if (!positive || !(team_->softest() >= suspicious_pivots))
+  if (!positive || !(team_->pivot_ratio() >= suspicious_pivots))
     require_no_free_motion(frame_, q1_, lower_triangle_held(frame_.C, q1_));
   if (!positive)
-    refuse_indefinite(team_->failed_at());
+    refuse_indefinite(team_->failed());
 }
 
 FixedInterfaceFrame::~FixedInterfaceFrame() = default;
@@ -146,7 +141,7 @@ void FixedInterfaceFrame::restore()
   if (team_)
     team_->factorise();
   else if (factor_->released())
-    *factor_ = SparseCholesky(frame_.C, q1_);
+    factor_->factorise(frame_.C);
 }
 
 Inertia FixedInterfaceFrame::below(double omega) const
@@ -161,7 +156,7 @@ Inertia FixedInterfaceFrame::below_if_free(double omega)
   if (team_)
   {
     if (!free_team_)
-      free_team_ = held_by(*Team::of_this_run(), {});
+      free_team_ = on_ranks({});
     return free_team_->below(omega);
   }
   if (!free_factor_)
@@ -173,8 +168,9 @@ std::unique_ptr<ModeSearch> FixedInterfaceFrame::search(const BlockLanczos::Opti
                                                         const LowestModes           &known) const
 {
   if (team_)
-    return team_->search(options, known);
-  return std::make_unique<BlockLanczos>(frame_.M, std::make_unique<InverseByFactor>(*factor_, q1_), options, known);
+    return team_->search(eigensolver_, options, known);
+  return search_modes(MPI_COMM_SELF, {std::make_shared<InverseByFactor>(*factor_, q1_), &frame_.M, &frame_.C},
+                      eigensolver_, options, known);
 }
 
 Eigen::MatrixXd FixedInterfaceFrame::constraint_modes() const

@@ -7,13 +7,13 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
 {
 
-class HeldByRanks;
-class Team;
+class TeamFactor;
 
 /**
  * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
@@ -22,13 +22,15 @@ class Team;
  * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
  *
  * Where mpirun started several ranks the factor lies on all of them, and they find the modes together: see
- * DividedFactor; with GESTELL_FACTOR=mumps in the environment by MUMPS, and the modes by SLEPc.
+ * DividedFactor.
  */
 class FixedInterfaceFrame
 {
 public:
   /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
-  FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1);
+  /// @param eigensolver  see search_modes().
+  FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
+                      std::string eigensolver = "block-lanczos");
   ~FixedInterfaceFrame();
 
   /// X <- C22^-1 X on the rows of q2, zero on those of q1.
@@ -47,16 +49,18 @@ public:
   /// The same of the frame with nothing held, rigid motions among them; makes a pattern of its own at first.
   Inertia below_if_free(double omega);
 
-  /// For fixed-interface modes; the frame must outlive it.  @param options where one process searches.
+  const std::string &eigensolver() const { return eigensolver_; }
+  /// For fixed-interface modes; the frame must outlive it.
   std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const;
 
 private:
-  std::unique_ptr<HeldByRanks> held_by(const Team &team, const std::vector<int> &q1) const;
-  void                         factorise();
+  std::unique_ptr<TeamFactor> on_ranks(const std::vector<int> &q1) const;
+  void                        factorise();
 
   const fem::FrameMatrices       &frame_;
   std::vector<int>                q1_;
-  std::unique_ptr<HeldByRanks>    team_, free_team_;     // either these
+  std::string                     eigensolver_;
+  std::unique_ptr<TeamFactor>     team_, free_team_;     // either these
   std::unique_ptr<SparseCholesky> factor_, free_factor_; // or those
 };
 

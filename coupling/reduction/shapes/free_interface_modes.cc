@@ -1,6 +1,7 @@
 #include "coupling/reduction/shapes/free_interface_modes.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/shapes/interface_flexibility.h"
 #include "fem/values/two_pi.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -102,9 +104,8 @@ Inertia FreeInterfaceModes::below(double omega)
 std::unique_ptr<ModeSearch> FreeInterfaceModes::search(const BlockLanczos::Options &options,
                                                        const LowestModes           &known) const
 {
-  return std::make_unique<BlockLanczos>(
-      frame_.M, std::make_unique<InverseByColumns>(n(), [this](Eigen::Ref<MatrixXd> X) { inverse_(X); }), options,
-      known);
+  auto inverse = std::make_shared<InverseByColumns>(n(), [this](Eigen::Ref<MatrixXd> X) { inverse_(X); });
+  return search_modes(MPI_COMM_SELF, {std::move(inverse), &frame_.M, &frame_.C}, held_.eigensolver(), options, known);
 }
 
 FreeModes free_modes(const ReductionBasis &basis, FixedInterfaceFrame &held, const fem::FrameMatrices &frame,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/eigensolvers/sturm_check.h"
-#include "coupling/plugin/frame_service.h"
+#include "coupling/frame/reduction_options.h"
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 

@@ -14,9 +14,12 @@ namespace
 {
 
 using namespace coupling;
-using Vector  = Eigen::VectorXd;
-using Matrix  = Eigen::MatrixXd;
-using Complex = std::complex<double>;
+using Vector   = Eigen::VectorXd;
+using Matrix   = Eigen::MatrixXd;
+using Real     = long double; // of exact solutions, to all digits of the table
+using Complex  = std::complex<Real>;
+using Complex2 = Eigen::Matrix<Complex, 2, 1>;
+using Complex4 = Eigen::Matrix<Complex, 4, 1>;
 
 /// Case a of the reference: two coupled masses with non-proportional damping, F_j cos(Omega_j t) on coordinate j.
 class LinearPair
@@ -28,50 +31,53 @@ public:
     system_.loads().add_harmonic(1, Omega[1], F[1], 0.);
 
     // Free part: q = Re sum X_j c_j e^(s_j t) of the first-order form; c from the start, less what the load carries.
-    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+    using Square  = Eigen::Matrix<Real, 4, 4>;
+    using Small   = Eigen::Matrix<Real, 2, 2>;
+    const Small M = system_.M.cast<Real>(), B = system_.B.cast<Real>(), C = system_.C.cast<Real>();
+    Square      A = Square::Zero();
     A.topRightCorner(2, 2).setIdentity();
-    A.bottomLeftCorner(2, 2)  = -system_.M.inverse() * system_.C;
-    A.bottomRightCorner(2, 2) = -system_.M.inverse() * system_.B;
-    const Eigen::EigenSolver<Eigen::Matrix4d> solver(A);
+    A.bottomLeftCorner(2, 2)  = -M.inverse() * C;
+    A.bottomRightCorner(2, 2) = -M.inverse() * B;
+    const Eigen::EigenSolver<Square> solver(A);
     s_ = solver.eigenvalues();
     X_ = solver.eigenvectors();
     for (int j = 0; j < 2; ++j)
     {
-      const Eigen::Matrix2cd Z =
-          system_.C.cast<Complex>() + Complex(0., Omega[j]) * system_.B - (Omega[j] * Omega[j]) * system_.M;
-      forced_[j] = Z.inverse() * (F[j] * Eigen::Vector2cd::Unit(j));
+      const Eigen::Matrix<Complex, 2, 2> Z = C.cast<Complex>() + Complex(0., Omega[j]) * B.cast<Complex>() -
+                                             Complex(Omega[j] * Omega[j]) * M.cast<Complex>();
+      forced_[j] = Z.inverse() * (Complex(F[j]) * Complex2::Unit(j));
     }
     c_.setZero();
-    Eigen::Vector4cd start;
-    start << q0, v0;
+    Complex4 start;
+    start << q0.cast<Complex>(), v0.cast<Complex>();
     c_ = X_.partialPivLu().solve(start - state(0.));
   }
 
   /// (q, q') at t.
-  Eigen::Vector4cd state(double t) const
+  Complex4 state(double t) const
   {
-    Eigen::Vector4cd y = X_ * c_.cwiseProduct((s_ * t).array().exp().matrix());
+    Complex4 y = X_ * c_.cwiseProduct((s_ * Complex(t)).array().exp().matrix());
     for (int j = 0; j < 2; ++j)
     {
-      const Eigen::Vector2cd q = forced_[j] * std::exp(Complex(0., Omega[j] * t));
-      y.head(2) += q.real();
-      y.tail(2) += (Complex(0., Omega[j]) * q).real();
+      const Complex2 q = forced_[j] * std::exp(Complex(0., Omega[j] * Real(t)));
+      y.head(2) += q.real().cast<Complex>();
+      y.tail(2) += (Complex(0., Omega[j]) * q).real().cast<Complex>();
     }
     return y;
   }
-  Vector             q(double t) const { return state(t).head(2).real(); }
-  Vector             v(double t) const { return state(t).tail(2).real(); }
+  Vector             q(double t) const { return state(t).head(2).real().cast<double>(); }
+  Vector             v(double t) const { return state(t).tail(2).real().cast<double>(); }
   const SmallSystem &system() const { return system_; }
 
 private:
   static Matrix matrix(double a, double b, double c) { return (Matrix(2, 2) << a, b, b, c).finished(); }
 
-  const double          Omega[2] = {20., 33.}, F[2] = {100., 40.};
-  const Eigen::Vector2d q0{0.01, -0.02}, v0{0., 0.5};
-  SmallSystem           system_;
-  Eigen::Vector4cd      s_, c_;
-  Eigen::Matrix4cd      X_;
-  Eigen::Vector2cd      forced_[2];
+  const double                 Omega[2] = {20., 33.}, F[2] = {100., 40.};
+  const Eigen::Vector2d        q0{0.01, -0.02}, v0{0., 0.5};
+  SmallSystem                  system_;
+  Complex4                     s_, c_;
+  Eigen::Matrix<Complex, 4, 4> X_;
+  Complex2                     forced_[2];
 };
 
 struct Errors

@@ -1,4 +1,4 @@
-#include "coupling/algebra/subspace_modes.h"
+#include "coupling/eigensolvers/sparse_modes.h"
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/sparse_base.h"
 
@@ -210,22 +210,22 @@ TEST(DenseBase, SpectrumOfAChainIsItsFormula)
   }
 }
 
-TEST(SubspaceModes, FindTheLowestOfALongChain)
+TEST(SparseModes, FindTheLowestOfALongChain)
 {
   const int   n = 2000;
   const Chain chain(n);
-  const auto  modes = coupling::subspace_modes(chain.C, chain.M, 10);
+  const auto  modes = coupling::sparse_modes(chain.C, chain.M, 10);
   for (int j = 1; j <= 10; ++j)
     EXPECT_NEAR(modes.omega(j - 1) / Chain::omega(n, j), 1., 1e-8);
   const MatrixXd E = modes.V.transpose() * (chain.M * modes.V);
   EXPECT_LT((E - MatrixXd::Identity(10, 10)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(SubspaceModes, CountRigidMotionsAsModesOfFrequencyZero)
+TEST(SparseModes, CountRigidMotionsAsModesOfFrequencyZero)
 {
   Chain chain(900);
   chain.C.coeffRef(0, 0) = 1.; // loose at both ends
-  const auto modes       = coupling::subspace_modes(chain.C, chain.M, 3);
+  const auto modes       = coupling::sparse_modes(chain.C, chain.M, 3);
   EXPECT_EQ(modes.omega(0), 0.);
   EXPECT_NEAR(modes.omega(1), 2. * std::sin(M_PI / 1800.), 1e-9);
 }

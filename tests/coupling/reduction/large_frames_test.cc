@@ -1,6 +1,6 @@
 #include "coupling/reduction/craig_bampton.h"
 
-#include "coupling/algebra/subspace_modes.h"
+#include "coupling/algebra/dense_modes.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -48,10 +48,10 @@ TEST(FixedInterfaceModes, FoundInTwoBatchesAreThoseFoundInOne)
     EXPECT_NEAR(reduced.omega0(j) / at_once.omega0(j), 1., 1e-9);
 }
 
-TEST(RefinedModes, OfALargeFrameAreThoseOfSubspaceIteration)
+TEST(RefinedModes, OfALargeFrameAreThoseOfTheDenseMatrices)
 {
   auto       frame          = large_frame();
-  const auto exact          = coupling::subspace_modes(frame.C, frame.M, 10);
+  const auto exact          = coupling::dense_modes(MatrixXd(frame.C), MatrixXd(frame.M));
   frame.modal_damping_ratio = 0.5; // then d = omega
   coupling::add_modal_damping(frame, 10);
   for (int j = 0; j < 10; ++j)

@@ -47,18 +47,10 @@ TEST(Team, SolvesAndFindsModesAsOneProcessDoes)
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     EXPECT_FALSE(answer.says("differs")) << answer.text;
     for (const char *what : {"factor", "solution", "frequencies", "mass of the modes", "shapes", "number", "rest",
+                             "rest by krylov-schur", "mass by krylov-schur", "rest by lobpcg", "mass by lobpcg",
                              "solution with the matrix given away", "place of what is not positive"})
       EXPECT_TRUE(answer.says("the " + std::string(what) + " agrees")) << what << answer.text;
   }
-}
-
-TEST(Team, CountsTheModesOfAFrameByTheInertiaOfItsFactor)
-{
-  const Answer answer = trial("count");
-  EXPECT_EQ(answer.exit_code, 0) << answer.text;
-  for (const char *line : {"0 modes and counted 0\n", "1 modes and counted 1\n", "7 modes and counted 7\n",
-                           "11 modes and counted 11\n", "the rest agrees\n"})
-    EXPECT_TRUE(answer.says(line)) << line << answer.text;
 }
 
 TEST(Team, FindsAllModesThereAreAndRefusesToFindMore)

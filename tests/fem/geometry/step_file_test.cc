@@ -110,7 +110,9 @@ TEST(FaceNames, OfAStepFileAreGroupsThatSelectorsFindAlsoAfterJoining)
   {
     n_named += !outer.name.empty();
     if (outer.tag == report.surfaces.at("end")[0])
+    {
       EXPECT_NEAR(outer.max[0], 0., 1e-6); // OpenCASCADE writes the face at x = 0 first
+    }
   }
   EXPECT_EQ(n_named, 1); // faces without a name are not called like their solid
   s.surfaces["end"] = group("right end");

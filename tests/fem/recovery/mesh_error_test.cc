@@ -111,7 +111,9 @@ TEST(Refinement, MakesCellsSmallWhereTheErrorIsAndGrowsGently)
     {
       const double distance = std::hypot(p.at[0] - other.at[0], p.at[1] - other.at[1], p.at[2] - other.at[2]);
       if (distance < 1.01)
+      {
         EXPECT_LE(p.size, other.size + 0.3 * distance + 1e-3);
+      }
     }
   }
   EXPECT_LT(1.5 * near, far);

@@ -1,4 +1,4 @@
-#include "coupling/parallel/team_search.h"
+#include "coupling/eigensolvers/deflated_search.h"
 
 #include "coupling/integration/system/second_order_system.h"
 
@@ -38,19 +38,20 @@ LowestModes joined(const LowestModes &a, const LowestModes &b)
 
 } // namespace
 
-TeamSearch::TeamSearch(const TeamHeldFrame &held, LowestModes known) : held_(held), found_(std::move(known))
+DeflatedSearch::DeflatedSearch(int n, int n_free, Further further, LowestModes known)
+    : n_free_(n_free), further_(std::move(further)), found_(std::move(known))
 {
   if (found_.omega.size() == 0)
-    found_ = {Eigen::VectorXd(0), Eigen::MatrixXd(held.n(), 0), Eigen::VectorXd(0)};
+    found_ = {Eigen::VectorXd(0), Eigen::MatrixXd(n, 0), Eigen::VectorXd(0)};
 }
 
-void TeamSearch::find(int count)
+void DeflatedSearch::find(int count)
 {
-  const int most = std::min(count + beyond, held_.n_free());
+  const int most = std::min(count + beyond, n_free_);
   while (int(found_.omega.size()) < most && !exhausted_)
   {
     const int wanted = most - int(found_.omega.size());
-    auto      more   = held_.lowest_modes(wanted, found_.V);
+    auto      more   = further_(wanted, found_.V);
     exhausted_       = int(more.omega.size()) < wanted;
     found_           = joined(found_, more);
   }
@@ -60,13 +61,15 @@ void TeamSearch::find(int count)
                              "higher rank, or a part is almost loose");
 }
 
-LowestModes TeamSearch::modes(int count) const
+LowestModes DeflatedSearch::modes(int count) const
 {
+  if (count > found_.omega.size())
+    throw std::logic_error("DeflatedSearch::modes: only " + std::to_string(found_.omega.size()) + " are found");
   return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
 }
 
 /// Number of modes below the first gap that is wide enough, or else the widest.
-int TeamSearch::gap_index(int count) const
+int DeflatedSearch::gap_index(int count) const
 {
   int    widest = count;
   double width  = 0.;
@@ -81,10 +84,12 @@ int TeamSearch::gap_index(int count) const
   return widest;
 }
 
-ModeSearch::Gap TeamSearch::gap_above(int count) const
+ModeSearch::Gap DeflatedSearch::gap_above(int count) const
 {
-  if (count < 1 || count > found_.omega.size())
-    throw std::logic_error("TeamSearch: find() first");
+  if (count > found_.omega.size())
+    throw std::logic_error("DeflatedSearch: find() first");
+  if (count == 0)
+    return {0., found_.omega.size() > 0 ? found_.omega(0) : INFINITY, 0};
   const int i = gap_index(count);
   return {found_.omega(i - 1), i < found_.omega.size() ? found_.omega(i) : INFINITY, i};
 }

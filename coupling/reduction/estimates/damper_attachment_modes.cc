@@ -1,4 +1,4 @@
-#include "coupling/reduction/shapes/damper_attachment_modes.h"
+#include "coupling/reduction/estimates/damper_attachment_modes.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

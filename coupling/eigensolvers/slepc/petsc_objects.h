@@ -21,11 +21,29 @@ struct DestroyPetsc
 template <typename T>
 using PetscOwned = std::unique_ptr<std::remove_pointer_t<T>, DestroyPetsc>;
 
-/// While it lives PETSc returns its errors and prints nothing.
-struct QuietPetsc
+/// While it lives PETSc returns its errors and prints nothing; the innermost message is kept.
+class QuietPetsc
 {
-  QuietPetsc() { PetscPushErrorHandler(PetscReturnErrorHandler, nullptr); }
+public:
+  QuietPetsc() { PetscPushErrorHandler(keep, nullptr); }
   ~QuietPetsc() { PetscPopErrorHandler(); }
+  QuietPetsc(const QuietPetsc &)            = delete;
+  QuietPetsc &operator=(const QuietPetsc &) = delete;
+
+  static std::string &message()
+  {
+    static std::string text;
+    return text;
+  }
+
+private:
+  static PetscErrorCode keep(MPI_Comm, int, const char *, const char *, PetscErrorCode code, PetscErrorType type,
+                             const char *text, void *)
+  {
+    if (type == PETSC_ERROR_INITIAL)
+      message() = text ? text : "";
+    return code;
+  }
 };
 
 inline void require_petsc(PetscErrorCode code, const char *what)

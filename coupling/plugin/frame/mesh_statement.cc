@@ -1,4 +1,4 @@
-#include "coupling/reduction/estimates/mesh_statement.h"
+#include "coupling/plugin/frame/mesh_statement.h"
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/algebra/sparse_cholesky.h"

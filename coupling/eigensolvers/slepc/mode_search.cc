@@ -1,0 +1,299 @@
+#include "coupling/eigensolvers/slepc/mode_search.h"
+
+#include "coupling/eigensolvers/deflated_search.h"
+#include "coupling/eigensolvers/slepc/registered_types.h"
+#include "coupling/integration/system/second_order_system.h"
+#include "fem/parallel/petsc_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr const char *prefix        = "reduction_";
+constexpr double      tolerance     = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
+constexpr double      least_squares = 1e-8;  // the same of methods that multiply by C, whose residuals stop at rounding
+constexpr int         max_restarts  = 1000;
+constexpr int         spare_vectors = 20; // of the space beyond the modes wanted, at least
+
+/// Hands over what a callback threw, or tells what PETSc did not like.
+void require_done(const ModeProblem &problem, PetscErrorCode code, const std::string &eigensolver)
+{
+  if (problem.failure)
+    std::rethrow_exception(std::exchange(problem.failure, nullptr));
+  if (code == 0)
+    return;
+  throw ConvergenceFailure("reduction: the eigensolver " + eigensolver + " failed: " + QuietPetsc::message() +
+                           " (PETSc, error " + std::to_string(code) +
+                           "); look at reduction.eigensolver and PETSC_OPTIONS");
+}
+
+/// Whether options want another solver than the inverse at hand.
+bool wants_other_solver()
+{
+  char      name[64] = "";
+  PetscBool solver = PETSC_FALSE, type = PETSC_FALSE, method = PETSC_FALSE;
+  PetscOptionsGetString(nullptr, prefix, "-st_pc_factor_mat_solver_type", name, sizeof name, &solver);
+  PetscOptionsHasName(nullptr, prefix, "-st_pc_type", &type);
+  PetscOptionsHasName(nullptr, prefix, "-st_ksp_type", &method);
+  return (solver && name != std::string(own_factor)) || type || method;
+}
+
+/// A(free, free) as PETSc's own.
+PetscOwned<Mat> assembled(const Eigen::SparseMatrix<double> &A, const std::vector<int> &free)
+{
+  std::vector<int> place(A.rows(), -1);
+  for (std::size_t k = 0; k < free.size(); ++k)
+    place[free[k]] = int(k);
+  std::vector<int>    begin{0}, column;
+  std::vector<double> value;
+  for (const int j : free)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator a(A, j); a; ++a)
+      if (place[a.row()] >= 0)
+        column.push_back(place[a.row()]), value.push_back(a.value());
+    begin.push_back(int(column.size()));
+  }
+  const int n      = int(free.size());
+  Mat       result = nullptr;
+  require_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 0, nullptr, &result), "modes");
+  PetscOwned<Mat> owned(result);
+  require_petsc(MatSeqAIJSetPreallocationCSR(result, begin.data(), column.data(), value.data()), "modes");
+  MatSetOption(result, MAT_SYMMETRIC, PETSC_TRUE);
+  return owned;
+}
+
+/// A problem of modes in the hands of SLEPc.
+class EigenSolver
+{
+public:
+  EigenSolver(MPI_Comm comm, const ModeProblem &problem, std::string name) : problem_(problem), name_(std::move(name))
+  {
+    const QuietPetsc quiet;
+    set_operators(comm);
+    EPS eps = nullptr;
+    require(EPSCreate(comm, &eps));
+    eps_.reset(eps);
+    require(EPSSetOperators(eps, C_.get(), M_.get()));
+    require(EPSSetProblemType(eps, EPS_GHEP));
+    require(EPSSetOptionsPrefix(eps, prefix));
+    require(EPSSetType(eps, slepc_name().c_str()));
+    require(EPSSetPurify(eps, PETSC_FALSE)); // one solution per mode, for directions without mass only
+    require(EPSSetTolerances(eps, tolerance, max_restarts));
+    require(EPSSetFromOptions(eps));
+    set_transformation();
+  }
+
+  EPS get() const { return eps_.get(); }
+  int size() const
+  {
+    PetscInt n = 0;
+    MatGetSize(M_.get(), &n, nullptr);
+    return n;
+  }
+  void require(PetscErrorCode code) const { require_done(problem_, code, name_); }
+  bool is(const char *type) const
+  {
+    PetscBool same = PETSC_FALSE;
+    PetscObjectTypeCompare(PetscObject(eps_.get()), type, &same);
+    return same;
+  }
+
+  void solve(int count)
+  {
+    const QuietPetsc quiet;
+    const bool       krylov = !is(own_block_lanczos) && !preconditioned();
+    const int        space  = std::min(size(), count + std::max(count, spare_vectors));
+    require(EPSSetDimensions(get(), count, krylov ? space : PETSC_DEFAULT, PETSC_DEFAULT));
+    require(EPSSolve(get()));
+  }
+
+  int n_found() const
+  {
+    int found = 0;
+    EPSGetConverged(get(), &found);
+    return found;
+  }
+
+  /// The lowest `count`; those of several processes by the rows of each.
+  LowestModes modes(int count) const
+  {
+    const QuietPetsc quiet;
+    LowestModes      modes{VectorXd(count), MatrixXd::Zero(problem_.coordinates(), count), VectorXd(count)};
+    const auto       shape = vector();
+    for (int j = 0; j < count; ++j)
+    {
+      double square = 0.;
+      require(EPSGetEigenpair(get(), j, &square, nullptr, shape.get(), nullptr));
+      if (!(square > 0.))
+        throw ConvergenceFailure("lowest modes: mode " + std::to_string(j + 1) + " has omega^2 = " +
+                                 std::to_string(square) + "; the stiffness matrix must be positive definite");
+      modes.omega(j) = std::sqrt(square);
+      EPSGetErrorEstimate(get(), j, &modes.bound(j)); // of omega^2, relative
+      modes.bound(j) *= 0.5;
+      const PetscScalar *values = nullptr;
+      VecGetArrayRead(shape.get(), &values);
+      modes.V(problem_.free(), j) = Eigen::Map<const VectorXd>(values, problem_.rows());
+      VecRestoreArrayRead(shape.get(), &values);
+    }
+    problem_.inverse()->complete(modes.V);
+    return modes;
+  }
+
+  /// Only modes beside these are looked for.
+  void deflate(const MatrixXd &V)
+  {
+    std::vector<PetscOwned<Vec>> owned;
+    std::vector<Vec>             columns;
+    for (Eigen::Index j = 0; j < V.cols(); ++j)
+    {
+      owned.push_back(vector());
+      columns.push_back(owned.back().get());
+      set(columns.back(), V.col(j)(problem_.free()));
+    }
+    if (!columns.empty())
+      require(EPSSetDeflationSpace(get(), int(columns.size()), columns.data()));
+  }
+
+  /// From a motion that is irregular, but always the same.
+  void set_start()
+  {
+    const auto x = vector();
+    VectorXd   values(problem_.rows());
+    for (int i = 0; i < problem_.rows(); ++i)
+      values(i) = std::fmod(0.6180339887498949 * double(problem_.free()[i] + 1), 1.) - 0.3;
+    set(x.get(), values);
+    Vec starts[] = {x.get()};
+    require(EPSSetInitialSpace(get(), 1, starts));
+  }
+
+private:
+  std::string slepc_name() const
+  {
+    std::string type = name_;
+    if (type != own_block_lanczos)
+      type.erase(std::remove(type.begin(), type.end(), '-'), type.end());
+    return type;
+  }
+
+  void set_operators(MPI_Comm comm)
+  {
+    if (!wants_other_solver())
+    {
+      C_ = stiffness_operator(comm, problem_);
+      M_ = mass_operator(comm, problem_);
+      return;
+    }
+    if (!problem_.C())
+      throw std::invalid_argument(
+          "PETSC_OPTIONS name a solver for the modes, which needs the stiffness of the frame in "
+          "one process; leave out mpirun, or options that begin with -reduction_st");
+    C_ = assembled(*problem_.C(), problem_.free());
+    M_ = assembled(problem_.M(), problem_.free());
+  }
+
+  bool preconditioned() const { return is(EPSLOBPCG) || is(EPSGD) || is(EPSJD) || is(EPSRQCG); }
+
+  /// C^-1 by the inverse at hand: as the operator, or as a preconditioner.
+  void set_transformation()
+  {
+    ST  st  = nullptr;
+    KSP ksp = nullptr;
+    PC  pc  = nullptr;
+    require(EPSGetST(get(), &st));
+    if (preconditioned())
+    {
+      require(EPSSetTolerances(get(), least_squares, PETSC_DEFAULT));
+      require(EPSSetWhichEigenpairs(get(), EPS_SMALLEST_REAL));
+      require(STSetType(st, STPRECOND));
+    }
+    else
+    {
+      require(EPSSetWhichEigenpairs(get(), EPS_TARGET_MAGNITUDE));
+      require(EPSSetTarget(get(), 0.));
+      require(STSetType(st, STSINVERT));
+    }
+    require(STGetKSP(st, &ksp));
+    require(KSPSetType(ksp, KSPPREONLY));
+    require(KSPGetPC(ksp, &pc));
+    require(PCSetType(pc, PCCHOLESKY));
+    require(PCFactorSetMatSolverType(pc, own_factor));
+    require(STSetFromOptions(st));
+  }
+
+  PetscOwned<Vec> vector() const
+  {
+    Vec x = nullptr;
+    require(MatCreateVecs(M_.get(), &x, nullptr));
+    return PetscOwned<Vec>(x);
+  }
+
+  void set(Vec x, const VectorXd &values) const
+  {
+    PetscScalar *to = nullptr;
+    VecGetArrayWrite(x, &to);
+    std::copy_n(values.data(), values.size(), to);
+    VecRestoreArrayWrite(x, &to);
+  }
+
+  const ModeProblem &problem_;
+  std::string        name_;
+  PetscOwned<Mat>    C_, M_;
+  PetscOwned<EPS>    eps_;
+};
+
+/// By the block Lanczos as a type of SLEPc, which goes on from the space it has.
+class ContinuedSearch final : public ModeSearch
+{
+public:
+  ContinuedSearch(EigenSolver solver, std::unique_ptr<const ModeProblem> problem)
+      : problem_(std::move(problem)), solver_(std::move(solver))
+  {
+  }
+
+  void        find(int count) override { solver_.solve(std::max(count, 1)); } // SLEPc looks for one at least
+  LowestModes modes(int count) const override { return solver_.modes(count); }
+  Gap         gap_above(int count) const override { return block_lanczos_of(solver_.get()).gap_above(count); }
+
+private:
+  std::unique_ptr<const ModeProblem> problem_;
+  EigenSolver                        solver_;
+};
+
+} // namespace
+
+std::unique_ptr<ModeSearch> search_modes(MPI_Comm comm, const ModePencil &pencil, const std::string &eigensolver,
+                                         const BlockLanczos::Options &options, const LowestModes &known)
+{
+  fem::petsc_session();
+  register_own_types();
+  auto        problem = std::make_unique<const ModeProblem>(pencil.inverse, *pencil.M, pencil.C);
+  EigenSolver first(comm, *problem, eigensolver);
+  if (first.is(own_block_lanczos))
+  {
+    set_block_lanczos(first.get(), options, known);
+    return std::make_unique<ContinuedSearch>(std::move(first), std::move(problem));
+  }
+  const int  n = problem->coordinates(), most = first.size();
+  const auto further = [comm, eigensolver,
+                        problem = std::shared_ptr<const ModeProblem>(std::move(problem))](int count, const MatrixXd &V)
+  {
+    EigenSolver solver(comm, *problem, eigensolver);
+    solver.deflate(V);
+    solver.set_start();
+    solver.solve(count);
+    return solver.modes(std::min(count, solver.n_found()));
+  };
+  return std::make_unique<DeflatedSearch>(n, most, further, known);
+}
+
+} // namespace gestell::coupling
