@@ -193,6 +193,16 @@ CLI::App *add_stability(CLI::App &program, CommonOptions &options, StabilityComm
   return command;
 }
 
+CLI::App *add_help(CLI::App &program, HelpCommandOptions &help)
+{
+  CLI::App *command = program.add_subcommand("help", "explain the keys of a scene");
+  command->footer("Example:\n  gestell help element.clearance\n  gestell help stiffness");
+  command->add_option("KEY", help.topic, "table or key (default: the list of tables)");
+  command->add_flag("--schema", help.schema, "JSON schema of scenes, for editors, instead");
+  command->add_flag("--tables", help.tables, "all tables in Markdown, as in docs/scene, instead");
+  return command;
+}
+
 int run_program(int argc, char **argv)
 {
   CLI::App program{"Gestell computes how a machine and the frame that carries it shake each other.", "gestell"};
@@ -229,6 +239,9 @@ int run_program(int argc, char **argv)
   StabilityCommandOptions stability_options;
   CLI::App               *stability = add_stability(program, options, stability_options);
 
+  HelpCommandOptions help_options;
+  const CLI::App    *help = add_help(program, help_options);
+
   if (argc > 1)
     require_command(program, argv[1]);
   try
@@ -258,6 +271,8 @@ int run_program(int argc, char **argv)
     return check_command(options);
   if (stability->parsed())
     return stability_command(options, stability_options);
+  if (help->parsed())
+    return help_command(help_options);
   return mesh_command(options, mesh);
 }
 

@@ -94,6 +94,12 @@ struct StabilityCommandOptions
   std::string         atlas;                    ///< file of the failure atlas; empty: none
 };
 
+struct HelpCommandOptions
+{
+  std::string topic; ///< table or key; empty: the list of tables
+  bool        schema = false, tables = false;
+};
+
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.
 int run_command(const CommonOptions &options);
 int modes_command(const CommonOptions &options, const ModesCommandOptions &modes);
@@ -103,6 +109,7 @@ int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh);
 int check_command(const CommonOptions &options);
 /// options.input may be empty: maps alone.
 int stability_command(const CommonOptions &options, const StabilityCommandOptions &stability);
+int help_command(const HelpCommandOptions &help);
 int chart_command(const CommonOptions &options, const ChartCommandOptions &chart);
 
 } // namespace gestell::apps

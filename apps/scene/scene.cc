@@ -1,6 +1,6 @@
 #include "apps/scene/scene.h"
 
-#include "apps/scene/elements/element_registry.h"
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/read/node_interfaces.h"
 #include "apps/scene/read/read_bodies.h"
@@ -8,7 +8,6 @@
 #include "apps/scene/read/read_joints.h"
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_run.h"
-#include "apps/scene/read/read_share.h"
 #include "apps/scene/read/read_switches.h"
 #include "fem/values/nearest_name.h"
 
@@ -38,7 +37,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
                                   ? ReductionMethod::none
                                   : ReductionMethod::craig_bampton;
-  request.options.tolerance = read_share(*table, "tolerance", request.options.tolerance);
+  request.options.tolerance = table->has("tolerance") ? table->share("tolerance") : request.options.tolerance;
   if (table->has("modes"))
   {
     request.options.n_modes = table->integer("modes", 0);

@@ -9,7 +9,7 @@ namespace gestell::apps
 {
 
 /**
- * Reads and validates a scene without computing anything (docs/scene.md is the reference of its keys).
+ * Reads and validates a scene without computing anything (docs/scene is the reference of its keys).
  *
  * @param overrides  of the command line, "key.path=value".
  * @param scripts    of gmsh that the scene names; no scene can trust its own.

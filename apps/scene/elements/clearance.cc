@@ -1,5 +1,6 @@
 #include "mechanism/elements/clearance.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
@@ -23,7 +24,7 @@ void read_clearance(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion  = read_relative_motion(table, names);
   auto       contact = read_contact(table, motion.rotation);
-  contact.gap        = table.not_negative("gap", motion.rotation ? kind::angle : kind::length);
+  contact.gap        = table.value("gap", motion.rotation);
   add_contact(scene, table, motion, contact);
 }
 
@@ -33,10 +34,50 @@ void read_stop(const SceneTable &table, const Names &names, Scene &scene)
   const auto motion  = read_relative_motion(table, names);
   const bool turns   = motion.rotation;
   auto       contact = read_contact(table, turns);
-  contact.gap        = table.number("gap", turns ? kind::angle : kind::length, 0.);
-  contact.stops =
-      table.choice("side", {"above", "below"}, "above") == "above" ? Clearance::Stops::above : Clearance::Stops::below;
+  contact.gap        = table.value("gap", turns);
+  contact.stops      = table.choice("side") == "above" ? Clearance::Stops::above : Clearance::Stops::below;
   add_contact(scene, table, motion, contact);
+}
+
+ElementType clearance_type()
+{
+  return {"clearance",
+          "Play to either side, and contact beyond it.",
+          "`force`, `displacement`",
+          joined({motion_keys(),
+                  contact_keys(),
+                  {key::number("gap", kind::length, "half of the total play").on_angle(kind::angle).from_zero()}}),
+          read_clearance,
+          {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play to either side
+to        = "crank"
+gap       = "0.2 deg"
+stiffness = "1e6 N m/rad"
+)toml",
+           R"toml(from         = "spindle"               # axial play of 50 um to either side
+direction    = [1, 0, 0]
+gap          = "50 um"
+stiffness    = "200 kN/mm"
+restitution  = 0.4
+impact_speed = "0.1 m/s"
+)toml"}};
+}
+
+ElementType stop_type()
+{
+  return {
+      "stop",
+      "Contact on one side: closed where u > gap, or -u > gap below.",
+      "`force`, `displacement`",
+      joined(
+          {motion_keys(),
+           contact_keys(),
+           {key::number("gap", kind::length, "where it closes, may be negative").on_angle(kind::angle).by_default(0.),
+            key::choice("side", {"above", "below"}, true, "on which it stands")}}),
+      read_stop,
+      {R"toml(from      = "slide"
+stiffness = "20 kN/mm"
+gap       = "10 mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/connecting_rod.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -28,19 +29,47 @@ void read_connecting_rod(const SceneTable &table, const Names &names, Scene &sce
                       "' are not at right angles");
 
   mechanism::ConnectingRod::Parameters rod;
-  rod.crank_radius   = table.positive("crank_radius", kind::length);
-  rod.length         = table.positive("length", kind::length);
-  rod.stiffness      = table.positive("stiffness", kind::stiffness);
-  rod.damping        = table.not_negative("damping", kind::damping, rod.damping);
-  rod.closing_length = table.positive("closing_length", kind::length, rod.closing_length);
-  rod.clearance      = table.not_negative("clearance", kind::length, rod.clearance);
-  rod.oil_damping    = table.not_negative("oil_damping", kind::damping, rod.oil_damping);
+  rod.crank_radius   = table.value("crank_radius");
+  rod.length         = table.value("length");
+  rod.stiffness      = table.value("stiffness");
+  rod.damping        = table.value("damping");
+  rod.closing_length = table.value("closing_length");
+  rod.clearance      = table.value("clearance");
+  rod.oil_damping    = table.value("oil_damping");
 
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::ConnectingRod>(rod); }),
               {{{crank.name, true, crank.axis, 1.}},
                difference(crank.name, slider.name, e, false),
                difference(crank.name, slider.name, cross(e, crank.axis), false)});
   scene.rods.push_back({table.name(), crank.name, slider.name, rod.crank_radius, rod.length});
+}
+
+ElementType connecting_rod_type()
+{
+  const mechanism::ConnectingRod::Parameters own;
+  return {"connecting rod",
+          "An elastic rod with play from a crank to a slider; angle 0 of the crank is top dead centre, the slider "
+          "furthest back.",
+          "`force` along the slider's axis, `rod_force` along the rod, compression positive; `side_force`, "
+          "`compression`, `compression_rate`",
+          {key::named("from", "rotor with the crank"), key::named("to", "slider, at right angles to the rotor's axis"),
+           key::number("crank_radius", kind::length, "of the crank pin").above_zero(),
+           key::number("length", kind::length, "of the rod").above_zero(),
+           key::number("stiffness", kind::stiffness, "of the rod along itself").above_zero(),
+           key::number("damping", kind::damping, "of the closed chain").from_zero().by_default(own.damping),
+           key::number("closing_length", kind::length, "over which the damping fades in")
+               .above_zero()
+               .by_default(own.closing_length),
+           key::number("clearance", kind::length, "total play").from_zero().by_default(own.clearance),
+           key::number("oil_damping", kind::damping, "which acts always").from_zero().by_default(own.oil_damping)},
+          read_connecting_rod,
+          {R"toml(from         = "crank"
+to           = "slide"
+crank_radius = "80 mm"
+length       = "800 mm"
+stiffness    = "900 kN/mm"
+clearance    = "0.4 mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/point_contact.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
@@ -64,9 +65,9 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
   if (std::abs(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]) > 1e-9)
     throw table.error("normal", "must be at right angles to 'axis': the play lies across the guide");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
-  contact.normal.gap   = table.not_negative("gap", kind::length);
+  contact.normal.gap   = table.value("gap");
   contact.normal.stops = Clearance::Stops::both;
-  const double length  = table.positive("length", kind::length);
+  const double length  = table.value("length");
   for (const double end : {-1., 1.})
   {
     PlaceRequest point = slide;
@@ -75,6 +76,60 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
     add_point(scene, table, table.name() + (end < 0. ? ".rear" : ".front"), {guide.marker, point.at}, point, normal,
               contact);
   }
+}
+
+ElementType contact_type()
+{
+  return {"contact",
+          "A point of a body on a plane that another body carries; located events `contact`, `separation`.",
+          "`normal_force`, `friction_force`, `distance`, `sliding_speed`",
+          joined({{key::named("from", "body with the point"),
+                   key::vector("at", kind::length, "the point, as described").by_default("the body's own point"),
+                   key::named("to", "what carries the plane").by_default("ground"),
+                   key::direction("normal", "out of the plane"),
+                   key::vector("through", kind::length, "a point of the plane").by_default("`at`"),
+                   key::vector("at_from", kind::length, "refused: the point is `at`").by_default(""),
+                   key::vector("at_to", kind::length, "refused: the plane goes `through` its point").by_default("")},
+                  contact_keys(),
+                  {sliding_friction_key()}}),
+          read_contact_point,
+          {R"toml(from      = "lance"
+at        = ["0.9 m", 0, 0]
+normal    = [0, 0, 1]
+stiffness = "2 kN/mm"
+friction  = 0.2
+)toml",
+           R"toml(from      = "lance"
+at        = ["0.9 m", 0, 0]
+normal    = [0, 0, 1]
+stiffness = "2 kN/mm"
+friction  = { coefficient = 0.1, static = 0.15, stribeck_speed = "10 mm/s" }
+)toml"}};
+}
+
+ElementType guide_with_play_type()
+{
+  return {"guide with play",
+          "A slide between two parallel planes of its guide: a contact at each of its four corners.",
+          "of `NAME.rear`, `NAME.front` (the ends against and along `axis`): as of a contact, `normal_force` along "
+          "`normal`",
+          joined({{key::named("from", "guide"), key::named("to", "slide"),
+                   key::vector("at", kind::length, "middle of the slide, as described").by_default("place `to`"),
+                   key::direction("axis", "along the guide"), key::direction("normal", "across it"),
+                   key::number("gap", kind::length, "half of the total play").from_zero(),
+                   key::number("length", kind::length, "of the slide").above_zero()},
+                  contact_keys(),
+                  {sliding_friction_key()}}),
+          read_guide_with_play,
+          {R"toml(from      = "ground"
+to        = "lance"
+at        = ["0.9 m", 0, 0]
+axis      = [1, 0, 0]
+normal    = [0, 0, 1]
+gap       = "50 um"
+length    = "200 mm"
+stiffness = "200 kN/mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

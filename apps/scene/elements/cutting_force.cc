@@ -1,5 +1,6 @@
 #include "mechanism/elements/cutting_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -13,11 +14,30 @@ void read_cutting_force(const SceneTable &table, const Names &names, Scene &scen
   mechanism::CuttingForce::Parameters cut;
   if (motion.rotation)
     throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
-  cut.peak_force       = table.not_negative("peak_force", kind::force);
-  cut.peak_penetration = table.positive("peak_penetration", kind::length);
-  cut.contact_at       = table.number("contact_at", kind::length, cut.contact_at);
-  cut.speed            = table.positive("speed", kind::speed, cut.speed);
+  cut.peak_force       = table.value("peak_force");
+  cut.peak_penetration = table.value("peak_penetration");
+  cut.contact_at       = table.value("contact_at");
+  cut.speed            = table.value("speed");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CuttingForce>(cut); }), motion);
+}
+
+ElementType cutting_force_type()
+{
+  const mechanism::CuttingForce::Parameters own;
+  return {
+      "cutting force",
+      "The material resists while the tool goes in, with its largest force at one penetration.",
+      "`force`, `penetration`",
+      joined({motion_keys(),
+              {key::number("peak_force", kind::force, "largest force").from_zero(),
+               key::number("peak_penetration", kind::length, "at which it is largest").above_zero(),
+               key::number("contact_at", kind::length, "u at which the tool touches").by_default(own.contact_at),
+               key::number("speed", kind::speed, "below which the force fades").above_zero().by_default(own.speed)}}),
+      read_cutting_force,
+      {R"toml(from             = "slide"
+peak_force       = "12 kN"
+peak_penetration = "3 mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

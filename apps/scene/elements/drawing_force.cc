@@ -1,5 +1,6 @@
 #include "mechanism/elements/drawing_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -13,12 +14,35 @@ void read_drawing_force(const SceneTable &table, const Names &names, Scene &scen
   mechanism::DrawingForce::Parameters sheet;
   if (motion.rotation)
     throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
-  sheet.force      = table.positive("force", kind::force);
-  sheet.stiffness  = table.positive("stiffness", kind::stiffness);
-  sheet.contact_at = table.number("contact_at", kind::length, sheet.contact_at);
-  sheet.depth      = table.positive("depth", kind::length, sheet.depth);
+  sheet.force      = table.value("force");
+  sheet.stiffness  = table.value("stiffness");
+  sheet.contact_at = table.value("contact_at");
+  sheet.depth      = table.value("depth");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DrawingForce>(sheet); }),
                  motion);
+}
+
+ElementType drawing_force_type()
+{
+  const mechanism::DrawingForce::Parameters own;
+  return {
+      "drawing force",
+      "The sheet rises to a constant force and flows; after going back it resists only beyond the path drawn so far.",
+      "`force`, `path`, `drawn`",
+      joined({motion_keys(),
+              {key::number("force", kind::force, "while the sheet flows").above_zero(),
+               key::number("stiffness", kind::stiffness, "of its rise and of unloading").above_zero(),
+               key::number("contact_at", kind::length, "u at which the punch touches").by_default(own.contact_at),
+               key::number("depth", kind::length, "at which the part is drawn through")
+                   .above_zero()
+                   .by_default(own.depth)}}),
+      read_drawing_force,
+      {R"toml(from       = "slide"                 # rises over 0.4 mm, then 200 kN down to 60 mm
+force      = "200 kN"
+stiffness  = "500 kN/mm"
+contact_at = "120 mm"
+depth      = "60 mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

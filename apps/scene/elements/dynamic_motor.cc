@@ -1,5 +1,6 @@
 #include "mechanism/elements/dynamic_motor.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -10,6 +11,7 @@ namespace gestell::apps
 
 /// Of asynchronous motors, stationary or dynamic.
 mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table);
+std::vector<Key>                  kloss_keys();
 
 /// Measures: angle of the shaft, against the stator; the torque, a lag.
 void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scene)
@@ -21,10 +23,39 @@ void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scen
         "needs either 'time_constant', with which the torque follows, or 'mains_frequency', from which it "
         "is computed");
   const double lag = table.has("time_constant")
-                         ? table.positive("time_constant", kind::time)
-                         : 1. / (2. * M_PI * table.positive("mains_frequency", kind::frequency) * motor.breakdown_slip);
+                         ? table.value("time_constant")
+                         : 1. / (2. * M_PI * table.value("mains_frequency") * motor.breakdown_slip);
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DynamicMotor>(motor); }), shaft,
                  {{table.name() + ".torque", lag}});
+}
+
+ElementType dynamic_motor_type()
+{
+  return {"dynamic motor",
+          "An asynchronous motor whose torque follows the stationary one; method bdf only.",
+          "`torque`, `power`, `slip`, `stationary_torque`",
+          joined({shaft_keys(),
+                  kloss_keys(),
+                  {key::number("time_constant", kind::time, "with which the torque follows")
+                       .above_zero()
+                       .by_default("from `mains_frequency`"),
+                   key::number("mains_frequency", kind::frequency, "f of the time constant 1/(2 pi f breakdown_slip)")
+                       .above_zero()
+                       .by_default("from `time_constant`")}}),
+          read_dynamic_motor,
+          {R"toml(on                = "crank"           # run-up: the torque builds up with 1/(2 pi 50 Hz 0.15) = 21 ms
+breakdown_torque  = "240 N m"
+breakdown_slip    = 0.15
+synchronous_speed = "1500 1/min"
+ratio             = 49
+mains_frequency   = "50 Hz"
+)toml",
+           R"toml(on                = "crank"
+breakdown_torque  = "240 N m"
+breakdown_slip    = 0.15
+synchronous_speed = "1500 1/min"
+time_constant     = "20 ms"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,3 +1,4 @@
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/read_switches.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -11,15 +12,14 @@ namespace gestell::apps
 void read_force(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto  motion = constant_motion(read_load_motion(table, names), names);
-  const Kind &kind   = motion.rotation ? kind::torque : kind::force;
   LoadRequest load;
   load.name       = table.name();
   load.u          = motion.u;
   load.force_unit = motion.force_unit();
-  load.constant   = table.number("constant", kind, 0.);
+  load.constant   = table.value("constant", motion.rotation);
   for (const auto &part : table.table_array("harmonics"))
-    load.oscillations.push_back({2. * M_PI * part.positive("frequency", kind::frequency),
-                                 part.number("amplitude", kind), part.number("phase", kind::angle, 0.)});
+    load.oscillations.push_back(
+        {2. * M_PI * part.value("frequency"), part.value("amplitude", motion.rotation), part.value("phase")});
   if (!table.has("constant") && !table.has("harmonics"))
     throw table.error("needs 'constant' or 'harmonics'; with neither it would do nothing");
   if (!motion.is_measure())
@@ -30,6 +30,33 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
   const ElementRequest element = element_of(load);
   add_element_on(scene, table, element.element, motion);
   scene.elements.back().levels = element.levels;
+}
+
+ElementType force_type()
+{
+  return {"force",
+          "f = constant + sum of amplitude sin(2 pi frequency t + phase) acts on `from` along the direction and on "
+          "`to` against it.",
+          "`force` (or `torque`)",
+          joined({load_motion_keys(),
+                  {key::number("constant", kind::force, "part of the force").on_angle(kind::torque).by_default(0.),
+                   key::composed("harmonics", Key::Form::tables, kind::force,
+                                 {key::number("amplitude", kind::force, "of the harmonic").on_angle(kind::torque),
+                                  key::number("frequency", kind::frequency, "of the harmonic").above_zero(),
+                                  key::number("phase", kind::angle, "of the harmonic").by_default(0.)},
+                                 "parts that oscillate")
+                       .by_default("none")}}),
+          read_force,
+          {R"toml(from      = "slide"
+constant  = "30 N"
+harmonics = [{ amplitude = "600 N", frequency = "4 Hz", phase = "30 deg" }]
+)toml",
+           R"toml(from       = "lance"                 # turns with the lance, and turns it
+at_from    = ["0.9 m", 0, 0]
+direction  = [0, 0, 1]
+carried_by = "lance"
+constant   = "30 N"
+)toml"}};
 }
 
 } // namespace gestell::apps

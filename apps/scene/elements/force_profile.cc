@@ -1,5 +1,6 @@
 #include "mechanism/elements/profile_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
@@ -12,7 +13,7 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
 {
   const auto   motion = read_load_motion(table, names);
   const Kind  &kind   = motion.rotation ? kind::torque : kind::force;
-  const double from   = table.number("initial", kind, 0.);
+  const double from   = table.value("initial", motion.rotation);
   if (!table.has("profile"))
     throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
   const ProfileKeys keys    = level_profile(kind, kind.example);
@@ -20,6 +21,31 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }),
                  motion);
   scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
+}
+
+ElementType force_profile_type()
+{
+  return {"force profile",
+          "A force over time acts on `from` along the direction and on `to` against it.",
+          "`force`, `power`",
+          joined({load_motion_keys(),
+                  {course_key("profile", level_profile(kind::force, kind::force.example),
+                              "force: a level, ramps or a function of time")
+                       .on_angle(kind::torque),
+                   key::number("initial", kind::force, "before the first ramp").on_angle(kind::torque).by_default(0.),
+                   waits_key()}}),
+          read_force_profile,
+          {R"toml(from    = "crank"                   # rises over 0.5 s + 0.1 s
+profile = [{ at = "0 s", to = "1 kN m", rate = "2 kN m/s", rate_of_rate = "20 kN m/s^2" }]
+)toml",
+           R"toml(from       = "lance"
+direction  = [0, 0, 1]
+carried_by = "lance"
+profile    = { function = "3 N*t/s", period = "2 s", rise = "6 N" }
+)toml",
+           R"toml(from    = "slide"
+profile = { table = [["0 s", 0], ["1 s", "3 N"], ["2 s", "12 N"]] }
+)toml"}};
 }
 
 } // namespace gestell::apps

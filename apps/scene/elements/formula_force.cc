@@ -1,5 +1,6 @@
 #include "mechanism/elements/formula_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -23,6 +24,22 @@ void read_formula_force(const SceneTable &table, const Names &names, Scene &scen
   force.force = table.formula("force", variables, turns ? kind::torque : kind::force);
   force.along = turns ? FormulaForce::Along::angle : FormulaForce::Along::line;
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<FormulaForce>(force); }), motion);
+}
+
+ElementType formula_force_type()
+{
+  return {
+      "formula force",
+      "A formula of the time t, the displacement or angle u and its rate v; its events are named after the function "
+      "with a kink, abs_1_rises, if_2_falls.",
+      "`force`, `displacement`, `rate`; on an angle `torque`, `angle`, `rate`",
+      joined({motion_keys(),
+              {key::formula("force", kind::force, "of t, u and v; +F acts on `from` along the direction")
+                   .on_angle(kind::torque)}}),
+      read_formula_force,
+      {R"toml(from  = "slide"
+force = "-200 N/mm*u - 5 N*tanh(v/(1 mm/s))"
+)toml"}};
 }
 
 } // namespace gestell::apps

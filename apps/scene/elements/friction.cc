@@ -1,6 +1,7 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/regularised_friction.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
@@ -13,23 +14,34 @@ namespace
 using mechanism::CoulombFriction;
 using mechanism::RegularisedFriction;
 
-const Kind &force_kind(const RelativeMotion &motion)
+/// Keys of read_curve().
+std::vector<Key> curve_keys(double exponent)
 {
-  return motion.rotation ? kind::torque : kind::force;
+  return {key::number("stribeck_speed", kind::speed, "over which the force falls from the static to the kinetic one")
+              .on_angle(kind::angular_speed)
+              .above_zero()
+              .by_default(0.),
+          key::number("stribeck_exponent", kind::number, "n of the fall exp(-(v/v_s)^n), 1 or 2")
+              .above_zero()
+              .by_default(exponent),
+          key::number("viscous", kind::damping, "of a damper beside it")
+              .on_angle(kind::torsional_damping)
+              .from_zero()
+              .by_default(0.)};
 }
 
-const Kind &speed_kind(const RelativeMotion &motion)
+Key force_key(const std::string &name, const std::string &meaning)
 {
-  return motion.rotation ? kind::angular_speed : kind::speed;
+  return key::number(name, kind::force, meaning).on_angle(kind::torque).from_zero();
 }
 
 /// Stribeck curve and viscous part, which every friction may have.
 template <typename Parameters>
 void read_curve(const SceneTable &table, const RelativeMotion &motion, Parameters &friction)
 {
-  friction.stribeck_speed    = table.positive("stribeck_speed", speed_kind(motion), 0.);
-  friction.stribeck_exponent = table.positive("stribeck_exponent", kind::number, friction.stribeck_exponent);
-  friction.viscous = table.not_negative("viscous", motion.rotation ? kind::torsional_damping : kind::damping, 0.);
+  friction.stribeck_speed    = table.value("stribeck_speed", motion.rotation);
+  friction.stribeck_exponent = table.value("stribeck_exponent");
+  friction.viscous           = table.value("viscous", motion.rotation);
 }
 
 void add_friction(const SceneTable &table, const RelativeMotion &motion, const CoulombFriction::Parameters &friction,
@@ -44,13 +56,13 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto                      motion = read_relative_motion(table, names);
   RegularisedFriction::Parameters friction;
-  friction.force        = table.not_negative("force", force_kind(motion));
-  friction.speed        = table.positive("speed", speed_kind(motion), friction.speed);
-  friction.static_force = table.not_negative("static_force", force_kind(motion), friction.force);
+  friction.force        = table.value("force", motion.rotation);
+  friction.speed        = table.value("speed", motion.rotation);
+  friction.static_force = table.value_or("static_force", friction.force, motion.rotation);
   read_curve(table, motion, friction);
   if (table.has("static_force") != table.has("stribeck_speed"))
-    throw table.error("needs 'static_force' and 'stribeck_speed' together: from where the force falls, and over which "
-                      "speed");
+    throw table.error(
+        "needs 'static_force' and 'stribeck_speed' together: from where the force falls, and over which speed");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<RegularisedFriction>(friction); }), motion);
 }
 
@@ -63,28 +75,41 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
   if (coefficients == (table.has("static_force") || table.has("kinetic_force")))
     throw table.error("needs either 'normal_force' with 'static' and 'kinetic', or 'static_force' and 'kinetic_force'");
   if (coefficients && motion.rotation)
-    throw table.error("acts on an angle, where a normal force has no lever; give 'static_force' and 'kinetic_force' as "
-                      "torques");
+    throw table.error(
+        "acts on an angle, where a normal force has no lever; give 'static_force' and 'kinetic_force' as torques");
 
   CoulombFriction::Parameters friction;
   if (coefficients)
   {
-    const double normal    = table.not_negative("normal_force", kind::force);
-    friction.static_force  = table.not_negative("static", kind::number) * normal;
-    friction.kinetic_force = table.not_negative("kinetic", kind::number) * normal;
+    const double normal    = table.value("normal_force");
+    friction.static_force  = table.value("static") * normal;
+    friction.kinetic_force = table.value("kinetic") * normal;
   }
   else
   {
-    friction.static_force  = table.not_negative("static_force", force_kind(motion));
-    friction.kinetic_force = table.not_negative("kinetic_force", force_kind(motion));
+    friction.static_force  = table.value("static_force", motion.rotation);
+    friction.kinetic_force = table.value("kinetic_force", motion.rotation);
   }
   if (friction.static_force < friction.kinetic_force)
     throw table.error(coefficients ? "static" : "static_force",
                       std::string("is below '") + (coefficients ? "kinetic" : "kinetic_force") +
                           "'; what slides would hold more than what sticks, give at least as much");
-  friction.belt_speed = table.number("speed", speed_kind(motion), friction.belt_speed);
+  friction.belt_speed = table.value("speed", motion.rotation);
   read_curve(table, motion, friction);
   add_friction(table, motion, friction, scene);
+}
+
+/// Keys of brakes and clutches.
+static std::vector<Key> brake_keys()
+{
+  return joined({motion_keys(),
+                 {force_key("capacity", "while it slips"),
+                  force_key("static_capacity", "while it sticks").by_default("`capacity`"),
+                  profile_key("engagement", level_profile(kind::number, "5"),
+                              "share of the capacity: a level or ramps from 0 to 1"),
+                  key::number("initial_engagement", kind::number, "before the first ramp").from_zero().by_default(0.),
+                  waits_key()},
+                 curve_keys(CoulombFriction::Parameters().stribeck_exponent)});
 }
 
 /// Dry friction that is engaged over time, against the ground or another body.
@@ -93,15 +118,15 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
   const auto motion = constant_motion(read_relative_motion(table, names), names);
   refuse_measure(table, motion);
   CoulombFriction::Parameters brake;
-  brake.kinetic_force = table.not_negative("capacity", force_kind(motion));
-  brake.static_force  = table.not_negative("static_capacity", force_kind(motion), brake.kinetic_force);
+  brake.kinetic_force = table.value("capacity", motion.rotation);
+  brake.static_force  = table.value_or("static_capacity", brake.kinetic_force, motion.rotation);
   if (brake.static_force < brake.kinetic_force)
     throw table.error("static_capacity", "is below 'capacity'; what slides would hold more than what sticks");
   read_curve(table, motion, brake);
   if (!table.has("engagement"))
-    throw table.error("needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" "
-                      "}]");
-  const double from = table.not_negative("initial_engagement", kind::number, 0.);
+    throw table.error(
+        "needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" }]");
+  const double from = table.value("initial_engagement");
   const auto   keys = level_profile(kind::number, "5");
   brake.engagement  = read_course(table, "engagement", keys, from);
   add_friction(table, motion, brake, scene);
@@ -113,6 +138,87 @@ void read_clutch(const SceneTable &table, const Names &names, Scene &scene)
   if (!table.has("to"))
     throw table.error("needs 'to', the body that is coupled; against the ground it would be a brake");
   read_brake(table, names, scene);
+}
+
+ElementType friction_type()
+{
+  const RegularisedFriction::Parameters own;
+  return {"friction",
+          "Friction that creeps below a speed instead of sticking.",
+          "`force`, `rate`",
+          joined({motion_keys(),
+                  {force_key("force", "while it slides"),
+                   key::number("speed", kind::speed, "at which it is 76 % developed")
+                       .on_angle(kind::angular_speed)
+                       .above_zero()
+                       .by_default(own.speed),
+                   force_key("static_force", "from which it falls; with `stribeck_speed`").by_default("`force`")},
+                  curve_keys(own.stribeck_exponent)}),
+          read_friction,
+          {R"toml(from  = "slide"
+force = "80 N"
+)toml"}};
+}
+
+ElementType dry_friction_type()
+{
+  const CoulombFriction::Parameters own;
+  return {"dry friction",
+          "Friction that truly sticks, along or about a constant direction: meant for located events.",
+          "`force`, `rate`",
+          joined({motion_keys(),
+                  {force_key("static_force", "while it sticks").by_default("from `static`"),
+                   force_key("kinetic_force", "while it slides").by_default("from `kinetic`"),
+                   key::number("normal_force", kind::force, "by which coefficients are multiplied")
+                       .from_zero()
+                       .by_default("none"),
+                   key::number("static", kind::number, "coefficient while it sticks").from_zero().by_default(""),
+                   key::number("kinetic", kind::number, "coefficient while it slides").from_zero().by_default(""),
+                   key::number("speed", kind::speed, "of the partner, a belt")
+                       .on_angle(kind::angular_speed)
+                       .by_default(own.belt_speed)},
+                  curve_keys(own.stribeck_exponent)}),
+          read_dry_friction,
+          {R"toml(from              = "slide"          # stick-slip on a Stribeck curve
+static_force      = "120 N"
+kinetic_force     = "80 N"
+stribeck_speed    = "20 mm/s"
+stribeck_exponent = 2
+viscous           = "300 N s/m"
+)toml",
+           R"toml(from         = "slide"
+normal_force = "200 N"
+static       = 0.2
+kinetic      = 0.15
+)toml"}};
+}
+
+ElementType brake_type()
+{
+  return {"brake",
+          "Dry friction that is engaged over time, against the ground or another body; truly sticks.",
+          "`force`, `rate`",
+          brake_keys(),
+          read_brake,
+          {R"toml(from            = "crank"             # engaged within 50 ms at 3 s, let go at 5 s
+capacity        = "800 N m"
+static_capacity = "1 kN m"
+engagement      = [{ at = "3 s", to = 1, rate = "20/s" }, { at = "5 s", to = 0 }]
+)toml"}};
+}
+
+ElementType clutch_type()
+{
+  return {"clutch",
+          "A brake between two bodies; `to` is demanded.",
+          "`force`, `rate`",
+          brake_keys(),
+          read_clutch,
+          {R"toml(from       = "flywheel"               # flywheel and crank are coupled at 1 s
+to         = "crank"
+capacity   = "1.2 kN m"
+engagement = [{ at = "1 s", to = 1, rate = "10/s" }]
+)toml"}};
 }
 
 } // namespace gestell::apps

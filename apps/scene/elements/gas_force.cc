@@ -1,34 +1,72 @@
 #include "mechanism/elements/gas_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
 {
+namespace
+{
+const Kind volume{"volume", "50 cm^3", {3, 0, 0}};
+} // namespace
 
 /// Measure: displacement of the piston `from` against `to`.
 void read_gas_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const Kind                      volume{"volume", "50 cm^3", {3, 0, 0}};
   const auto                      motion = read_relative_motion(table, names);
   mechanism::GasForce::Parameters gas;
   if (motion.rotation)
     throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
-  gas.area             = table.positive("area", kind::area);
-  gas.clearance_volume = table.positive("clearance_volume", volume);
-  gas.dead_centre_at   = table.number("dead_centre_at", kind::length, gas.dead_centre_at);
-  gas.exponent         = table.positive("exponent", kind::number, gas.exponent);
-  gas.back_pressure    = table.not_negative("back_pressure", kind::pressure, gas.back_pressure);
-  gas.grows            = table.choice("side", {"above", "below"}, "above") == "above";
+  gas.area             = table.value("area");
+  gas.clearance_volume = table.value("clearance_volume");
+  gas.dead_centre_at   = table.value("dead_centre_at");
+  gas.exponent         = table.value("exponent");
+  gas.back_pressure    = table.value("back_pressure");
+  gas.grows            = table.choice("side") == "above";
   if (table.has("suction_pressure") != table.has("delivery_pressure"))
     throw table.error(
         "needs 'suction_pressure' and 'delivery_pressure' together, or neither for gas that stays enclosed");
   if (table.has("suction_pressure"))
-    gas.valves = {table.positive("suction_pressure", kind::pressure),
-                  table.positive("delivery_pressure", kind::pressure)};
-  gas.initial_pressure = gas.valves ? table.positive("initial_pressure", kind::pressure, gas.valves->suction)
-                                    : table.positive("initial_pressure", kind::pressure);
+    gas.valves = {table.value("suction_pressure"), table.value("delivery_pressure")};
+  gas.initial_pressure =
+      gas.valves ? table.value_or("initial_pressure", gas.valves->suction) : table.value("initial_pressure");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::GasForce>(gas); }), motion);
+}
+
+ElementType gas_force_type()
+{
+  const mechanism::GasForce::Parameters own;
+  return {
+      "gas force",
+      "Gas behind a piston, polytropic; with valves that open at two pressures, or enclosed.",
+      "`force` along u, `pressure`, `volume`",
+      joined({motion_keys(),
+              {key::number("area", kind::area, "of the piston").above_zero(),
+               key::number("clearance_volume", volume, "left at the dead centre").above_zero(),
+               key::number("dead_centre_at", kind::length, "u there").by_default(own.dead_centre_at),
+               key::choice("side", {"above", "below"}, true, "the volume grows with u, or against it"),
+               key::number("exponent", kind::number, "of the polytropic").above_zero().by_default(own.exponent),
+               key::number("back_pressure", kind::pressure, "on the other side of the piston")
+                   .from_zero()
+                   .by_default(own.back_pressure),
+               key::number("suction_pressure", kind::pressure, "at which the inlet opens")
+                   .above_zero()
+                   .by_default("no valves"),
+               key::number("delivery_pressure", kind::pressure, "at which the outlet opens")
+                   .above_zero()
+                   .by_default("no valves"),
+               key::number("initial_pressure", kind::pressure, "at the start; demanded without valves")
+                   .above_zero()
+                   .by_default("`suction_pressure`")}}),
+      read_gas_force,
+      {R"toml(from              = "slide"          # compressor; a double-acting one has a second with side = "below"
+area              = "100 cm^2"
+clearance_volume  = "50 cm^3"
+dead_centre_at    = "-60 mm"
+suction_pressure  = "1 bar"
+delivery_pressure = "6 bar"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/journal_bearing.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
@@ -43,12 +44,12 @@ void read_journal_bearing(const SceneTable &table, const Names &names, Scene &sc
 
   const auto                            contact = read_contact(table, false);
   mechanism::JournalBearing::Parameters bearing;
-  bearing.clearance   = table.positive("clearance", kind::length);
+  bearing.clearance   = table.value("clearance");
   bearing.stiffness   = contact.stiffness;
   bearing.dissipation = contact.dissipation;
   bearing.exponent    = contact.exponent;
   bearing.friction    = read_sliding_friction(table);
-  bearing.radius      = table.positive("radius", kind::length, 0.);
+  bearing.radius      = table.value("radius");
   if ((bearing.friction.kinetic > 0. || bearing.friction.static_coefficient > 0.) && bearing.radius == 0.)
     throw table.error("needs 'radius' of the journal: its surface slides with radius times the speed of rotation");
   ElementRequest element;
@@ -56,6 +57,41 @@ void read_journal_bearing(const SceneTable &table, const Names &names, Scene &sc
   element.element = checked(table, [&] { return std::make_shared<mechanism::JournalBearing>(bearing); });
   element.pair    = pair;
   scene.elements.push_back(element);
+}
+
+ElementType journal_bearing_type()
+{
+  return {
+      "journal bearing",
+      "A journal in a bearing with radial play.",
+      "`force`, `normal_force`, `friction_force`, `eccentricity`, `contact_angle` about `axis`, `sliding_speed`",
+      joined({{key::named("from", "bearing"), key::named("to", "journal"),
+               key::vector("at", kind::length, "middle of the bearing, as described").by_default("`at_from`, `at_to`"),
+               key::vector("at_from", kind::length, "centre of the bearing").by_default("`at`"),
+               key::vector("at_to", kind::length, "centre of the journal").by_default("`at`"),
+               key::direction("axis", "of the bearing"),
+               key::number("clearance", kind::length, "radial play").above_zero(),
+               key::number("radius", kind::length, "of the journal, needed for friction").above_zero().by_default(0.)},
+              contact_keys(),
+              {sliding_friction_key()}}),
+      read_journal_bearing,
+      {R"toml(from      = "ground"
+to        = "lance"
+at        = [0, 0, 0]
+axis      = [0, 1, 0]
+clearance = "50 um"
+stiffness = "500 N/um"
+friction  = 0.05
+radius    = "20 mm"
+)toml",
+       R"toml(from      = "ground"
+to        = "lance"
+at_from   = [0, 0, 0]
+at_to     = [0, 0, 0]
+axis      = [0, 1, 0]
+clearance = "50 um"
+stiffness = "500 N/um"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/lugre_friction.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -9,24 +10,61 @@ namespace gestell::apps
 /// Measures: displacement or angle of `from` against `to`; the force of the bristles, a lag.
 void read_lugre_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto  motion    = constant_motion(read_relative_motion(table, names), names);
-  const bool  turns     = motion.rotation;
-  const Kind &force     = turns ? kind::torque : kind::force;
-  const Kind &stiffness = turns ? kind::torsional_stiffness : kind::stiffness;
-  const Kind &damping   = turns ? kind::torsional_damping : kind::damping;
+  const auto motion = constant_motion(read_relative_motion(table, names), names);
+  const bool turns  = motion.rotation;
 
   mechanism::LuGreFriction::Parameters friction;
-  friction.kinetic_force     = table.positive("kinetic_force", force);
-  friction.static_force      = table.positive("static_force", force, friction.kinetic_force);
-  friction.stribeck_speed    = table.positive("stribeck_speed", turns ? kind::angular_speed : kind::speed, 0.);
-  friction.stribeck_exponent = table.positive("stribeck_exponent", kind::number, friction.stribeck_exponent);
-  friction.bristle_stiffness = table.positive("bristle_stiffness", stiffness);
-  friction.bristle_damping   = table.not_negative("bristle_damping", damping, 0.);
-  friction.viscous           = table.not_negative("viscous", damping, 0.);
+  friction.kinetic_force     = table.value("kinetic_force", turns);
+  friction.static_force      = table.value_or("static_force", friction.kinetic_force, turns);
+  friction.stribeck_speed    = table.value("stribeck_speed", turns);
+  friction.stribeck_exponent = table.value("stribeck_exponent");
+  friction.bristle_stiffness = table.value("bristle_stiffness", turns);
+  friction.bristle_damping   = table.value("bristle_damping", turns);
+  friction.viscous           = table.value("viscous", turns);
   if (friction.static_force > friction.kinetic_force && !table.has("stribeck_speed"))
     throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::LuGreFriction>(friction); }),
                  motion, {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
+}
+
+ElementType lugre_friction_type()
+{
+  const mechanism::LuGreFriction::Parameters own;
+  return {"lugre friction",
+          "Friction with presliding: bristles that bend; method bdf only.",
+          "`force`, `rate`, `deflection`",
+          joined({motion_keys(),
+                  {key::number("kinetic_force", kind::force, "while it slides").on_angle(kind::torque).above_zero(),
+                   key::number("static_force", kind::force, "at the end of presliding")
+                       .on_angle(kind::torque)
+                       .above_zero()
+                       .by_default("`kinetic_force`"),
+                   key::number("stribeck_speed", kind::speed, "over which the force falls to the kinetic one")
+                       .on_angle(kind::angular_speed)
+                       .above_zero()
+                       .by_default(0.),
+                   key::number("stribeck_exponent", kind::number, "of the fall")
+                       .above_zero()
+                       .by_default(own.stribeck_exponent),
+                   key::number("bristle_stiffness", kind::stiffness, "of the bristles")
+                       .on_angle(kind::torsional_stiffness)
+                       .above_zero(),
+                   key::number("bristle_damping", kind::damping, "of the bristles")
+                       .on_angle(kind::torsional_damping)
+                       .from_zero()
+                       .by_default(0.),
+                   key::number("viscous", kind::damping, "of a damper beside it")
+                       .on_angle(kind::torsional_damping)
+                       .from_zero()
+                       .by_default(0.)}}),
+          read_lugre_friction,
+          {R"toml(from              = "slide"
+static_force      = "120 N"
+kinetic_force     = "80 N"
+stribeck_speed    = "20 mm/s"
+bristle_stiffness = "50 N/um"
+bristle_damping   = "2 kN s/m"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,3 +1,4 @@
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -8,7 +9,7 @@ void read_point_mass(const SceneTable &table, const Names &names, Scene &scene)
   PointMassRequest point;
   point.name    = table.name();
   point.marker  = names.marker(table, "on");
-  point.mass    = table.positive("mass", kind::mass);
+  point.mass    = table.value("mass");
   point.inertia = table.vector("inertia", kind::inertia, {});
   point.offset  = table.vector("offset", kind::length, {});
   if (point.marker == "ground")
@@ -17,6 +18,22 @@ void read_point_mass(const SceneTable &table, const Names &names, Scene &scene)
     if (J < 0.)
       throw table.error("inertia", "needs moments of inertia of zero or more");
   scene.point_masses.push_back(point);
+}
+
+ElementType point_mass_type()
+{
+  return {"point mass",
+          "A mass, and its inertia, on a body or an interface of the frame.",
+          "",
+          {key::named("on", "body or frame.INTERFACE that carries it"),
+           key::number("mass", kind::mass, "of the point").above_zero(),
+           key::vector("inertia", kind::inertia, "moments of inertia about the global axes, none negative")
+               .by_default("[0, 0, 0]"),
+           key::vector("offset", kind::length, "from the reference point of what carries it").by_default("[0, 0, 0]")},
+          read_point_mass,
+          {R"toml(on   = "slide"
+mass = "3 kg"
+)toml"}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "mechanism/elements/spring_damper.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -11,10 +12,10 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
 {
   const auto   motion    = read_relative_motion(table, names);
   const bool   turns     = motion.rotation;
-  const double stiffness = table.not_negative("stiffness", turns ? kind::torsional_stiffness : kind::stiffness, 0.);
-  const double damping   = table.not_negative("damping", turns ? kind::torsional_damping : kind::damping, 0.);
-  const double preload   = table.number("preload", turns ? kind::torque : kind::force, 0.);
-  const double rest      = table.number("rest", turns ? kind::angle : kind::length, 0.);
+  const double stiffness = table.value("stiffness", turns);
+  const double damping   = table.value("damping", turns);
+  const double preload   = table.value("preload", turns);
+  const double rest      = table.value("rest", turns);
   // A value may be varied down to zero; what is not given at all was forgotten.
   if (!table.has("stiffness") && !table.has("damping") && !table.has("preload"))
     throw table.error("needs 'stiffness', 'damping' or 'preload'; with none of them it would do nothing");
@@ -25,6 +26,29 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
                    std::make_shared<mechanism::SpringDamper>(
                        mechanism::SpringDamper::Parameters{stiffness, damping, preload, rest}),
                    motion);
+}
+
+ElementType spring_damper_type()
+{
+  return {
+      "spring-damper",
+      "F = preload + c (u - rest) + b u' acts on `to` along the direction and on `from` against it.",
+      "`force` (or `torque`), `displacement`, `rate`",
+      joined({motion_keys(),
+              {key::number("stiffness", kind::stiffness, "c")
+                   .on_angle(kind::torsional_stiffness)
+                   .from_zero()
+                   .by_default(0.),
+               key::number("damping", kind::damping, "b").on_angle(kind::torsional_damping).from_zero().by_default(0.),
+               key::number("preload", kind::force, "force at u = rest").on_angle(kind::torque).by_default(0.),
+               key::number("rest", kind::length, "u without the force of the spring")
+                   .on_angle(kind::angle)
+                   .by_default(0.)}}),
+      read_spring_damper,
+      {R"toml(from      = "slide"
+stiffness = "200 N/mm"
+damping   = "50 N s/m"
+)toml"}};
 }
 
 } // namespace gestell::apps

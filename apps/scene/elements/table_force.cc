@@ -1,5 +1,6 @@
 #include "mechanism/elements/table_force.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -12,7 +13,7 @@ void read_table_force(const SceneTable &table, const Names &names, Scene &scene)
   using Against             = mechanism::TableForce::Against;
   const auto        motion  = read_relative_motion(table, names);
   const bool        turns   = motion.rotation;
-  const std::string against = table.choice("against", {"time", "displacement", "rate"}, "");
+  const std::string against = table.choice("against");
   const Kind       &x       = against == "time"           ? kind::time
                               : against == "displacement" ? (turns ? kind::angle : kind::length)
                                                           : (turns ? kind::angular_speed : kind::speed);
@@ -22,6 +23,23 @@ void read_table_force(const SceneTable &table, const Names &names, Scene &scene)
   for (const auto &row : table.pairs("table", x, turns ? kind::torque : kind::force))
     force.rows.push_back({row[0], row[1]});
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::TableForce>(force); }), motion);
+}
+
+ElementType table_force_type()
+{
+  return {"table force",
+          "A force from a table, linear between its rows and constant beyond; two rows at one place are a jump.",
+          "`force`, `displacement`, `rate`",
+          joined({motion_keys(),
+                  {key::choice("against", {"time", "displacement", "rate"}, false, "what the first column is"),
+                   key::composed("table", Key::Form::rows, kind::force, {},
+                                 "two rows or more in ascending order; +F acts on `from` along the direction")
+                       .on_angle(kind::torque)}}),
+          read_table_force,
+          {R"toml(from    = "slide"
+against = "time"
+table   = [["0 s", "3 kN"], ["0.2 s", "3 kN"], ["0.2 s", 0]]
+)toml"}};
 }
 
 } // namespace gestell::apps

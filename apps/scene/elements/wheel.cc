@@ -1,5 +1,6 @@
 #include "mechanism/elements/wheel.h"
 
+#include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -14,10 +15,26 @@ void read_wheel(const SceneTable &table, const Names &names, Scene &scene)
     throw table.error("stands on the ground along a displacement, not on an angle; give 'direction' or a measure of a "
                       "length");
   mechanism::Wheel::Parameters wheel;
-  wheel.stiffness = table.positive("stiffness", kind::stiffness);
-  wheel.damping   = table.not_negative("damping", kind::damping, 0.);
-  wheel.bilateral = table.boolean("bilateral", false);
+  wheel.stiffness = table.value("stiffness");
+  wheel.damping   = table.value("damping");
+  wheel.bilateral = table.truth("bilateral");
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::Wheel>(wheel); }), motion);
+}
+
+ElementType wheel_type()
+{
+  return {"wheel",
+          "A tyre on the ground: F = -c u - d u' pushes up and lifts off; u is the height of the hub above the "
+          "position in which the tyre is just unloaded.",
+          "`force`, `compression`",
+          joined({motion_keys(),
+                  {key::number("stiffness", kind::stiffness, "c of the tyre").above_zero(),
+                   key::number("damping", kind::damping, "d of the tyre").from_zero().by_default(0.),
+                   key::truth("bilateral", false, "stands always")}}),
+          read_wheel,
+          {R"toml(from      = "slide"
+stiffness = "600 N/mm"
+)toml"}};
 }
 
 } // namespace gestell::apps

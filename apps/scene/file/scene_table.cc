@@ -75,6 +75,8 @@ void SceneTable::warn(const std::string &key, const std::string &what) const
 
 const SceneNode *SceneTable::look_up(const std::string &key) const
 {
+  if (keys_)
+    declaration(key);
   node_->asked.insert(key);
   const SceneNode *value = node_->find(key);
   if (value)
@@ -410,7 +412,7 @@ std::string SceneTable::file(const std::string &key) const
 
 SceneTable SceneTable::table(const std::string &key) const
 {
-  return below(demand(key, "a table of keys"), path_of(key), key);
+  return inner(below(demand(key, "a table of keys"), path_of(key), key), key);
 }
 
 std::optional<SceneTable> SceneTable::optional_table(const std::string &key) const
@@ -436,7 +438,7 @@ std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
   if (value->type != Type::array)
     throw error(key, "needs an array of tables [{ ... }, { ... }], got " + described(*value));
   for (const auto &element : value->elements)
-    result.push_back(below(element, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key));
+    result.push_back(inner(below(element, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key), key));
   return result;
 }
 

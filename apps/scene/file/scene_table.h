@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/file/declaration.h"
 #include "apps/scene/file/parameters.h"
 #include "apps/scene/file/scene_node.h"
 #include "apps/scene/language/quantity.h"
@@ -29,7 +30,18 @@ public:
   /// @param path  of the table in the scene, "body.crank"; "" for the scene itself.
   SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path);
 
+  /// The same table, whose keys are `keys` and no others.  They must outlive it.
+  SceneTable declared(const std::vector<Key> &keys) const;
+
   bool has(const std::string &key) const; ///< marks the key as known
+
+  // Of declared keys: kind, range, choices and default are those of the declaration.
+
+  double value(const std::string &key, bool on_angle = false) const;
+  /// @param otherwise  in place of a default
+  double      value_or(const std::string &key, double otherwise, bool on_angle = false) const;
+  std::string choice(const std::string &key) const;
+  bool        truth(const std::string &key) const;
 
   double number(const std::string &key, const Kind &kind) const;
   double number(const std::string &key, const Kind &kind, double fallback) const;
@@ -41,6 +53,9 @@ public:
   double positive(const std::string &key, const Kind &kind, double fallback) const;
   double not_negative(const std::string &key, const Kind &kind) const;
   double not_negative(const std::string &key, const Kind &kind, double fallback) const;
+
+  /// A part of a whole, above 0 and at most 1: 0.15 or "15 %"; who writes 15 means percent.
+  double share(const std::string &key) const;
 
   /// A formula of `variables`, or a value.
   mechanism::Formula formula(const std::string &key, const std::vector<Variable> &variables, const Kind &kind) const;
@@ -97,8 +112,12 @@ private:
   using Warnings = std::shared_ptr<std::vector<std::string>>; ///< shared by all tables of a scene
   SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path, const std::string &name,
              const Warnings &warnings);
-  SceneTable       below(const SceneNode &node, const std::string &path, const std::string &name) const;
+  /// Of tables of a declared key the keys are declared, too.
+  SceneTable inner(SceneTable table, const std::string &key) const;
+  SceneTable below(const SceneNode &node, const std::string &path, const std::string &name) const;
+  /// @throws std::logic_error for a key that a table with declared ones has not.
   const SceneNode *look_up(const std::string &key) const;
+  const Key       &declaration(const std::string &key) const;
   const SceneNode &demand(const std::string &key, const std::string &what) const;
   std::string      path_of(const std::string &key) const;
   double           evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
@@ -111,6 +130,8 @@ private:
   const Parameters *parameters_;
   std::string       path_, name_;
   Warnings          warnings_;
+
+  const std::vector<Key> *keys_ = nullptr; ///< null: any key may be asked for
 };
 
 } // namespace gestell::apps

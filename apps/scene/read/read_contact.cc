@@ -26,12 +26,55 @@ Kind stiffness_of(double exponent, bool turns)
 
 } // namespace
 
+std::vector<Key> contact_keys()
+{
+  const Clearance::Parameters own;
+  return {
+      key::number("stiffness", kind::stiffness, "of the contact; in N/m^n a plain number")
+          .on_angle(kind::torsional_stiffness)
+          .above_zero(),
+      key::number("exponent", kind::number, "n of the force c d^n; 1.5 after Hertz")
+          .above_zero()
+          .by_default(own.exponent),
+      key::number("dissipation", dissipation, "factor of Hunt and Crossley")
+          .on_angle(torsional_dissipation)
+          .from_zero()
+          .by_default(0.),
+      key::number("restitution", kind::number, "share of its speed that a free body keeps, in place of `dissipation`")
+          .as_share()
+          .by_default(""),
+      key::number("impact_speed", kind::speed, "at which it keeps that share")
+          .on_angle(kind::angular_speed)
+          .above_zero()
+          .by_default(""),
+  };
+}
+
+Key sliding_friction_key()
+{
+  const mechanism::SlidingFriction own;
+  return key::composed(
+             "friction", Key::Form::coefficient, kind::number,
+             {key::number("coefficient", kind::number, "while it slides").from_zero(),
+              key::number("speed", kind::speed, "at which it is 76 % developed").above_zero().by_default(own.speed),
+              key::number("static", kind::number, "from which it falls; with `stribeck_speed`")
+                  .from_zero()
+                  .by_default(""),
+              key::number("stribeck_speed", kind::speed, "over which it falls").above_zero().by_default(0.),
+              key::number("stribeck_exponent", kind::number, "of the fall, 1 or 2")
+                  .above_zero()
+                  .by_default(own.stribeck_exponent)},
+             "coefficient of sliding friction, or its table")
+      .from_zero()
+      .by_default("none");
+}
+
 Clearance::Parameters read_contact(const SceneTable &table, bool turns)
 {
   Clearance::Parameters contact;
-  contact.exponent    = table.positive("exponent", kind::number, contact.exponent);
+  contact.exponent    = table.value("exponent");
   contact.stiffness   = table.positive("stiffness", stiffness_of(contact.exponent, turns));
-  contact.dissipation = table.not_negative("dissipation", turns ? torsional_dissipation : dissipation, 0.);
+  contact.dissipation = table.value("dissipation", turns);
   if (table.has("restitution") != table.has("impact_speed"))
     throw table.error("needs 'restitution' and 'impact_speed' together: how much of its speed a body keeps depends on "
                       "how fast it comes");
@@ -40,32 +83,34 @@ Clearance::Parameters read_contact(const SceneTable &table, bool turns)
   if (table.has("restitution"))
   {
     const double e      = table.positive("restitution", kind::number);
-    const double speed  = table.positive("impact_speed", turns ? kind::angular_speed : kind::speed);
+    const double speed  = table.value("impact_speed", turns);
     contact.dissipation = checked(table, [&] { return Clearance::dissipation_for(e, speed); });
   }
   return contact;
 }
 
-mechanism::SlidingFriction read_sliding_friction(const SceneTable &table)
+mechanism::SlidingFriction read_sliding_friction(const SceneTable &any)
 {
-  mechanism::SlidingFriction friction;
+  static const std::vector<Key> keys  = {sliding_friction_key()};
+  const SceneTable              table = any.declared(keys); // joints, which have it too, declare nothing yet
+  mechanism::SlidingFriction    friction;
   if (!table.has("friction"))
     return friction;
   if (!table.is_table("friction"))
   {
-    friction.kinetic = table.not_negative("friction", kind::number);
+    friction.kinetic = table.value("friction");
     return friction;
   }
   const SceneTable own       = table.table("friction");
-  friction.kinetic           = own.not_negative("coefficient", kind::number);
-  friction.speed             = own.positive("speed", kind::speed, friction.speed);
-  friction.stribeck_speed    = own.positive("stribeck_speed", kind::speed, 0.);
-  friction.stribeck_exponent = own.positive("stribeck_exponent", kind::number, friction.stribeck_exponent);
+  friction.kinetic           = own.value("coefficient");
+  friction.speed             = own.value("speed");
+  friction.stribeck_speed    = own.value("stribeck_speed");
+  friction.stribeck_exponent = own.value("stribeck_exponent");
   if (own.has("static") != own.has("stribeck_speed"))
     throw own.error("needs 'static' and 'stribeck_speed' together: from where the coefficient falls, and over which "
                     "speed");
   if (own.has("static"))
-    friction.static_coefficient = own.not_negative("static", kind::number);
+    friction.static_coefficient = own.value("static");
   if (own.has("static") && friction.static_coefficient < friction.kinetic)
     throw own.error("static", "is below 'coefficient'; what slides would hold more than what sticks");
   return friction;

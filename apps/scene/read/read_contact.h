@@ -12,6 +12,12 @@ namespace gestell::apps
 /// @param turns  it acts on an angle
 mechanism::Clearance::Parameters read_contact(const SceneTable &table, bool turns);
 
+/// Keys that read_contact() asks for.
+std::vector<Key> contact_keys();
+
+/// The key that read_sliding_friction() asks for.
+Key sliding_friction_key();
+
 /// `friction`: a coefficient, or a table `{ coefficient, speed, static, stribeck_speed, stribeck_exponent }`; without
 /// it there is none.
 mechanism::SlidingFriction read_sliding_friction(const SceneTable &table);

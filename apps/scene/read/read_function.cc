@@ -64,6 +64,16 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
 
 } // namespace
 
+std::vector<Key> function_keys(const Kind &x, const Kind &y)
+{
+  return {key::formula("function", y, "formula of the argument").by_default("`table`"),
+          key::composed("table", Key::Form::rows, y, {}, "rows of argument and value, joined by a spline")
+              .by_default("`function`"),
+          key::number("period", x, "of the argument").above_zero().by_default("none"),
+          key::number("rise", y, "of the value over a period").by_default(0.),
+          key::number("begin", x, "where the formula's period begins").by_default(0.)};
+}
+
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
 {

@@ -37,6 +37,32 @@ ProfileKeys level_profile(const Kind &level, const std::string &example)
           per_seconds(level, level.name + " per second squared", example + "/s^2", 2)};
 }
 
+Key profile_key(const std::string &name, const ProfileKeys &keys, const std::string &meaning)
+{
+  return key::composed(
+      name, Key::Form::profile, keys.level,
+      {key::number("at", kind::time, "beginning of the ramp, not before the end of the ramp before it"),
+       key::number("to", keys.level, "level at its end"),
+       key::number(keys.rate_key, keys.rate, "largest rate").above_zero().by_default("a jump"),
+       key::number(keys.rate_of_rate_key, keys.rate_of_rate, "largest rate of the rate")
+           .above_zero()
+           .by_default("corners")},
+      meaning);
+}
+
+Key course_key(const std::string &name, const ProfileKeys &keys, const std::string &meaning)
+{
+  Key course  = profile_key(name, keys, meaning);
+  course.form = Key::Form::course;
+  course.keys = joined({course.keys, function_keys(kind::time, keys.level)});
+  return course;
+}
+
+Key waits_key()
+{
+  return key::truth("waits", false, "stays at its first level until a switch tells it \"start\"");
+}
+
 mechanism::Profile read_profile(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from)
 {
   if (!table.is_array(key))

@@ -18,6 +18,12 @@ ProfileKeys speed_profile();                                       ///< of a rot
 ProfileKeys path_profile();                                        ///< of a motion along a path: m/s
 ProfileKeys level_profile(const Kind &level, const std::string &); ///< `rate` and `rate_of_rate` of anything else
 
+/// The key of a profile; `waits` goes with it.
+Key profile_key(const std::string &name, const ProfileKeys &keys, const std::string &meaning);
+/// The same that may be a function of time.
+Key course_key(const std::string &name, const ProfileKeys &keys, const std::string &meaning);
+Key waits_key();
+
 /**
  * Reads the ramps [{ at = "1 s", to = "1500 1/min", acceleration = "200 rad/s^2", jerk = "1000 rad/s^3" }] of `key`; a
  * level alone, speed = "1500 1/min", is constant.

@@ -107,6 +107,33 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   return {difference(from.marker, to.marker, rotor->axis, true), true, ""};
 }
 
+std::vector<Key> motion_keys()
+{
+  return {
+      key::named("from", "body, frame.INTERFACE or place: the element acts on u = motion(from) - motion(to)")
+          .by_default("`on`"),
+      key::named("to", "the other one").by_default("ground"),
+      key::direction("direction", "u is the displacement along it").by_default("axis of the slider, if one is"),
+      key::direction("about", "u is the angle about it").by_default("axis of the rotor, if one is"),
+      key::vector("at_from", kind::length, "point of `from` whose displacement counts, as described").by_default(""),
+      key::vector("at_to", kind::length, "the same of `to`").by_default(""),
+      key::named("on", "measure that is u, in place of `from` and `to`").by_default("`from`"),
+  };
+}
+
+std::vector<Key> load_motion_keys()
+{
+  return joined({motion_keys(),
+                 {key::named("carried_by", "body of `from`, with which the direction turns; without `to`")
+                      .by_default("the direction is constant")}});
+}
+
+std::vector<Key> shaft_keys()
+{
+  return {key::named("on", "rotor, planar body or measure that is an angle, which the torque turns"),
+          key::named("to", "body or frame.INTERFACE that carries the stator").by_default("carrier of the rotor")};
+}
+
 RelativeMotion read_load_motion(const SceneTable &table, const Names &names)
 {
   if (!table.has("carried_by"))

@@ -41,6 +41,11 @@ void refuse_turning_point(const SceneTable &table, const Names &names, const Pla
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
 
+/// Keys that read_relative_motion() asks for; read_load_motion(); read_shaft().
+std::vector<Key> motion_keys();
+std::vector<Key> load_motion_keys();
+std::vector<Key> shaft_keys();
+
 /// As above; of a load, whose direction may turn with `from`: `carried_by`.
 RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
 

@@ -117,7 +117,7 @@ struct MeshRequest
   double  pressure_angle = 0.; ///< [rad], negative: the other flank carries
 };
 
-/// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene.md, measures.
+/// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene/joints.md.
 struct MeasureRequest
 {
   std::string                         name;

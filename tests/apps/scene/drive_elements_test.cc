@@ -172,9 +172,9 @@ TEST(DynamicMotor, RunsBesideAFrameOfModes)
 
 TEST(SceneReference, ItsExamplesOfElementsAreRead)
 {
-  std::ifstream     in(std::string(GESTELL_SOURCE_DIR) + "/docs/scene.md");
+  std::ifstream     in(std::string(GESTELL_SOURCE_DIR) + "/docs/scene/elements.md");
   const std::string document{std::istreambuf_iterator<char>(in), {}};
-  const auto        begin = document.find("```toml\n", document.find("### Examples")) + 8;
+  const auto        begin = document.find("```toml\n", document.find("## Examples")) + 8;
   ASSERT_GT(begin, 8u);
   std::string scene = document.substr(begin, document.find("```", begin) - begin);
   for (const std::string body : {"crank", "flywheel", "rod", "lance"})

@@ -1,0 +1,92 @@
+#include "apps/reference/help_text.h"
+
+#include "apps/reference/declared_tables.h"
+#include "fem/values/nearest_name.h"
+
+#include <set>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t name_width = 24;
+
+std::string padded(const std::string &name)
+{
+  return "  " + name + std::string(name.size() < name_width ? name_width - name.size() : 1, ' ');
+}
+
+std::string key_text(const Key &key)
+{
+  const std::string own = default_of(key);
+  return padded(key.name) + key.meaning + ": " + taken_by(key) +
+         (own.empty()         ? ""
+          : own == "demanded" ? "; demanded"
+                              : "; default " + own) +
+         "\n";
+}
+
+std::string table_text(const DeclaredTable &table)
+{
+  std::string text = table.path + ": " + table.does + "\n\n";
+  for (const Key &key : table.keys)
+    text += key_text(key);
+  if (!table.signals.empty())
+    text += "\nSignals: " + table.signals + "\n";
+  for (const std::string &example : table.examples)
+    text += "\n[element.NAME]\ntype = \"" + table.path.substr(table.path.find('.') + 1) + "\"\n" + example;
+  return text;
+}
+
+std::string list_of_tables()
+{
+  std::string text = "Tables of a scene; gestell help TABLE tells their keys.\n\n";
+  for (const DeclaredTable &table : declared_tables())
+    text += padded(table.path) + table.does + "\n";
+  return text;
+}
+
+std::string last_part(const std::string &path)
+{
+  return path.substr(path.rfind('.') + 1);
+}
+
+std::string keys_called(const std::string &topic)
+{
+  std::string text;
+  for (const DeclaredTable &table : declared_tables())
+    for (const Key &key : table.keys)
+      if (topic == key.name || topic == table.path + "." + key.name)
+        text += table.path + "\n" + key_text(key);
+  return text;
+}
+
+} // namespace
+
+std::string help_text(const std::string &topic)
+{
+  if (topic.empty())
+    return list_of_tables();
+  for (const DeclaredTable &table : declared_tables())
+    if (topic == table.path || topic == last_part(table.path))
+      return table_text(table);
+  if (const std::string text = keys_called(topic); !text.empty())
+    return text;
+  std::set<std::string> names;
+  for (const DeclaredTable &table : declared_tables())
+  {
+    names.insert(table.path);
+    names.insert(last_part(table.path));
+    for (const Key &key : table.keys)
+    {
+      names.insert(key.name);
+      names.insert(table.path + "." + key.name);
+    }
+  }
+  throw std::invalid_argument("help: there is no table or key '" + topic + "'" +
+                              suggestion(topic, {names.begin(), names.end()}));
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,125 @@
+#include "apps/scene/file/declaration.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// Copy of `key`, changed.
+template <typename Change>
+Key changed(Key key, Change change)
+{
+  change(key);
+  return key;
+}
+
+Key key_of(const std::string &name, Key::Form form, const std::string &meaning)
+{
+  Key key;
+  key.name    = name;
+  key.form    = form;
+  key.meaning = meaning;
+  return key;
+}
+
+} // namespace
+
+Key Key::on_angle(const Kind &other) const
+{
+  return changed(*this, [&](Key &key) { key.angular = other; });
+}
+
+Key Key::above_zero() const
+{
+  return changed(*this, [](Key &key) { key.range = Range::above_zero; });
+}
+
+Key Key::from_zero() const
+{
+  return changed(*this, [](Key &key) { key.range = Range::from_zero; });
+}
+
+Key Key::as_share() const
+{
+  return changed(*this, [](Key &key) { key.range = Range::share; });
+}
+
+Key Key::by_default(double value) const
+{
+  return changed(*this, [&](Key &key) { key.demanded = false, key.fallback = value; });
+}
+
+Key Key::by_default(const std::string &words) const
+{
+  return changed(*this, [&](Key &key) { key.demanded = false, key.otherwise = words; });
+}
+
+namespace key
+{
+
+Key number(const std::string &name, const Kind &kind, const std::string &meaning)
+{
+  return composed(name, Key::Form::number, kind, {}, meaning);
+}
+
+Key formula(const std::string &name, const Kind &kind, const std::string &meaning)
+{
+  return composed(name, Key::Form::formula, kind, {}, meaning);
+}
+
+Key truth(const std::string &name, bool fallback, const std::string &meaning)
+{
+  return key_of(name, Key::Form::truth, meaning).by_default(fallback ? 1. : 0.);
+}
+
+Key choice(const std::string &name, const std::vector<std::string> &choices, bool fallback, const std::string &meaning)
+{
+  Key key      = key_of(name, Key::Form::choice, meaning);
+  key.choices  = choices;
+  key.demanded = !fallback;
+  return key;
+}
+
+Key named(const std::string &name, const std::string &meaning)
+{
+  return key_of(name, Key::Form::name, meaning);
+}
+
+Key direction(const std::string &name, const std::string &meaning)
+{
+  return key_of(name, Key::Form::direction, meaning);
+}
+
+Key vector(const std::string &name, const Kind &kind, const std::string &meaning)
+{
+  return composed(name, Key::Form::vector, kind, {}, meaning);
+}
+
+Key composed(const std::string &name, Key::Form form, const Kind &kind, const std::vector<Key> &keys,
+             const std::string &meaning)
+{
+  Key key  = key_of(name, form, meaning);
+  key.kind = kind;
+  key.keys = keys;
+  return key;
+}
+
+} // namespace key
+
+std::vector<Key> joined(const std::vector<std::vector<Key>> &lists)
+{
+  std::vector<Key> keys;
+  for (const auto &list : lists)
+    keys.insert(keys.end(), list.begin(), list.end());
+  return keys;
+}
+
+const Key *find_key(const std::vector<Key> &keys, const std::string &name)
+{
+  for (const Key &key : keys)
+    if (key.name == name)
+      return &key;
+  return nullptr;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,69 @@
+#include "apps/scene/file/scene_table.h"
+
+#include <sstream>
+
+namespace gestell::apps
+{
+
+SceneTable SceneTable::declared(const std::vector<Key> &keys) const
+{
+  SceneTable table = *this;
+  table.keys_      = &keys;
+  return table;
+}
+
+SceneTable SceneTable::inner(SceneTable table, const std::string &key) const
+{
+  if (keys_ && !declaration(key).keys.empty())
+    table.keys_ = &declaration(key).keys;
+  return table;
+}
+
+const Key &SceneTable::declaration(const std::string &key) const
+{
+  const Key *declared = keys_ ? find_key(*keys_, key) : nullptr;
+  if (!declared)
+    throw std::logic_error(path_of(key) + " is read, but not declared");
+  return *declared;
+}
+
+double SceneTable::share(const std::string &key) const
+{
+  const double share = positive(key, kind::number);
+  if (share <= 1.)
+    return share;
+  std::ostringstream text;
+  text << "needs a share of at most 1, got " << share << "; percent are written \"" << share << " %\"";
+  throw error(key, text.str());
+}
+
+double SceneTable::value(const std::string &key, bool on_angle) const
+{
+  const Key  &declared = declaration(key);
+  const Kind &kind     = on_angle && declared.angular ? *declared.angular : declared.kind;
+  if (declared.fallback && !has(key))
+    return *declared.fallback;
+  if (declared.range == Key::Range::any)
+    return number(key, kind);
+  if (declared.range == Key::Range::from_zero)
+    return not_negative(key, kind);
+  return declared.range == Key::Range::share ? share(key) : positive(key, kind);
+}
+
+double SceneTable::value_or(const std::string &key, double otherwise, bool on_angle) const
+{
+  return has(key) ? value(key, on_angle) : otherwise;
+}
+
+std::string SceneTable::choice(const std::string &key) const
+{
+  const Key &declared = declaration(key);
+  return choice(key, declared.choices, declared.demanded ? "" : declared.choices.front());
+}
+
+bool SceneTable::truth(const std::string &key) const
+{
+  return boolean(key, declaration(key).fallback.value_or(0.) != 0.);
+}
+
+} // namespace gestell::apps
