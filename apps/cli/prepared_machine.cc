@@ -4,7 +4,7 @@
 #include "apps/scene/build/carried_bodies.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/free_bodies.h"
-#include "apps/scene/read/matrix_units.h"
+#include "apps/scene/read/frame/matrix_units.h"
 #include "apps/version.h"
 #include "coupling/equilibrium/static_expansion.h"
 #include "coupling/frame/frame_cache.h"

@@ -2,9 +2,9 @@
 
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/scene_file.h"
-#include "apps/scene/read/node_interfaces.h"
+#include "apps/scene/read/frame/node_interfaces.h"
+#include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/read_bodies.h"
-#include "apps/scene/read/read_frame.h"
 #include "apps/scene/read/read_joints.h"
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_run.h"

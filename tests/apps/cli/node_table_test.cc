@@ -1,7 +1,7 @@
 // Matrices of other programs: what a table of nodes adds, and what is refused or warned of.
 
 #include "apps/scene/build/build_machine.h"
-#include "apps/scene/read/matrix_units.h"
+#include "apps/scene/read/frame/matrix_units.h"
 #include "coupling/reduction/dense_frame.h"
 #include "tests/support/scene_text.h"
 

@@ -1,6 +1,6 @@
+#include "apps/scene/read/frame/read_damping.h"
+#include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/names.h"
-#include "apps/scene/read/read_damping.h"
-#include "apps/scene/read/read_frame.h"
 #include "apps/scene/read/read_material.h"
 #include "apps/scene/read/read_tensor.h"
 #include "fem/values/nearest_name.h"

@@ -1,4 +1,4 @@
-#include "apps/scene/read/read_node_table.h"
+#include "apps/scene/read/frame/read_node_table.h"
 
 #include "apps/scene/file/csv_file.h"
 #include "apps/scene/language/units.h"

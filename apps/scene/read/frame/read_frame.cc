@@ -1,4 +1,4 @@
-#include "apps/scene/read/read_frame.h"
+#include "apps/scene/read/frame/read_frame.h"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "apps/scene/read/matrix_units.h"
+#include "apps/scene/read/frame/matrix_units.h"
 
 #include <algorithm>
 #include <array>

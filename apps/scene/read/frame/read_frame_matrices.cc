@@ -1,8 +1,8 @@
-#include "apps/scene/read/matrix_units.h"
+#include "apps/scene/read/frame/matrix_units.h"
+#include "apps/scene/read/frame/read_damping.h"
+#include "apps/scene/read/frame/read_frame.h"
+#include "apps/scene/read/frame/read_node_table.h"
 #include "apps/scene/read/names.h"
-#include "apps/scene/read/read_damping.h"
-#include "apps/scene/read/read_frame.h"
-#include "apps/scene/read/read_node_table.h"
 #include "coupling/frame/matrix_file.h"
 #include "fem/values/nearest_name.h"
 

@@ -1,4 +1,4 @@
-#include "apps/scene/read/read_damping.h"
+#include "apps/scene/read/frame/read_damping.h"
 
 #include <cmath>
 

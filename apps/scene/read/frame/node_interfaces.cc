@@ -1,4 +1,4 @@
-#include "apps/scene/read/node_interfaces.h"
+#include "apps/scene/read/frame/node_interfaces.h"
 
 #include <cmath>
 #include <stdexcept>
