@@ -199,7 +199,8 @@ CLI::App *add_help(CLI::App &program, HelpCommandOptions &help)
   command->footer("Example:\n  gestell help element.clearance\n  gestell help stiffness");
   command->add_option("KEY", help.topic, "table or key (default: the list of tables)");
   command->add_flag("--schema", help.schema, "JSON schema of scenes, for editors, instead");
-  command->add_flag("--tables", help.tables, "all tables in Markdown, as in docs/scene, instead");
+  command->add_option("--renew", help.docs,
+                      "write schema and tables of keys in this folder of documents anew, instead");
   return command;
 }
 

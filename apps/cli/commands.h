@@ -97,7 +97,8 @@ struct StabilityCommandOptions
 struct HelpCommandOptions
 {
   std::string topic; ///< table or key; empty: the list of tables
-  bool        schema = false, tables = false;
+  bool        schema = false;
+  std::string docs; ///< folder whose schema and tables of keys are renewed; empty: none
 };
 
 /// Each returns an ExitCode; wrong input throws std::invalid_argument, failed methods ConvergenceFailure.

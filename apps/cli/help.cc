@@ -10,7 +10,10 @@ namespace gestell::apps
 
 int help_command(const HelpCommandOptions &help)
 {
-  std::cout << (help.schema ? json_schema() : help.tables ? key_tables() : help_text(help.topic));
+  if (!help.docs.empty())
+    renew_reference(help.docs);
+  else
+    std::cout << (help.schema ? json_schema() : help_text(help.topic));
   return exit_done;
 }
 

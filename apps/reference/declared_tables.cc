@@ -1,8 +1,23 @@
 #include "apps/reference/declared_tables.h"
 
 #include "apps/scene/elements/element_types.h"
+#include "apps/scene/read/frame/geometry_keys.h"
+#include "apps/scene/read/frame/matrix_keys.h"
+#include "apps/scene/read/joint_keys.h"
+#include "apps/scene/read/read_bodies.h"
+#include "apps/scene/read/read_compliance.h"
 #include "apps/scene/read/read_contact.h"
+#include "apps/scene/read/read_function.h"
+#include "apps/scene/read/read_joint_friction.h"
+#include "apps/scene/read/read_material.h"
+#include "apps/scene/read/read_motion.h"
+#include "apps/scene/read/read_output.h"
+#include "apps/scene/read/read_part.h"
+#include "apps/scene/read/read_run.h"
+#include "apps/scene/read/read_stress.h"
+#include "apps/scene/read/read_switches.h"
 #include "apps/scene/read/relative_motion.h"
+#include "apps/scene/scene_keys.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -13,13 +28,87 @@ namespace gestell::apps
 namespace
 {
 
-std::vector<DeclaredTable> make_tables()
+using Tables = std::vector<DeclaredTable>;
+
+void add_types(Tables &tables, const std::string &family, const std::vector<TypeOfTable> &types)
 {
-  std::vector<DeclaredTable> tables;
+  for (const TypeOfTable &type : types)
+    tables.push_back(
+        {family + "." + type.name, "[" + family + ".NAME]", type.name, type.does, type.signals, type.keys, {}});
+}
+
+void add_frame(Tables &tables)
+{
+  const auto add = [&](const std::string &path, const std::string &heading, const std::string &does,
+                       const std::vector<Key> &keys) {
+    tables.push_back({path, heading, "", does, "", keys, {}});
+  };
+  add("frame", "[frame]",
+      "The frame from CAD or a mesh, or already reduced; without it the machine stands on the ground.", frame_keys());
+  add("frame.mesh", "mesh of [frame]", "The mesh; every other key is a pattern of surface names with a size there.",
+      mesh_keys());
+  add("frame.surface", "[frame.surface.NAME]",
+      "Names faces of the model by what one can see of them; all conditions given must hold.", surface_keys());
+  add("frame.support", "[frame.support.NAME]", "Holds surfaces, by `clamped` or a `foundation`.", support_keys());
+  add("frame.interface", "[frame.interface.NAME]",
+      "A node with six motions that the mechanism acts on as `frame.NAME`; with `coupling = \"node\"` it has three.",
+      interface_keys());
+  add("frame.mass", "[frame.mass.NAME]", "A rigid body fastened to the frame: a motor, a counterweight.",
+      attached_mass_keys());
+  add("frame.cut", "[frame.cut.NAME]",
+      "Signal `frame.cut.NAME`: the force along the normal that the plane transmits, tension positive.", cut_keys());
+  add("matrices", "[frame]", "The frame given by matrices, M q'' + B q' + C q = f.", matrix_frame_keys());
+  add("matrices.interface", "[frame.interface.NAME]", "Rows of the matrices that are motions of a node.",
+      matrix_interface_keys());
+  add("matrices.cut", "[frame.cut.NAME]", "Signal `frame.cut.NAME` of a frame given by matrices.",
+      matrix_output_keys());
+  add("matrices.support", "[frame.support.NAME]",
+      "Signal `frame.support.NAME` of a frame given by matrices, or a table for each direction.",
+      matrix_support_keys());
+  add("material", "[material.NAME]", "A material of the frame and of bodies from CAD.", material_keys());
+  add("reduction", "[reduction]", "How the frame is reduced.", reduction_keys());
+}
+
+void add_rest(Tables &tables)
+{
+  const auto add = [&](const std::string &path, const std::string &heading, const std::string &does,
+                       const std::vector<Key> &keys) {
+    tables.push_back({path, heading, "", does, "", keys, {}});
+  };
+  add("switch", "[switch.NAME]", "Gives elements and joints orders at the instant where a signal crosses a value.",
+      switch_keys());
+  add("start", "[start]", "The state the run starts from; without it everything is zero.", start_keys());
+  add("run", "[run]", "The run in time.", run_keys());
+  add("modes", "[modes]", "Modes of the coupled machine with closed chains.", modes_keys());
+  add("output", "[output]", "Signals, and the times between rows and pictures.", output_keys());
+  add("output.signal", "[output.signals.NAME]", "A signal whose extremes count from an event on.",
+      watched_signal_keys());
+  add("output.stress", "[output.stress]",
+      "Stresses at the skin of a frame from `cad`; an empty table means the largest stress.", stress_keys());
+}
+
+Tables make_tables()
+{
+  Tables tables;
+  tables.push_back({"scene", "", "", "What stands above all tables, and these.", "", scene_keys(), {}});
+  add_frame(tables);
+  for (const BodyType &type : body_types())
+    tables.push_back({"body." + type.name, "[body.NAME]", type.name, type.does, "", type.keys, {}});
   tables.push_back(
-      {"element", "What every [element.NAME] has, beside the keys of its type.", "", common_element_keys(), {}});
+      {"place", "[place.NAME]", "", "A point of a body, an interface or the ground.", "", place_keys(), {}});
+  add_types(tables, "measure", measure_types());
+  add_types(tables, "joint", joint_types());
+  tables.push_back({"element",
+                    "[element.NAME]",
+                    "",
+                    "What every [element.NAME] has, beside the keys of its type.",
+                    "",
+                    common_element_keys(),
+                    {}});
   for (const ElementType &type : element_types())
-    tables.push_back({"element." + type.name, type.does, type.signals, type.keys, type.examples});
+    tables.push_back(
+        {"element." + type.name, "[element.NAME]", type.name, type.does, type.signals, type.keys, type.examples});
+  add_rest(tables);
   return tables;
 }
 
@@ -29,7 +118,8 @@ std::string unit_of(const Kind &kind)
     return kind.refused == Counts::radians ? "[Hz]" : "[rad/s]";
   if (equal(kind.dimension, {}))
     return kind.refused == Counts::turns ? "[rad]" : "";
-  return "[" + describe(kind.dimension) + "]";
+  const auto angle = kind.example.find("/rad"); // of what is there for one radian
+  return "[" + describe(kind.dimension) + (angle == std::string::npos ? "" : kind.example.substr(angle)) + "]";
 }
 
 std::string kind_text(const Kind &kind)
@@ -42,7 +132,7 @@ std::string names_of(const std::vector<Key> &keys)
 {
   std::string names;
   for (const Key &key : keys)
-    names += (names.empty() ? "" : ", ") + key.name;
+    names += (names.empty() ? "`" : ", `") + key.name + "`";
   return names;
 }
 
@@ -62,9 +152,15 @@ std::string range_text(Key::Range range)
   return "";
 }
 
-std::string form_text(const Key &key, const std::string &kinds)
+/// "a, b" of a table, nothing of one whose keys are declared by themselves.
+std::string of_keys(const Key &key)
 {
-  switch (key.form)
+  return key.keys.empty() ? "" : " of " + names_of(key.keys);
+}
+
+std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
+{
+  switch (form)
   {
   case Key::Form::number:
     return kinds;
@@ -72,8 +168,7 @@ std::string form_text(const Key &key, const std::string &kinds)
     return "formula of " + kinds;
   case Key::Form::profile:
   case Key::Form::course:
-    return kinds + ", or ramps" + (key.form == Key::Form::course ? ", or a function" : "") + " of " +
-           names_of(key.keys);
+    return kinds + ", or ramps" + (form == Key::Form::course ? ", or a function" : "") + " of " + names_of(key.keys);
   case Key::Form::truth:
     return "true or false";
   case Key::Form::choice:
@@ -86,6 +181,24 @@ std::string form_text(const Key &key, const std::string &kinds)
     return "three of " + kinds;
   case Key::Form::rows:
     return "rows of two values, the second " + kinds;
+  case Key::Form::whole:
+    return "whole number";
+  case Key::Form::quantity:
+    return "value with its unit";
+  case Key::Form::numbers:
+    return "array of " + kinds;
+  case Key::Form::matrix:
+    return "rows of " + kinds;
+  case Key::Form::text:
+    return "text";
+  case Key::Form::texts:
+    return "text, or an array of texts";
+  case Key::Form::file:
+    return "file";
+  case Key::Form::table:
+    return "table" + of_keys(key);
+  case Key::Form::map:
+    return "table of names" + (key.keys.empty() ? "" : " and " + names_of(key.keys));
   case Key::Form::tables:
     return "array of tables of " + names_of(key.keys);
   case Key::Form::coefficient:
@@ -105,16 +218,25 @@ const std::vector<DeclaredTable> &declared_tables()
 const std::vector<KeyGroup> &key_groups()
 {
   static const std::vector<KeyGroup> groups = {
-      {"Motion of an element", load_motion_keys()},
-      {"Shaft of a motor", shaft_keys()},
-      {"Stiffness of a contact", joined({contact_keys(), {sliding_friction_key()}})}};
+      {{"body"}, "Body from CAD", part_keys()},
+      {{"measure", "joint"}, "Position function", position_function_keys()},
+      {{"joint"}, "Motion over time", motion_law_keys(), "motion"},
+      {{"joint"}, "Compliance of a joint", compliance_keys()},
+      {{"joint"}, "Friction of a joint", joint_friction_key().keys, "friction"},
+      {{"element"}, "Motion of an element", load_motion_keys()},
+      {{"element"}, "Shaft of a motor", shaft_keys()},
+      {{"element"}, "Stiffness of a contact", joined({contact_keys(), {sliding_friction_key()}})},
+      {{"element"}, "Friction of a contact", sliding_friction_key().keys, "friction"}};
   return groups;
 }
 
 std::string taken_by(const Key &key)
 {
   const std::string angular = key.angular ? ", about an axis " + kind_text(*key.angular) : "";
-  return form_text(key, kind_text(key.kind) + angular) + range_text(key.range);
+  std::string       text    = form_text(key.form, key, kind_text(key.kind) + angular) + range_text(key.range);
+  for (const Key::Form form : key.others)
+    text += ", or " + form_text(form, key, kind_text(key.kind) + angular);
+  return text;
 }
 
 std::string default_of(const Key &key)

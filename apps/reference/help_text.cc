@@ -3,6 +3,7 @@
 #include "apps/reference/declared_tables.h"
 #include "fem/values/nearest_name.h"
 
+#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -18,25 +19,36 @@ std::string padded(const std::string &name)
   return "  " + name + std::string(name.size() < name_width ? name_width - name.size() : 1, ' ');
 }
 
-std::string key_text(const Key &key)
+/// Without what Markdown needs: "see [geometry](#geometry)".
+std::string plain(const std::string &text)
 {
-  const std::string own = default_of(key);
-  return padded(key.name) + key.meaning + ": " + taken_by(key) +
-         (own.empty()         ? ""
-          : own == "demanded" ? "; demanded"
-                              : "; default " + own) +
-         "\n";
+  static const std::regex link(R"(\[([^\]]+)\]\([^)]+\))");
+  return std::regex_replace(text, link, "$1");
+}
+
+std::string key_text(const Key &key, const std::string &before = "")
+{
+  const std::string own  = default_of(key);
+  std::string       text = padded(before + key.name) + plain(key.meaning) + ": " + taken_by(key) +
+                     (own.empty()         ? ""
+                      : own == "demanded" ? "; demanded"
+                                          : "; default " + plain(own)) +
+                     "\n";
+  for (const Key &inner : key.keys)
+    text += key_text(inner, before + "  ");
+  return text;
 }
 
 std::string table_text(const DeclaredTable &table)
 {
-  std::string text = table.path + ": " + table.does + "\n\n";
+  std::string text =
+      table.heading + (table.type.empty() ? "" : ", type = \"" + table.type + "\"") + ": " + plain(table.does) + "\n\n";
   for (const Key &key : table.keys)
     text += key_text(key);
   if (!table.signals.empty())
     text += "\nSignals: " + table.signals + "\n";
   for (const std::string &example : table.examples)
-    text += "\n[element.NAME]\ntype = \"" + table.path.substr(table.path.find('.') + 1) + "\"\n" + example;
+    text += "\n" + table.heading + "\ntype = \"" + table.type + "\"\n" + example;
   return text;
 }
 
@@ -44,7 +56,17 @@ std::string list_of_tables()
 {
   std::string text = "Tables of a scene; gestell help TABLE tells their keys.\n\n";
   for (const DeclaredTable &table : declared_tables())
-    text += padded(table.path) + table.does + "\n";
+    text += padded(table.path) + plain(table.does) + "\n";
+  return text;
+}
+
+/// The types of a table that has some, "joint".
+std::string types_of(const std::string &family)
+{
+  std::string text;
+  for (const DeclaredTable &table : declared_tables())
+    if (table.path.rfind(family + ".", 0) == 0)
+      text += padded(table.path) + plain(table.does) + "\n";
   return text;
 }
 
@@ -70,7 +92,15 @@ std::string help_text(const std::string &topic)
   if (topic.empty())
     return list_of_tables();
   for (const DeclaredTable &table : declared_tables())
-    if (topic == table.path || topic == last_part(table.path))
+    if (topic == table.path)
+    {
+      const std::string types = types_of(topic);
+      return table_text(table) + (types.empty() ? "" : "\n" + types);
+    }
+  if (const std::string types = types_of(topic); !types.empty())
+    return types;
+  for (const DeclaredTable &table : declared_tables())
+    if (topic == last_part(table.path))
       return table_text(table);
   if (const std::string text = keys_called(topic); !text.empty())
     return text;

@@ -1,8 +1,14 @@
 #include "apps/reference/key_tables.h"
 
+#include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
+#include "apps/reference/json_schema.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -19,10 +25,16 @@ std::string rows(const std::vector<Key> &keys)
   return text + "\n";
 }
 
+/// "joint" of [joint.NAME].
+std::string family_of(const DeclaredTable &table)
+{
+  return table.path.substr(0, table.path.find('.'));
+}
+
 bool is_shared(const Key &key, const KeyGroup &group)
 {
   const Key *shared = find_key(group.keys, key.name);
-  return shared && shared->meaning == key.meaning;
+  return group.of.empty() && shared && shared->meaning == key.meaning;
 }
 
 /// "#contact", as links of Markdown go to a title.
@@ -35,11 +47,12 @@ std::string anchor(std::string title)
 
 std::string section(const DeclaredTable &table)
 {
-  const std::string type = table.path.substr(table.path.find('.') + 1);
-  std::string       text = "### " + type + "\n\n" + table.does;
-  std::vector<Key>  own  = table.keys;
+  std::string      text = "### " + (table.type.empty() ? table.path : table.type) + "\n\n" + table.does;
+  std::vector<Key> own  = table.keys;
   for (const KeyGroup &group : key_groups())
   {
+    if (std::find(group.families.begin(), group.families.end(), family_of(table)) == group.families.end())
+      continue;
     const auto shared =
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
     if (shared == own.end())
@@ -47,24 +60,72 @@ std::string section(const DeclaredTable &table)
     own.erase(shared, own.end());
     text += " Keys of [" + group.title + "](" + anchor(group.title) + ").";
   }
+  own.erase(
+      std::remove_if(own.begin(), own.end(), [&](const Key &key) { return !table.type.empty() && key.name == "type"; }),
+      own.end());
   text += "\n\n" + rows(own);
   if (!table.signals.empty())
     text += "Signals: " + table.signals + ".\n\n";
   for (const std::string &example : table.examples)
-    text += "```toml\ntype = \"" + type + "\"\n" + example + "```\n\n";
+    text += "```toml\ntype = \"" + table.type + "\"\n" + example + "```\n\n";
   return text;
+}
+
+std::string content(const std::filesystem::path &file)
+{
+  std::ifstream in(file);
+  if (!in)
+    throw std::invalid_argument("there is no document " + file.string());
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 } // namespace
 
-std::string key_tables()
+std::string key_tables(const std::string &topic)
 {
   std::string text;
   for (const KeyGroup &group : key_groups())
-    text += "### " + group.title + "\n\n" + rows(group.keys);
+    if (group.families.front() == topic)
+      text += "### " + group.title + "\n\n" + (group.of.empty() ? "" : "Keys of `" + group.of + "`.\n\n") +
+              rows(group.keys);
   for (const DeclaredTable &table : declared_tables())
-    text += section(table);
-  return text;
+    if (table.heading == "[" + topic + ".NAME]" && (!table.type.empty() || table.path == "element"))
+      text += section(table);
+  if (!text.empty())
+    return text;
+  for (const DeclaredTable &table : declared_tables())
+    if (table.path == topic)
+      return rows(table.keys);
+  throw std::invalid_argument("there is no table '" + topic + "' whose keys could be listed");
+}
+
+std::string renewed(const std::string &document)
+{
+  const std::string begin = "<!-- keys: ", closed = " -->\n", end = "<!-- end -->";
+  std::string       text;
+  std::size_t       done = 0;
+  for (auto from = document.find(begin); from != std::string::npos; from = document.find(begin, done))
+  {
+    const auto name = from + begin.size(), head = document.find(closed, name), tail = document.find(end, name);
+    if (head == std::string::npos || tail == std::string::npos)
+      throw std::invalid_argument("a marker '" + begin + "' has no end");
+    text += document.substr(done, head + closed.size() - done) + key_tables(document.substr(name, head - name));
+    done = tail;
+  }
+  return text + document.substr(done);
+}
+
+void renew_reference(const std::string &docs)
+{
+  const std::filesystem::path        folder = docs;
+  std::vector<std::filesystem::path> documents{folder / "scene.md"};
+  for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
+    documents.push_back(entry.path());
+  for (const auto &document : documents)
+    write_file(document.string(), renewed(content(document)));
+  write_file((folder / "scene.schema.json").string(), json_schema());
 }
 
 } // namespace gestell::apps

@@ -9,6 +9,7 @@
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_run.h"
 #include "apps/scene/read/read_switches.h"
+#include "apps/scene/scene_keys.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -27,31 +28,26 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   ReductionRequest request;
   request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
   request.options.place = scene.place();
-  const auto table      = scene.optional_table("reduction");
-  if (!table)
+  if (!scene.has("reduction"))
     return request;
+  const SceneTable table = scene.table("reduction").declared(reduction_keys());
   if (!reducible)
-    throw table->error("there is no frame to reduce; [frame] must give 'cad' or matrices");
+    throw table.error("there is no frame to reduce; [frame] must give 'cad' or matrices");
 
-  request.options.place     = table->place();
-  request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
-                                  ? ReductionMethod::none
-                                  : ReductionMethod::craig_bampton;
-  request.options.tolerance = table->has("tolerance") ? table->share("tolerance") : request.options.tolerance;
-  if (table->has("modes"))
+  request.options.place     = table.place();
+  request.method            = table.choice("method") == "none" ? ReductionMethod::none : ReductionMethod::craig_bampton;
+  request.options.tolerance = table.value("tolerance");
+  if (table.has("modes"))
   {
-    request.options.n_modes = table->integer("modes", 0);
+    request.options.n_modes = table.whole("modes");
     if (request.options.n_modes < 0)
-      throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
+      throw table.error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
   }
-  request.options.frequency = table->positive("frequency", kind::frequency, 0.);
-  request.options.inner =
-      table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "fixed-interface"
-          ? coupling::InnerModes::interface_held
-          : coupling::InnerModes::interface_free;
-  request.options.eigensolver =
-      table->choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, request.options.eigensolver);
-  request.options.inertia_relief = table->boolean("inertia_relief", false);
+  request.options.frequency      = table.value_or("frequency", 0.);
+  request.options.inner          = table.choice("inside") == "fixed-interface" ? coupling::InnerModes::interface_held
+                                                                               : coupling::InnerModes::interface_free;
+  request.options.eigensolver    = table.choice("eigensolver");
+  request.options.inertia_relief = table.truth("inertia_relief");
   return request;
 }
 
@@ -105,57 +101,57 @@ std::vector<NamedValue> read_optional_coordinates(const SceneTable &table, const
 StartRequest read_start(const SceneTable &scene, const Names &names)
 {
   StartRequest start;
-  start.place      = scene.place();
-  const auto table = scene.optional_table("start");
-  if (!table)
+  start.place = scene.place();
+  if (!scene.has("start"))
     return start;
-  start.place            = table->place();
-  const std::string rule = table->choice("rule", {"given", "static", "steady"}, "given");
+  const SceneTable table = scene.table("start").declared(start_keys());
+  start.place            = table.place();
+  const std::string rule = table.choice("rule");
   start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
-  const bool rotors      = table->has("angles") || table->has("speeds") || table->has("driver");
+  const bool rotors      = table.has("angles") || table.has("speeds") || table.has("driver");
   if (start.rule != StartRule::steady || !rotors)
   {
     if (start.rule == StartRule::rest)
     {
-      start.drift          = table->boolean("drift", false);
-      start.inertia_relief = table->boolean("inertia_relief", false);
+      start.drift          = table.truth("drift");
+      start.inertia_relief = table.truth("inertia_relief");
     }
-    start.q = read_optional_coordinates(*table, "q", names, false, false, true);
-    start.v = read_optional_coordinates(*table, "v", names, true, false, true);
+    start.q = read_optional_coordinates(table, "q", names, false, false, true);
+    start.v = read_optional_coordinates(table, "v", names, true, false, true);
     return start;
   }
-  for (const auto &angle : read_optional_coordinates(*table, "angles", names, false, true))
+  for (const auto &angle : read_optional_coordinates(table, "angles", names, false, true))
     start.steady.angles.emplace_back(angle.name, angle.value);
-  for (const auto &speed : read_optional_coordinates(*table, "speeds", names, true, true))
+  for (const auto &speed : read_optional_coordinates(table, "speeds", names, true, true))
     start.steady.speeds.emplace_back(speed.name, speed.value);
-  if (table->has("driver"))
-    start.steady.driver = names.body(*table, "driver", coupling::BodyKind::rotor).name;
+  if (table.has("driver"))
+    start.steady.driver = names.body(table, "driver", coupling::BodyKind::rotor).name;
   if (start.steady.angles.size() != (start.steady.driver.empty() ? 0u : 1u))
-    throw table->error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
-                       (start.steady.driver.empty() ? "no driver" : "a driver") +
-                       "; a given angle replaces the balance of the driver, so give one of both, or none");
+    throw table.error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
+                      (start.steady.driver.empty() ? "no driver" : "a driver") +
+                      "; a given angle replaces the balance of the driver, so give one of both, or none");
   return start;
 }
 
 ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene &result)
 {
   ModesRequest modes;
-  const auto   table = scene.optional_table("modes");
-  if (!table)
+  if (!scene.has("modes"))
     return modes;
-  modes.at     = read_optional_coordinates(*table, "at", names, false, false, true);
-  modes.number = table->integer("number", modes.number);
+  const SceneTable table = scene.table("modes").declared(modes_keys());
+  modes.at               = read_optional_coordinates(table, "at", names, false, false, true);
+  modes.number           = table.whole("number");
   if (modes.number < 1)
-    throw table->error("number", "needs a number of modes of 1 or more");
-  if (table->has("open"))
-    modes.open = table->texts("open");
+    throw table.error("number", "needs a number of modes of 1 or more");
+  if (table.has("open"))
+    modes.open = table.texts("open");
   std::vector<std::string> elements;
   for (const auto &element : result.elements)
     elements.push_back(element.name);
   for (const auto &name : modes.open)
     if (std::find(elements.begin(), elements.end(), name) == elements.end())
-      throw table->error("open", "there is no nonlinear element '" + name + "' that could be open" +
-                                     suggestion(name, elements));
+      throw table.error("open",
+                        "there is no nonlinear element '" + name + "' that could be open" + suggestion(name, elements));
   return modes;
 }
 
@@ -185,9 +181,13 @@ void check_gravity(const SceneTable &table, const Scene &scene)
 
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts)
 {
-  const SceneNode  root = read_scene_file(path, overrides);
+  return read_scene(read_scene_file(path, overrides), path, scripts);
+}
+
+Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts scripts)
+{
   const Parameters parameters(root.find("parameters"));
-  const SceneTable table(root, parameters, "");
+  const SceneTable table = SceneTable(root, parameters, "").declared(scene_keys());
   table.has("parameters");
   table.has("extends"); // of the file itself, followed while reading it
 

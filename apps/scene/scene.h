@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/file/scene_node.h"
 #include "apps/scene/values/requests.h"
 
 #include <string>
@@ -17,5 +18,8 @@ namespace gestell::apps
  */
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides = {},
                  fem::Scripts scripts = fem::Scripts::harmless);
+
+/// The same of a file that has been read (read_scene_file()).
+Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts scripts);
 
 } // namespace gestell::apps

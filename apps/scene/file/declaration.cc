@@ -24,9 +24,30 @@ Key key_of(const std::string &name, Key::Form form, const std::string &meaning)
 
 } // namespace
 
+Key Key::also(const std::vector<Form> &forms) const
+{
+  return changed(*this, [&](Key &key) { key.others = forms; });
+}
+
 Key Key::on_angle(const Kind &other) const
 {
   return changed(*this, [&](Key &key) { key.angular = other; });
+}
+
+Key Key::on_angle(const Key &other) const
+{
+  const auto join = [](Key &key, const Key &about)
+  {
+    if (!equal(key.kind.dimension, about.kind.dimension) || key.kind.refused != about.kind.refused)
+      key.angular = about.kind;
+  };
+  return changed(*this,
+                 [&](Key &key)
+                 {
+                   join(key, other);
+                   for (std::size_t i = 0; i < key.keys.size(); ++i)
+                     join(key.keys[i], other.keys[i]);
+                 });
 }
 
 Key Key::above_zero() const
@@ -51,7 +72,7 @@ Key Key::by_default(double value) const
 
 Key Key::by_default(const std::string &words) const
 {
-  return changed(*this, [&](Key &key) { key.demanded = false, key.otherwise = words; });
+  return changed(*this, [&](Key &key) { key.demanded = false, key.fallback.reset(), key.otherwise = words; });
 }
 
 namespace key
@@ -93,6 +114,21 @@ Key direction(const std::string &name, const std::string &meaning)
 Key vector(const std::string &name, const Kind &kind, const std::string &meaning)
 {
   return composed(name, Key::Form::vector, kind, {}, meaning);
+}
+
+Key plain(const std::string &name, Key::Form form, const std::string &meaning)
+{
+  return key_of(name, form, meaning);
+}
+
+Key table(const std::string &name, const std::vector<Key> &keys, const std::string &meaning)
+{
+  return composed(name, Key::Form::table, kind::number, keys, meaning);
+}
+
+Key map(const std::string &name, const Kind &kind, const std::vector<Key> &keys, const std::string &meaning)
+{
+  return composed(name, Key::Form::map, kind, keys, meaning);
 }
 
 Key composed(const std::string &name, Key::Form form, const Kind &kind, const std::vector<Key> &keys,

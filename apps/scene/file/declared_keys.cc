@@ -9,13 +9,18 @@ SceneTable SceneTable::declared(const std::vector<Key> &keys) const
 {
   SceneTable table = *this;
   table.keys_      = &keys;
+  table.open_      = false;
   return table;
 }
 
 SceneTable SceneTable::inner(SceneTable table, const std::string &key) const
 {
-  if (keys_ && !declaration(key).keys.empty())
-    table.keys_ = &declaration(key).keys;
+  const Key *declared = keys_ ? find_key(*keys_, key) : nullptr;
+  if (declared && !declared->keys.empty())
+  {
+    table.keys_ = &declared->keys;
+    table.open_ = declared->form == Key::Form::map;
+  }
   return table;
 }
 
@@ -59,6 +64,11 @@ std::string SceneTable::choice(const std::string &key) const
 {
   const Key &declared = declaration(key);
   return choice(key, declared.choices, declared.demanded ? "" : declared.choices.front());
+}
+
+int SceneTable::whole(const std::string &key) const
+{
+  return integer(key, static_cast<int>(declaration(key).fallback.value_or(0.)));
 }
 
 bool SceneTable::truth(const std::string &key) const

@@ -75,7 +75,7 @@ void SceneTable::warn(const std::string &key, const std::string &what) const
 
 const SceneNode *SceneTable::look_up(const std::string &key) const
 {
-  if (keys_)
+  if (keys_ && !open_)
     declaration(key);
   node_->asked.insert(key);
   const SceneNode *value = node_->find(key);

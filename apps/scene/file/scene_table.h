@@ -42,6 +42,7 @@ public:
   double      value_or(const std::string &key, double otherwise, bool on_angle = false) const;
   std::string choice(const std::string &key) const;
   bool        truth(const std::string &key) const;
+  int         whole(const std::string &key) const;
 
   double number(const std::string &key, const Kind &kind) const;
   double number(const std::string &key, const Kind &kind, double fallback) const;
@@ -132,6 +133,7 @@ private:
   Warnings          warnings_;
 
   const std::vector<Key> *keys_ = nullptr; ///< null: any key may be asked for
+  bool                    open_ = false;   ///< so may others beside `keys_`, which are names
 };
 
 } // namespace gestell::apps

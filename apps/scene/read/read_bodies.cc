@@ -11,14 +11,115 @@ namespace gestell::apps
 namespace
 {
 
-/// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
-BodyRequest read_body(const SceneTable &table, const SceneTable &scene, fem::Scripts scripts)
+Key type_key()
 {
-  check_thing_name(table);
+  return key::choice("type", {"rotor", "slider", "point", "planar", "rigid"}, false, "what it is");
+}
+
+/// Mass [kg] and position, which every body has; `cad` tells them, too.
+Key mass_key()
+{
+  return key::number("mass", kind::mass, "of the body; with `cad` spread evenly, in place of `material`").above_zero();
+}
+
+Key centre_key()
+{
+  return key::vector("position", kind::length, "its centre of mass")
+      .by_default("demanded; with `cad` that of the shape");
+}
+
+Key drawn_size()
+{
+  return key::vector("size", kind::length, "drawn as a box `[x, y, z]`").by_default("[0, 0, 0]");
+}
+
+Key drawn_radius(const std::string &as)
+{
+  return key::number("radius", kind::length, "drawn as " + as + " of this radius").from_zero().by_default(0.);
+}
+
+Key inertia_key(const std::string &about)
+{
+  return key::number("inertia", kind::inertia, about).above_zero().by_default("demanded; with `cad` that of the shape");
+}
+
+Key tensor_key()
+{
+  return key::vector("inertia", kind::inertia,
+                     "about its centre of mass, moments `[Jx, Jy, Jz]` about the global axes in the position the scene "
+                     "describes, or the tensor `[[Jxx, Jxy, Jxz], ...]`; a body has thickness: no moment reaches the "
+                     "sum of the others")
+      .also({Key::Form::matrix})
+      .by_default("demanded; with `cad` that of the shape");
+}
+
+Key given_mass_key()
+{
+  return mass_key().by_default("demanded; with `cad` by its density");
+}
+
+Key normal_key()
+{
+  return key::direction("normal", "across its plane; the angle is positive about it");
+}
+
+std::vector<BodyType> make_types()
+{
+  const std::vector<Key> type = {type_key()};
+  return {
+      {"rotor", "One angle about an axis.",
+       joined({type,
+               {key::direction("axis", "about which it turns"),
+                key::named("on", "what carries it: `\"frame.NAME\"`, a body or `\"ground\"`").by_default("ground"),
+                inertia_key("about its axis"),
+                key::number("mass", kind::mass, "at the carrier; with `cad` spread evenly, in place of `material`")
+                    .from_zero()
+                    .by_default(0.),
+                key::vector("position", kind::length,
+                            "where it is drawn, at zero displacement; on the ground it turns about it")
+                    .by_default("[0, 0, 0]; with `cad` the centre of mass"),
+                drawn_radius("a disc")},
+               part_keys()})},
+      {"slider", "One displacement along an axis.",
+       joined(
+           {type,
+            {key::direction("axis", "along which it moves"),
+             key::named("guide", "what it moves with sideways").by_default("ground"), given_mass_key(),
+             key::vector("position", kind::length, "where it is drawn, at zero displacement").by_default("[0, 0, 0]"),
+             drawn_size()},
+            part_keys()})},
+      {"point", "A mass free in space.",
+       joined({type, {given_mass_key(), centre_key(), drawn_size(), drawn_radius("a sphere")}, part_keys()})},
+      {"planar", "A body that moves in a plane and turns about its normal by any angle.",
+       joined({type,
+               {normal_key(), given_mass_key(), inertia_key("about its centre of mass, about the normal"), centre_key(),
+                drawn_size(), drawn_radius("a plate with a rim")},
+               part_keys()})},
+      {"rigid", "A body that moves and turns freely in space.",
+       joined({type,
+               {given_mass_key(), tensor_key(), principal_axes_key(), centre_key(), drawn_size(),
+                drawn_radius("a sphere")},
+               part_keys()})}};
+}
+
+const std::vector<Key> &body_keys(const std::string &type)
+{
+  for (const BodyType &known : body_types())
+    if (known.name == type)
+      return known.keys;
+  throw std::logic_error("no type of bodies: " + type);
+}
+
+/// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
+BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scripts scripts)
+{
+  static const std::vector<Key> type_only = {type_key()};
+  check_thing_name(any);
   BodyRequest body;
-  body.name              = table.name();
-  body.place             = table.place();
-  const std::string type = table.choice("type", {"rotor", "slider", "point", "planar", "rigid"}, "");
+  body.name               = any.name();
+  body.place              = any.place();
+  const std::string type  = any.declared(type_only).choice("type");
+  const SceneTable  table = any.declared(body_keys(type));
   if (type == "point" || type == "planar" || type == "rigid")
   {
     body.kind = type == "point"    ? coupling::BodyKind::point
@@ -28,17 +129,17 @@ BodyRequest read_body(const SceneTable &table, const SceneTable &scene, fem::Scr
       body.axis = table.direction("normal");
     if (table.has("cad"))
     {
-      read_part(table, scene, body, scripts);
+      read_part(any, scene, body, scripts);
       return body;
     }
-    body.mass     = table.positive("mass", kind::mass);
+    body.mass     = table.value("mass");
     body.position = table.vector("position", kind::length);
     if (type == "planar")
-      body.inertia = table.positive("inertia", kind::inertia);
+      body.inertia = table.value("inertia");
     if (type == "rigid")
       body.tensor = read_tensor(table);
     body.size   = table.vector("size", kind::length, {});
-    body.radius = table.not_negative("radius", kind::length, 0.);
+    body.radius = table.value("radius");
     return body;
   }
   const bool rotor = type == "rotor";
@@ -46,19 +147,19 @@ BodyRequest read_body(const SceneTable &table, const SceneTable &scene, fem::Scr
   body.axis        = table.direction("axis");
   if (table.has("cad"))
   {
-    read_part(table, scene, body, scripts);
+    read_part(any, scene, body, scripts);
     return body;
   }
   body.position = table.vector("position", kind::length, {});
   if (rotor)
   {
-    body.inertia = table.positive("inertia", kind::inertia);
-    body.mass    = table.not_negative("mass", kind::mass, 0.);
-    body.radius  = table.not_negative("radius", kind::length, 0.);
+    body.inertia = table.value("inertia");
+    body.mass    = table.value("mass");
+    body.radius  = table.value("radius");
   }
   else
   {
-    body.mass = table.positive("mass", kind::mass);
+    body.mass = table.value("mass");
     body.size = table.vector("size", kind::length, {});
   }
   return body;
@@ -82,13 +183,18 @@ std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
       for (const auto &body : bodies)
         if (!done(body.name))
           throw std::invalid_argument(body.place + ": is carried by '" + body.carrier +
-                                      "', which it carries itself; let one of "
-                                      "them stand on the frame or the ground");
+                                      "', which it carries itself; let one of them stand on the frame or the ground");
   }
   return sorted;
 }
 
 } // namespace
+
+const std::vector<BodyType> &body_types()
+{
+  static const std::vector<BodyType> types = make_types();
+  return types;
+}
 
 std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names, fem::Scripts scripts)
 {

@@ -6,11 +6,12 @@ namespace
 {
 
 /// One number for all directions, or three along the global axes.
-Vector3 read_directed(const SceneTable &table, const std::string &key, const Kind &kind, ComplianceRequest &compliance)
+Vector3 read_directed(const SceneTable &any, const std::string &key, const Kind &kind, ComplianceRequest &compliance)
 {
+  const SceneTable table = any.declared(compliance_keys());
   if (!table.is_array(key))
   {
-    const double all = table.not_negative(key, kind, 0.);
+    const double all = table.value(key);
     return {all, all, all};
   }
   compliance.directed   = true;
@@ -22,6 +23,25 @@ Vector3 read_directed(const SceneTable &table, const std::string &key, const Kin
 }
 
 } // namespace
+
+const std::vector<Key> &compliance_keys()
+{
+  static const std::vector<Key> keys = {
+      key::number("stiffness", kind::stiffness,
+                  "in every direction that the joint holds, or `[x, y, z]` along the global axes in the position "
+                  "described, which then turn with `from`; 0 holds nothing")
+          .from_zero()
+          .also({Key::Form::vector})
+          .by_default("ideal"),
+      key::number("damping", kind::damping, "likewise").from_zero().also({Key::Form::vector}).by_default(0.),
+      key::number("rotational_stiffness", kind::torsional_stiffness,
+                  "about every axis that the joint holds; demanded where it yields and holds any: a pin of planar "
+                  "bodies holds none, one of a rigid body two")
+          .above_zero()
+          .by_default("ideal"),
+      key::number("rotational_damping", kind::torsional_damping, "likewise").from_zero().by_default("0")};
+  return keys;
+}
 
 std::optional<ComplianceRequest> read_compliance(const SceneTable &table, JointType type)
 {
@@ -46,9 +66,9 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &table, JointT
   if (compliance.stiffness == Vector3{})
     throw table.error("stiffness", "is zero in every direction, so that the joint would hold nothing; leave it out");
   if (table.has("rotational_stiffness"))
-    compliance.rotational_stiffness = table.positive("rotational_stiffness", kind::torsional_stiffness);
+    compliance.rotational_stiffness = table.declared(compliance_keys()).value("rotational_stiffness");
   if (table.has("rotational_damping"))
-    compliance.rotational_damping = table.not_negative("rotational_damping", kind::torsional_damping);
+    compliance.rotational_damping = table.declared(compliance_keys()).value("rotational_damping");
   return compliance;
 }
 

@@ -12,4 +12,7 @@ namespace gestell::apps
 /// @throws std::invalid_argument for joints that do not hold two places, and values that hold nothing
 std::optional<ComplianceRequest> read_compliance(const SceneTable &table, JointType type);
 
+/// Of joints that may yield.
+const std::vector<Key> &compliance_keys();
+
 } // namespace gestell::apps

@@ -74,6 +74,15 @@ std::vector<Key> function_keys(const Kind &x, const Kind &y)
           key::number("begin", x, "where the formula's period begins").by_default(0.)};
 }
 
+std::vector<Key> position_function_keys()
+{
+  std::vector<Key>       keys    = function_keys(kind::length, kind::length);
+  const std::vector<Key> angular = function_keys(kind::angle, kind::angle);
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    keys[i] = keys[i].on_angle(angular[i]);
+  return keys;
+}
+
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
 {

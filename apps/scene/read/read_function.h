@@ -15,6 +15,8 @@ std::shared_ptr<const mechanism::PositionFunction> read_function(const SceneTabl
 
 /// Keys that read_function() asks for.
 std::vector<Key> function_keys(const Kind &x, const Kind &y);
+/// The same where argument and value are lengths or angles.
+std::vector<Key> position_function_keys();
 
 /// Refuses a periodic `function` f(x) of an ideal joint that jumps, or whose slope does, with the place.
 void refuse_jumps(const SceneTable &table, const mechanism::PositionFunction &f, const Kind &x);

@@ -18,10 +18,10 @@ const Kind bristle_damping{"damping of the bristles per unit of the normal force
 template <class Friction>
 void read_coefficients(const SceneTable &own, Friction &friction)
 {
-  friction.kinetic_force     = own.not_negative("coefficient", kind::number);
-  friction.static_force      = own.not_negative("static", kind::number, friction.kinetic_force);
-  friction.stribeck_speed    = own.positive("stribeck_speed", kind::speed, 0.);
-  friction.stribeck_exponent = own.positive("stribeck_exponent", kind::number, friction.stribeck_exponent);
+  friction.kinetic_force     = own.value("coefficient");
+  friction.static_force      = own.value_or("static", friction.kinetic_force);
+  friction.stribeck_speed    = own.value_or("stribeck_speed", 0.);
+  friction.stribeck_exponent = own.value_or("stribeck_exponent", friction.stribeck_exponent);
   if (friction.static_force < friction.kinetic_force)
     throw own.error("static", "is below 'coefficient'; what slides would hold more than what sticks");
 }
@@ -32,14 +32,41 @@ mechanism::LuGreFriction::Parameters read_bristles(const SceneTable &own)
   read_coefficients(own, friction);
   if (friction.kinetic_force == 0.)
     throw own.error("coefficient", "must be positive: bristles without friction hold nothing; leave the friction out");
-  friction.bristle_stiffness = own.positive("bristle_stiffness", bristles_per_metre);
-  friction.bristle_damping   = own.not_negative("bristle_damping", bristle_damping, 0.);
+  friction.bristle_stiffness = own.value("bristle_stiffness");
+  friction.bristle_damping   = own.value("bristle_damping");
   if (friction.static_force > friction.kinetic_force && friction.stribeck_speed == 0.)
     throw own.error("needs 'stribeck_speed', over which the coefficient falls from the static to the kinetic one");
   return friction;
 }
 
 } // namespace
+
+Key joint_friction_key()
+{
+  std::vector<Key> keys = sliding_friction_key().keys;
+  for (Key &key : keys)
+    if (key.name == "stribeck_exponent")
+      key = key.by_default("1; of `\"lugre\"` 2");
+  return key::composed(
+             "friction", Key::Form::coefficient, kind::number,
+             joined({{key::choice("law", {"smooth", "dry", "lugre"}, true, "what happens near rest")},
+                     keys,
+                     {key::number("bristle_stiffness", bristles_per_metre, "of `\"lugre\"`")
+                          .above_zero()
+                          .by_default("demanded of `\"lugre\"`"),
+                      key::number("bristle_damping", bristle_damping, "of `\"lugre\"`").from_zero().by_default(0.),
+                      key::number("radius", kind::length, "of the pin or the ball")
+                          .above_zero()
+                          .by_default("demanded of joints that turn"),
+                      key::number("length", kind::length,
+                                  "of the guide of a prismatic or cylindrical joint, whose ends hold torques by forces "
+                                  "that rub too")
+                          .above_zero()
+                          .by_default("they do not")}}),
+             "by the force the joint carries, [see there](#friction-in-joints)")
+      .from_zero()
+      .by_default("none");
+}
 
 std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable &table, JointType type)
 {
@@ -60,12 +87,13 @@ std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable
     friction.smooth = read_sliding_friction(table);
     return std::make_shared<JointFrictionRequest>(friction);
   }
-  const SceneTable  own = table.table("friction");
-  const std::string law = own.choice("law", {"smooth", "dry", "lugre"}, "smooth");
+  static const std::vector<Key> keys = {joint_friction_key()};
+  const SceneTable              own  = table.declared(keys).table("friction");
+  const std::string             law  = own.choice("law");
   if (law != "smooth" && !is_one_of({JointType::revolute, JointType::prismatic}))
     throw own.error("law", "is \"" + law +
-                               "\", which is for revolute and prismatic joints, of one motion; leave it "
-                               "out: \"smooth\" creeps instead of sticking");
+                               "\", which is for revolute and prismatic joints, of one motion; leave it out: "
+                               "\"smooth\" creeps instead of sticking");
   if (law == "dry")
     read_coefficients(own, friction.dry.emplace());
   else if (law == "lugre")
@@ -73,9 +101,9 @@ std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable
   else
     friction.smooth = read_sliding_friction(table);
   if (turns)
-    friction.radius = own.positive("radius", kind::length);
+    friction.radius = own.value("radius");
   if (is_one_of({JointType::prismatic, JointType::cylindrical}))
-    friction.length = own.positive("length", kind::length, 0.);
+    friction.length = own.value_or("length", 0.);
   return std::make_shared<JointFrictionRequest>(friction);
 }
 

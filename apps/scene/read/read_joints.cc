@@ -1,6 +1,7 @@
 #include "apps/scene/read/read_joints.h"
 
 #include "apps/scene/read/joint_axes.h"
+#include "apps/scene/read/joint_keys.h"
 #include "apps/scene/read/read_compliance.h"
 #include "apps/scene/read/read_function.h"
 #include "apps/scene/read/read_joint_friction.h"
@@ -95,23 +96,29 @@ MeasureRequest read_gear(const SceneTable &table, const Names &names)
         std::abs(std::abs(dot(body->axis, mesh.axis)) - 1.) > 1e-9)
       throw table.error("axis", "is not that of '" + marker + "'; wheels with teeth in mesh turn about parallel axes");
   }
-  mesh.ratio = table.number("ratio", kind::number);
+  mesh.ratio = table.value("ratio");
   if (mesh.ratio == 0. || mesh.ratio == 1.)
     throw table.error("ratio", "must be neither 0 nor 1: negative of two outer wheels, positive with a ring");
-  mesh.pressure_angle = table.number("pressure_angle", kind::angle, 0.);
+  mesh.pressure_angle = table.value("pressure_angle");
   if (!(std::abs(mesh.pressure_angle) < 0.25 * M_PI))
     throw table.error("pressure_angle", "must lie between -45 and 45 degrees");
   measure.mesh = mesh;
   return measure;
 }
 
-MeasureRequest read_measure(const SceneTable &table, const Names &names)
+/// The table with the keys of its type.
+SceneTable typed(const SceneTable &any, const std::vector<TypeOfTable> &types)
 {
-  MeasureRequest measure;
-  measure.name  = table.name();
-  measure.place = table.place();
-  const std::string type =
-      table.choice("type", {"distance", "along", "inclination", "angle", "position function", "sum", "gear mesh"}, "");
+  return any.declared(keys_of(types, any.declared(types.front().keys).choice("type")));
+}
+
+MeasureRequest read_measure(const SceneTable &any, const Names &names)
+{
+  const SceneTable table = typed(any, measure_types());
+  MeasureRequest   measure;
+  measure.name           = table.name();
+  measure.place          = table.place();
+  const std::string type = table.choice("type");
   if (type == "position function" || type == "sum" || type == "gear mesh")
   {
     ScalarRequest x;
@@ -218,7 +225,7 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
   const Vector3 axis = table.direction("axis");
   for (const PlaceRequest *place : {&joint.from, &joint.to})
     check_no_skew_axis(table, names, place->marker, axis);
-  const double pitch = table.number("pitch", kind::length);
+  const double pitch = table.value("pitch");
   if (pitch == 0.)
     throw table.error("pitch", "is zero; give the way of one turn, negative for a left-handed thread");
   join_path_and_angle(joint, joint.from, joint.to, axis, Carrier::first, pitch / (2. * M_PI),
@@ -249,7 +256,7 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
   check_two_places(table, joint.from, joint.to);
   refuse_in_space(table, "to", joint.to.marker, names);
   const BodyRequest &wheel     = turning_body(table, "from", joint.from.marker, names);
-  const double       radius    = table.positive("radius", kind::length);
+  const double       radius    = table.value("radius");
   const Vector3      direction = table.direction("direction");
   if (std::abs(dot(direction, wheel.axis)) > 1e-9)
     throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
@@ -277,7 +284,7 @@ void read_prescribed(const SceneTable &table, const Names &names, JointRequest &
   joint.measure.unit  = on.unit;
   joint.law           = read_motion(table.table("motion"), on.unit == "rad");
   if (table.has("initial"))
-    joint.value = table.number("initial", on.kind());
+    joint.value = table.value("initial", on.unit == "rad");
 }
 
 /// A gear whose wheels are carried by a third body: their motions count against it (Willis).
@@ -311,17 +318,14 @@ constexpr MeasureJointName measure_joints[] = {{"position function", read_cam}, 
                                                {"rolling", read_rolling},       {"rack", read_rolling},
                                                {"gear mesh", read_gear_mesh},   {"prescribed motion", read_prescribed}};
 
-JointRequest read_joint(const SceneTable &table, const Names &names)
+/// @param any  whose keys of other types are refused in words
+JointRequest read_joint(const SceneTable &any, const Names &names)
 {
-  JointRequest joint;
-  joint.name  = table.name();
-  joint.place = table.place();
-  std::vector<std::string> types;
-  for (const JointName &known : joint_names)
-    types.push_back(known.name);
-  for (const MeasureJointName &known : measure_joints)
-    types.push_back(known.name);
-  const std::string type = table.choice("type", types, "");
+  const SceneTable table = typed(any, joint_types());
+  JointRequest     joint;
+  joint.name             = table.name();
+  joint.place            = table.place();
+  const std::string type = table.choice("type");
   for (const JointName &known : joint_names)
     if (known.name == type)
       joint.type = known.type;
@@ -329,14 +333,14 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
     if (known.name == type)
     {
       joint.type = JointType::measure;
-      read_compliance(table, joint.type); // refuses it
+      read_compliance(any, joint.type); // refuses it
       known.read(table, names, joint);
       return joint;
     }
   const bool together = joint.type == JointType::revolute || joint.type == JointType::spherical ||
                         joint.type == JointType::universal || joint.type == JointType::cylindrical ||
                         joint.type == JointType::rigid;
-  const bool one_point = table.has("at");
+  const bool one_point = any.has("at");
   if (one_point && (table.has("at_from") || table.has("at_to")))
     throw table.error("at", "says where the joint is on both bodies; leave out 'at_from' and 'at_to'");
   if (one_point && joint.type == JointType::distance)
@@ -352,18 +356,18 @@ JointRequest read_joint(const SceneTable &table, const Names &names)
   if (joint.type != JointType::distance && joint.to.at && !joint.from.at)
     joint.from.at = joint.to.at;
   read_axes(table, names, joint);
-  joint.compliance = read_compliance(table, joint.type);
-  joint.friction   = read_joint_friction(table, joint.type);
+  joint.compliance = read_compliance(any, joint.type);
+  joint.friction   = read_joint_friction(any, joint.type);
   if (joint.type == JointType::gear)
   {
-    joint.ratio = table.number("ratio", kind::number);
+    joint.ratio = table.value("ratio");
     if (table.has("carrier"))
       read_carried_gear(table, names, joint);
   }
   if (joint.type == JointType::distance)
   {
     if (table.has("length"))
-      joint.length = table.positive("length", kind::length);
+      joint.length = table.value("length");
     if (const auto motion = table.optional_table("motion"))
       joint.law = read_motion(*motion, false);
   }
@@ -379,7 +383,8 @@ void read_places(const SceneTable &scene, Names &names, Scene &result)
     check_thing_name(table);
     if (names.find_body(table.name()))
       throw table.error("a body has the name '" + table.name() + "' too; 'from' and 'to' could not tell them apart");
-    const PlaceRequest point{names.marker(table, "on"), table.vector("at", kind::length)};
+    const SceneTable   own = table.declared(place_keys());
+    const PlaceRequest point{names.marker(own, "on"), own.vector("at", kind::length)};
     names.add_place(table.name(), point);
     result.places.push_back({table.name(), point, table.place()});
   }

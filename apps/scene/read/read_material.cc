@@ -86,12 +86,13 @@ void check_plausible(const SceneTable &table, const std::string &key, const Plau
 
 constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
 
-fem::Material material_from(const SceneTable &table)
+fem::Material material_from(const SceneTable &any)
 {
-  fem::Material material;
-  material.E     = table.positive("E", kind::pressure);
-  material.nu    = table.number("nu", kind::number);
-  material.rho   = table.positive("rho", kind::density);
+  const SceneTable table = any.declared(material_keys());
+  fem::Material    material;
+  material.E     = table.value("E");
+  material.nu    = table.value("nu");
+  material.rho   = table.value("rho");
   material.place = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
@@ -115,6 +116,23 @@ std::map<std::string, fem::Material> known_materials(const SceneTable &scene)
 
 } // namespace
 
+const std::vector<Key> &material_keys()
+{
+  static const std::vector<Key> keys = {key::number("E", kind::pressure, "Young's modulus").above_zero(),
+                                        key::number("nu", kind::number, "Poisson's ratio, above -1 and below 0.5"),
+                                        key::number("rho", kind::density, "density").above_zero()};
+  return keys;
+}
+
+Key material_key()
+{
+  return key::named(
+             "material",
+             "`\"steel\"` (E 210 GPa, nu 0.3, rho 7850 kg/m³), `\"cast iron\"` (110 GPa, 0.26, 7200), `\"aluminium\"` "
+             "(70 GPa, 0.33, 2700), the NAME of a `[material.NAME]`, or a table `{ E, nu, rho }`")
+      .also({Key::Form::table});
+}
+
 fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key,
                             const std::string &fallback)
 {
@@ -135,7 +153,7 @@ fem::Material read_material(const SceneTable &table, const SceneTable &scene, co
 
 double read_plausible_density(const SceneTable &table)
 {
-  const double density = table.positive("density", kind::density);
+  const double density = table.value("density");
   check_plausible(table, "density", plausible_density(), density, lightest_common, heaviest_common);
   return density;
 }

@@ -18,6 +18,10 @@ namespace gestell::apps
 fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key = "material",
                             const std::string &fallback = "steel");
 
+/// Of [material.NAME] and of a table in its place; `material` of a frame or a body.
+const std::vector<Key> &material_keys();
+Key                     material_key();
+
 /// `density` of a body, judged as that of a material.
 double read_plausible_density(const SceneTable &table);
 

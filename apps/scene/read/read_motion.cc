@@ -17,25 +17,50 @@ std::shared_ptr<const mechanism::MotionLaw> read_speed(const SceneTable &table, 
   const auto        brake = table.optional_table("brake");
   if (table.is_array("speed") || !brake)
   {
-    const double from =
-        table.is_array("speed") || table.has("waits") ? table.number("initial_speed", keys.level, 0.) : 0.;
-    const auto speed = read_course(table, "speed", keys, from);
+    const double from  = table.is_array("speed") || table.has("waits") ? table.value("initial_speed", turns) : 0.;
+    const auto   speed = read_course(table, "speed", keys, from);
     return checked(table, [&] { return std::make_shared<mechanism::ProfileMotion>(speed); });
   }
   BrakedMotion::Parameters motion;
   motion.speed             = table.number("speed", keys.level);
-  const std::string family = brake->choice("family", {"linear", "cosine", "shaped"}, "linear");
+  const std::string family = brake->choice("family");
   motion.family            = family == "linear"   ? BrakedMotion::Family::linear
                              : family == "cosine" ? BrakedMotion::Family::cosine
                                                   : BrakedMotion::Family::shaped;
-  motion.duration          = brake->positive("duration", kind::time);
+  motion.duration          = brake->value("duration");
   if (family == "shaped")
     for (const auto &ramp : brake->table_array("ramps"))
-      motion.ramps.push_back({ramp.number("share", kind::number), ramp.not_negative("delay", kind::time, 0.)});
+      motion.ramps.push_back({ramp.value("share"), ramp.value("delay")});
   return checked(*brake, [&] { return std::make_shared<BrakedMotion>(motion); });
 }
 
 } // namespace
+
+std::vector<Key> motion_law_keys()
+{
+  const std::string speed = "constant until the order `brake` of a [switch](switches.md#switches), if there is one, or "
+                            "[ramps](elements.md#profiles) with `acceleration` and `jerk`";
+  return joined(
+      {{profile_key("speed", path_profile(), speed)
+            .on_angle(profile_key("speed", speed_profile(), speed))
+            .by_default("`function` or `table`"),
+        key::number("initial_speed", kind::speed, "before the first ramp").on_angle(kind::angular_speed).by_default(0.),
+        waits_key(),
+        key::table(
+            "brake",
+            {key::choice("family", {"linear", "cosine", "shaped"}, true, "of the way to zero"),
+             key::number("duration", kind::time, "of the braking, or of each ramp").above_zero(),
+             key::composed("ramps", Key::Form::tables, kind::number,
+                           {key::number("share", kind::number, "of the speed"),
+                            key::number("delay", kind::time, "from the order").from_zero().by_default(0.)},
+                           "of `\"shaped\"`")
+                 .by_default("none")},
+            "`{ family = \"linear\", duration = \"0.15 s\" }` takes the speed to zero in a straight line, with "
+            "`\"cosine\"` in half a cosine, with `\"shaped\"` in ramps of this duration each, `ramps = [{ share = 0.5, "
+            "delay = 0 }, { share = 0.5, delay = \"1.2 s\" }]`. Its corners are events, `braking_ends` the last")
+            .by_default("none")},
+       function_keys(kind::time, kind::length)});
+}
 
 std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table, bool turns)
 {

@@ -9,4 +9,8 @@ namespace gestell::apps
 /// [output]: signals, and the times between rows and pictures.
 void read_output(const SceneTable &scene, Scene &result);
 
+/// Of [output]; of a signal with `from` in it.
+const std::vector<Key> &output_keys();
+const std::vector<Key> &watched_signal_keys();
+
 } // namespace gestell::apps

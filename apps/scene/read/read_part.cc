@@ -43,7 +43,7 @@ Placement read_placement(const SceneTable &table)
     throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
                        "the part is turned by `angle` about `axis` through the file's origin; give both");
   if (inner->has("axis"))
-    placement.R = Eigen::AngleAxisd(inner->number("angle", kind::angle), vector(inner->direction("axis"))).matrix();
+    placement.R = Eigen::AngleAxisd(inner->value("angle"), vector(inner->direction("axis"))).matrix();
   return placement;
 }
 
@@ -79,15 +79,15 @@ void check_keys(const SceneTable &table, coupling::BodyKind kind)
                        : "has more than one of 'material', 'density' and 'mass', each of which tells the density of "
                          "the shape in `cad`; leave one of them");
   if (kind != coupling::BodyKind::rotor)
-    refuse("position", "is the centre of mass of the shape in `cad`; move the part by "
-                       "placement = { origin = [x, y, z] }, or leave it out");
+    refuse("position", "is the centre of mass of the shape in `cad`; move the part by placement = { origin = [x, y, z] "
+                       "}, or leave it out");
 }
 
 double read_density(const SceneTable &table, const SceneTable &scene, double volume)
 {
   if (!table.has("mass"))
     return table.has("density") ? read_plausible_density(table) : read_material(table, scene).rho;
-  const double mass = table.positive("mass", kind::mass);
+  const double mass = table.value("mass");
   warn_of_density(table, mass, volume);
   return mass / volume;
 }
@@ -160,13 +160,37 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
 
 } // namespace
 
-void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts)
+std::vector<Key> part_keys()
 {
-  const std::string file = table.file("cad");
-  check_keys(table, body.kind);
+  return {key::plain("cad", Key::Form::file,
+                     "`.step .stp .brep .geo .msh .inp`, or a closed surface of triangles `.stl`. Several solids are "
+                     "summed; they must not overlap")
+              .by_default("mass and inertia are given"),
+          key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`; a `.stl` needs it")
+              .above_zero()
+              .by_default("of the file"),
+          material_key().by_default("`density` or `mass`"),
+          key::number("density", kind::density, "in place of `material`; one that no solid has is refused")
+              .above_zero()
+              .by_default("of the material"),
+          key::table("placement",
+                     {key::vector("origin", kind::length, "where the file's origin lies").by_default("[0, 0, 0]"),
+                      key::direction("axis", "about which the file's coordinates are turned").by_default("not turned"),
+                      key::number("angle", kind::angle, "by which they are turned").by_default("not turned")},
+                     "turned about `axis` through the file's origin, which then is moved to `origin`")
+              .by_default("the file's coordinates are the scene's, in the position the scene describes")};
+}
+
+void read_part(const SceneTable &any, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts)
+{
+  static const std::vector<Key> keys = joined(
+      {part_keys(), {key::number("mass", kind::mass, "").above_zero(), key::vector("position", kind::length, "")}});
+  const SceneTable  table = any.declared(keys);
+  const std::string file  = table.file("cad");
+  check_keys(any, body.kind);
   const Placement placement = read_placement(table);
   auto            part      = std::make_shared<CadBodyRequest>();
-  part->shape = service(table).measure({file, table.positive("unit", kind::length, 0.), table.place(), scripts});
+  part->shape               = service(table).measure({file, table.value_or("unit", 0.), table.place(), scripts});
   place(part->shape, placement);
   part->density = read_density(table, scene, part->shape.volume);
 

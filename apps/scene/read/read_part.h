@@ -11,9 +11,13 @@ namespace gestell::apps
  * one of `material`, `density` and `mass`.  Of a rotor the inertia is about its axis through `position`, by default
  * through the centre of mass.
  *
+ * @param table  of the body, with keys of any type
  * @param scene  with the [material.NAME]
  * @param body   with its kind and axis
  */
 void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts);
+
+/// Keys of it beside `mass`, `position` and those that the file tells.
+std::vector<Key> part_keys();
 
 } // namespace gestell::apps

@@ -36,8 +36,7 @@ void read_instants(const SceneTable &stress, Scene &scene)
   if (!stress.has("at"))
     return;
   coupling::RunOptions &run = scene.run.options;
-  run.states.at =
-      stress.is_array("at") ? stress.numbers("at", kind::time) : std::vector<double>{stress.number("at", kind::time)};
+  run.states.at = stress.is_array("at") ? stress.numbers("at", kind::time) : std::vector<double>{stress.value("at")};
   for (const double t : run.states.at)
     if (scene.run.given && !(t >= run.begin && t <= run.end))
       throw stress.error("at", "the instant " + seconds(t) + " lies outside the run, which goes from " +
@@ -76,23 +75,38 @@ void read_extremes(const SceneTable &stress, const std::string &key, Scene &scen
 
 } // namespace
 
+const std::vector<Key> &stress_keys()
+{
+  static const std::vector<Key> keys = {
+      key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
+      key::plain("largest", Key::Form::texts,
+                 "names of signals at whose largest value stresses are told; `\"stress\"`: when the equivalent stress "
+                 "itself is largest anywhere, see `step`")
+          .by_default("`\"stress\"` if nothing else is asked for"),
+      key::plain("smallest", Key::Form::texts, "names of signals, likewise").by_default("none"),
+      key::number("step", kind::time, "between the states among which the largest stress is looked for")
+          .above_zero()
+          .by_default("`output.step`, or a five thousandth of the run if that is longer")};
+  return keys;
+}
+
 void read_stress(const SceneTable &output, Scene &scene)
 {
-  const auto stress = output.optional_table("stress");
-  if (!stress)
+  if (!output.has("stress"))
     return;
-  require_stresses(*stress, scene);
+  const SceneTable stress = output.table("stress").declared(stress_keys());
+  require_stresses(stress, scene);
   scene.stress.given          = true;
-  scene.stress.place          = stress->place();
+  scene.stress.place          = stress.place();
   scene.frame.geometry.stress = true;
-  read_instants(*stress, scene);
-  read_extremes(*stress, "largest", scene);
-  read_extremes(*stress, "smallest", scene);
+  read_instants(stress, scene);
+  read_extremes(stress, "largest", scene);
+  read_extremes(stress, "smallest", scene);
   if (scene.stress.instants.empty())
     scene.stress.instants.push_back({"largest stress", StressInstant::largest_stress, 0});
   coupling::RunOptions &run = scene.run.options;
   const double step = std::max(scene.run.given ? coupling::output_step(run) : 0., (run.end - run.begin) / most_states);
-  const double chosen = stress->positive("step", kind::time, step);
+  const double chosen = stress.value_or("step", step);
   const bool   search = std::any_of(scene.stress.instants.begin(), scene.stress.instants.end(),
                                     [](const auto &instant) { return instant.when == StressInstant::largest_stress; });
   run.states.step     = search ? chosen : 0.;

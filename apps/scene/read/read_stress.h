@@ -11,4 +11,7 @@ namespace gestell::apps
 /// @throws std::invalid_argument for a frame that knows no stresses, instants outside the run and unknown signals.
 void read_stress(const SceneTable &output, Scene &result);
 
+/// Of [output.stress].
+const std::vector<Key> &stress_keys();
+
 } // namespace gestell::apps

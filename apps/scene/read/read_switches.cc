@@ -66,9 +66,9 @@ void make_switched(const SceneTable &table, const std::string &key, ElementReque
   if (can_be_switched(element))
     return;
   if (element.fixed)
-    throw table.error(key, "'" + element.name +
-                               "' cannot be switched off: what it is filled with would stay in it; tell it \"set\" or "
-                               "\"hold\"");
+    throw table.error(
+        key, "'" + element.name +
+                 "' cannot be switched off: what it is filled with would stay in it; tell it \"set\" or \"hold\"");
   element.element = std::make_shared<SwitchedElement>(element.element, begin);
 }
 
@@ -96,9 +96,10 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
       throw table.error("tell", "'" + name + "' is a mass, which cannot be switched");
   for (const JointRequest &joint : scene.joints)
     if (joint.name == name && (order == "on" || order == "off"))
-      throw table.error("order", "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
-                                     " joint, which always holds; where it shall let go, use a \"clutch\" or a "
-                                     "\"spring-damper\" instead");
+      throw table.error(
+          "order",
+          "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
+              " joint, which always holds; where it shall let go, use a \"clutch\" or a \"spring-damper\" instead");
 }
 
 /// What has no element of its name is a joint whose motion obeys orders.
@@ -182,10 +183,10 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
     if (table.has(key))
     {
       if (!given.empty())
-        throw table.error(key, "stands beside '" + given +
-                                   "', but a switch has one value: give 'above' where the signal shall rise over it, "
-                                   "'below' where it shall fall under it, or 'crosses' for both ways; two values need "
-                                   "two switches");
+        throw table.error(
+            key, "stands beside '" + given +
+                     "', but a switch has one value: give 'above' where the signal shall rise over it, 'below' where "
+                     "it shall fall under it, or 'crosses' for both ways; two values need two switches");
       given                = key;
       own.request.crossing = crossing;
     }
@@ -195,16 +196,17 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
   own.request.level = own.level.value;
 }
 
-SwitchRequest read_switch(const SceneTable &table, Scene &scene)
+SwitchRequest read_switch(const SceneTable &any, Scene &scene)
 {
-  SwitchRequest own;
+  const SceneTable table = any.declared(switch_keys());
+  SwitchRequest    own;
   own.place          = table.place();
   own.request.name   = table.name();
   own.request.signal = table.text("when");
   read_crossing(table, own);
-  own.request.delay  = table.not_negative("delay", kind::time, 0.);
+  own.request.delay  = table.value("delay");
   own.request.after  = table.text("after", "");
-  own.request.repeat = table.boolean("repeat", false);
+  own.request.repeat = table.truth("repeat");
   if (own.request.repeat && own.request.signal == "t")
     throw table.error("repeat", "the time passes its value only once; leave it out");
   if (table.has("hysteresis"))
@@ -212,9 +214,9 @@ SwitchRequest read_switch(const SceneTable &table, Scene &scene)
     own.hysteresis         = table.quantity("hysteresis");
     own.request.hysteresis = own.hysteresis->value;
     if (!own.request.repeat)
-      throw table.error("hysteresis",
-                        "is how far the signal comes back before the switch is thrown again; it goes with "
-                        "repeat = true");
+      throw table.error(
+          "hysteresis",
+          "is how far the signal comes back before the switch is thrown again; it goes with repeat = true");
     if (own.request.hysteresis < 0.)
       throw table.error("hysteresis", "needs a value of zero or more");
   }
@@ -250,6 +252,57 @@ void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &swit
 }
 
 } // namespace
+
+namespace
+{
+
+/// Of one order.
+std::vector<Key> order_keys()
+{
+  const ProfileKeys level = level_profile(kind::number, "1"), speed = path_profile();
+  const auto        limit = [](const std::string &name, const Kind &kind, const std::string &meaning)
+  { return key::number(name, kind, meaning).above_zero().by_default("a jump"); };
+  return {key::plain("tell", Key::Form::texts, "name of an element or joint, or several").by_default("`orders`"),
+          key::plain("order", Key::Form::text,
+                     "what it is told: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
+              .by_default("`orders`"),
+          key::plain("to", Key::Form::quantity, "of `\"set\"`: the level").by_default("demanded of `\"set\"`"),
+          limit("rate", level.rate, "largest rate of the way to the level, in its unit"),
+          limit("rate_of_rate", level.rate_of_rate, "largest rate of the rate"),
+          limit("acceleration", speed.rate, "of a speed").on_angle(speed_profile().rate),
+          limit("jerk", speed.rate_of_rate, "of a speed").on_angle(speed_profile().rate_of_rate)};
+}
+
+Key crossing_key(const std::string &name, const std::string &meaning)
+{
+  return key::plain(name, Key::Form::quantity, meaning).by_default("one of the three");
+}
+
+} // namespace
+
+const std::vector<Key> &switch_keys()
+{
+  static const std::vector<Key> keys =
+      joined({{key::plain("when", Key::Form::text, "a signal, or `\"t\"`, the time"),
+               crossing_key("above", "value, with its unit, above which the signal rises; thrown at once where it lies "
+                                     "above when the switch begins to watch"),
+               crossing_key("below", "value below which it falls, likewise"),
+               crossing_key("crosses",
+                            "value that it crosses either way; it must come from the side on which it lies at first")},
+              order_keys(),
+              {key::composed("orders", Key::Form::tables, kind::number, order_keys(),
+                             "several orders at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
+                             "\"brake\", order = \"on\" }]`")
+                   .by_default("`tell` and `order`"),
+               key::number("delay", kind::time, "from the crossing to the orders").from_zero().by_default(0.),
+               key::named("after", "switch from whose orders on it watches").by_default("always"),
+               key::truth("repeat", false, "thrown every time"),
+               key::plain("hysteresis", Key::Form::quantity,
+                          "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
+                          "the value to either side")
+                   .by_default(0.)}});
+  return keys;
+}
 
 ElementRequest element_of(const LoadRequest &load)
 {

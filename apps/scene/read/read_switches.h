@@ -16,4 +16,7 @@ void begin_off(const SceneTable &table, Scene &scene);
 /// dampers of the linear base system become elements of their own for it.
 void read_switches(const SceneTable &table, Scene &scene);
 
+/// Of [switch.NAME].
+const std::vector<Key> &switch_keys();
+
 } // namespace gestell::apps

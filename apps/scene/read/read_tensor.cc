@@ -26,6 +26,13 @@ Eigen::Matrix3d read_axes(const SceneTable &table, const std::string &key)
   return axes;
 }
 
+Key principal_axes_key()
+{
+  return key::composed("principal_axes", Key::Form::matrix, kind::number, {},
+                       "directions of the first two of three moments, `[[x, y, z], [x, y, z]]`")
+      .by_default("global axes");
+}
+
 Eigen::Matrix3d read_tensor(const SceneTable &table)
 {
   const std::string needed = "needs three moments [Jx, Jy, Jz], or the tensor as three rows [[Jxx, Jxy, Jxz], ..]";

@@ -10,6 +10,9 @@ namespace gestell::apps
 /// Two directions at right angles under `key`, and the third one that goes with them, as columns.
 Eigen::Matrix3d read_axes(const SceneTable &table, const std::string &key);
 
+/// `principal_axes`, which goes with three moments.
+Key principal_axes_key();
+
 /// `inertia` [kg m^2] in global axes: three moments about these or about `principal_axes`, or the tensor itself.
 Eigen::Matrix3d read_tensor(const SceneTable &table);
 

@@ -7,11 +7,16 @@
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/read/read_bodies.h"
+#include "apps/scene/scene.h"
 #include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -105,14 +110,118 @@ std::string content(const std::string &file)
   return text.str();
 }
 
-/// Between the markers of generated text.
-std::string generated(const std::string &document)
+std::vector<std::string> documents()
 {
-  const std::string begin = "<!-- gestell help --tables -->\n", end = "<!-- end -->";
-  const auto        from = document.find(begin), to = document.find(end);
-  return from == std::string::npos || to == std::string::npos
-             ? ""
-             : document.substr(from + begin.size(), to - from - begin.size());
+  std::vector<std::string> files{"docs/scene.md"};
+  for (const auto &entry : std::filesystem::directory_iterator(std::string(GESTELL_SOURCE_DIR) + "/docs/scene"))
+    files.push_back("docs/scene/" + entry.path().filename().string());
+  return files;
+}
+
+/// Tables of a scene below a heading, "[frame.surface.NAME]".
+std::vector<const SceneNode *> tables_below(const SceneNode &root, const std::string &heading)
+{
+  std::vector<const SceneNode *> found{&root};
+  std::stringstream              path(heading.empty() ? "" : heading.substr(1, heading.size() - 2));
+  for (std::string part; std::getline(path, part, '.');)
+  {
+    std::vector<const SceneNode *> next;
+    for (const SceneNode *node : found)
+      for (const auto &[key, value] : node->entries)
+        if (value.type == SceneNode::Type::table && (part == "NAME" || part == key))
+          next.push_back(&value);
+    found = next;
+  }
+  return found;
+}
+
+/// What readers asked all scenes for, by the path of the declared table: "joint.gear", "joint.gear ratio".
+struct Asked
+{
+  std::map<std::string, Keys> of_table, of_heading, inner;
+
+  void take(const SceneNode &root)
+  {
+    for (const DeclaredTable &table : declared_tables())
+      if (table.heading.empty() || table.heading.front() == '[')
+        for (const SceneNode *node : tables_below(root, table.heading))
+        {
+          of_heading[table.heading].insert(node->asked.begin(), node->asked.end());
+          const SceneNode *type = node->find("type");
+          if (!table.type.empty() && !(type && type->text == table.type))
+            continue;
+          of_table[table.path].insert(node->asked.begin(), node->asked.end());
+          Keys all;
+          take_asked(*node, table.keys, "", all);
+          for (const std::string &key : all)
+            if (key.find('.') != std::string::npos)
+              inner[table.heading].insert(key);
+        }
+  }
+};
+
+/// Reads a scene beside a file "frame.step"; what it says against it, and what was asked.
+std::string read(const std::string &text, Asked &asked)
+{
+  const SceneFolder folder;
+  folder.write("frame.step", "no geometry");
+  const std::string file = folder.write("scene.toml", text);
+  const SceneNode   root = read_scene_file(file, {});
+  std::string       error;
+  try
+  {
+    read_scene(root, file, gestell::fem::Scripts::harmless);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    error = e.what();
+  }
+  asked.take(root);
+  return error;
+}
+
+/// A body whose shape is in a file that cannot be read.
+std::string body_from_cad(const std::string &type)
+{
+  const std::string direction = type == "planar"                      ? "normal = [0, 1, 0]\n"
+                                : type == "rotor" || type == "slider" ? "axis = [0, 1, 0]\n"
+                                                                      : "";
+  return "[body.part]\ntype = \"" + type + "\"\n" + direction +
+         "cad = \"frame.step\"\nmaterial = \"steel\"\nplacement = { axis = [0, 1, 0], angle = \"30 deg\" }\n";
+}
+
+const Asked &all_asked()
+{
+  static const Asked asked = []
+  {
+    Asked everything;
+    EXPECT_EQ(read(content("tests/apps/reference/machine.toml"), everything), "");
+    EXPECT_EQ(read(content("tests/apps/reference/frame_from_cad.toml"), everything), "");
+    for (const BodyType &type : body_types())
+      EXPECT_NE(read(body_from_cad(type.name), everything), "") << type.name;
+    return everything;
+  }();
+  return asked;
+}
+
+/// Those of `wanted` that `known` has not.
+Keys missing(const Keys &wanted, const Keys &known)
+{
+  Keys found;
+  std::set_difference(wanted.begin(), wanted.end(), known.begin(), known.end(), std::inserter(found, found.end()));
+  return found;
+}
+
+const Keys &at(const std::map<std::string, Keys> &asked, const std::string &path)
+{
+  static const Keys none;
+  const auto        found = asked.find(path);
+  return found == asked.end() ? none : found->second;
+}
+
+bool is_element(const DeclaredTable &table)
+{
+  return table.heading == "[element.NAME]";
 }
 
 } // namespace
@@ -163,12 +272,42 @@ TEST(Declarations, TellWhatEveryKeyMeansOnce)
   }
 }
 
+TEST(Tables, AreAskedForEveryKeyTheyDeclare)
+{
+  for (const DeclaredTable &table : declared_tables())
+    if (!is_element(table) && (table.heading.empty() || table.heading.front() == '['))
+    {
+      EXPECT_EQ(missing(names_of(table.keys), at(all_asked().of_table, table.path)), Keys()) << table.path;
+      Keys inner;
+      take_inner(table.keys, "", inner);
+      EXPECT_EQ(missing(inner, at(all_asked().inner, table.heading)), Keys()) << table.path;
+    }
+}
+
+TEST(Tables, DeclareEveryKeyTheyAreAskedFor)
+{
+  std::map<std::string, Keys> declared;
+  for (const DeclaredTable &table : declared_tables())
+    for (const Key &key : table.keys)
+      declared[table.heading].insert(key.name);
+  for (const auto &[heading, asked] : all_asked().of_heading)
+    EXPECT_EQ(missing(asked, declared[heading]), Keys()) << heading;
+}
+
 TEST(Documents, AreWhatTheDeclarationsGive)
 {
-  EXPECT_EQ(generated(content("docs/scene/elements.md")), key_tables())
-      << "write it anew: gestell help --tables, between the markers";
-  EXPECT_EQ(content("docs/scene.schema.json"), json_schema())
-      << "write it anew: gestell help --schema > docs/scene.schema.json";
+  std::string all;
+  for (const std::string &document : documents())
+  {
+    EXPECT_EQ(content(document), renewed(content(document))) << "write it anew: gestell help --renew docs";
+    all += content(document);
+  }
+  EXPECT_EQ(content("docs/scene.schema.json"), json_schema()) << "write it anew: gestell help --renew docs";
+  for (const DeclaredTable &table : declared_tables())
+  {
+    const std::string family = table.type.empty() ? table.path : table.path.substr(0, table.path.find('.'));
+    EXPECT_NE(all.find("<!-- keys: " + family + " -->"), std::string::npos) << table.path << " stands in no document";
+  }
 }
 
 TEST(Help, FindsTablesAndKeysAndSuggestsNearOnes)
@@ -178,6 +317,9 @@ TEST(Help, FindsTablesAndKeysAndSuggestsNearOnes)
   EXPECT_EQ(help_text("rope"), help_text("element.rope"));
   EXPECT_NE(help_text("element.rope.slack").find("becomes taut"), std::string::npos);
   EXPECT_NE(help_text("stiffness").find("element.spring-damper"), std::string::npos);
+  EXPECT_NE(help_text("run.method").find("generalised-alpha"), std::string::npos);
+  EXPECT_NE(help_text("joint").find("joint.prismatic"), std::string::npos);
+  EXPECT_NE(help_text("frame").find("frame.surface"), std::string::npos);
   try
   {
     help_text("element.roop");

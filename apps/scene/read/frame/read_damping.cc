@@ -36,7 +36,7 @@ fem::ModalRatios read_ratios(const SceneTable &damping)
   }
   else
   {
-    ratios.constant = damping.number("ratio", kind::number);
+    ratios.constant = damping.value("ratio");
     check_ratio(damping, ratios.constant);
   }
   return ratios;
@@ -52,8 +52,8 @@ void read_rayleigh(const SceneTable &damping, FrameDamping &result)
   double omega[2], zeta[2];
   for (int i = 0; i < 2; ++i)
   {
-    omega[i] = 2. * M_PI * pairs[i].positive("frequency", kind::frequency);
-    zeta[i]  = pairs[i].number("ratio", kind::number);
+    omega[i] = 2. * M_PI * pairs[i].value("frequency");
+    zeta[i]  = pairs[i].value("ratio");
     check_ratio(pairs[i], zeta[i]);
   }
   if (!(omega[1] > omega[0]))
@@ -68,9 +68,28 @@ void read_rayleigh(const SceneTable &damping, FrameDamping &result)
 
 } // namespace
 
-FrameDamping read_damping(const SceneTable &damping)
+const std::vector<Key> &damping_keys()
 {
-  FrameDamping result;
+  static const std::vector<Key> keys = {
+      key::number("ratio", kind::number,
+                  "damping ratio of all elastic modes of the supported frame; `[0.01, 0.02]`: of the first, the second "
+                  "and all above; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over the frequency, linear between the "
+                  "rows, constant beyond")
+          .also({Key::Form::numbers, Key::Form::matrix})
+          .by_default("`rayleigh`"),
+      key::composed("rayleigh", Key::Form::tables, kind::number,
+                    {key::number("frequency", kind::frequency, "of a pair").above_zero(),
+                     key::number("ratio", kind::number, "damping ratio there")},
+                    "two pairs, by which B = αM + βC, in proportion to mass and stiffness of the plates; lower and "
+                    "higher modes are damped more. On clamped supports steps with many modes are cheaper with it")
+          .by_default("`ratio`")};
+  return keys;
+}
+
+FrameDamping read_damping(const SceneTable &any)
+{
+  const SceneTable damping = any.declared(damping_keys());
+  FrameDamping     result;
   if (!damping.has("rayleigh"))
     result.ratios = read_ratios(damping);
   else if (damping.has("ratio"))

@@ -17,4 +17,7 @@ struct FrameDamping
 /// 0.02]] } by frequency, or { rayleigh = [{ frequency, ratio }, { frequency, ratio }] }.
 FrameDamping read_damping(const SceneTable &damping);
 
+/// Of that table.
+const std::vector<Key> &damping_keys();
+
 } // namespace gestell::apps

@@ -1,5 +1,8 @@
 #include "apps/scene/read/frame/read_frame.h"
 
+#include "apps/scene/read/frame/geometry_keys.h"
+#include "apps/scene/read/frame/matrix_keys.h"
+
 #include <string>
 #include <utility>
 
@@ -32,17 +35,17 @@ FrameRequest read_frame(const SceneTable &scene)
   if (cad)
   {
     request.source   = FrameSource::geometry;
-    request.geometry = read_frame_geometry(*frame, scene);
+    request.geometry = read_frame_geometry(frame->declared(frame_keys()), scene);
   }
   else if (matrices)
   {
     request.source   = FrameSource::matrices;
-    request.matrices = read_frame_matrices(*frame, request.has_translations);
+    request.matrices = read_frame_matrices(frame->declared(matrix_frame_keys()), request.has_translations);
   }
   else
   {
     request.source       = FrameSource::reduced_file;
-    request.reduced_file = frame->file("reduced");
+    request.reduced_file = frame->declared(frame_keys()).file("reduced");
   }
   return request;
 }

@@ -1,3 +1,4 @@
+#include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/read_damping.h"
 #include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/names.h"
@@ -16,14 +17,14 @@ namespace gestell::apps
 namespace
 {
 
-fem::SurfaceSelector read_surface(const SceneTable &table)
+fem::SurfaceSelector read_surface(const SceneTable &any)
 {
+  const SceneTable     table = any.declared(surface_keys());
   fem::SurfaceSelector surface;
   surface.place = table.place();
   if (const auto cylinder = table.optional_table("cylinder"))
-    surface.cylinder =
-        fem::SurfaceSelector::Cylinder{cylinder->direction("axis"), cylinder->vector("through", kind::length),
-                                       cylinder->positive("radius", kind::length)};
+    surface.cylinder = fem::SurfaceSelector::Cylinder{
+        cylinder->direction("axis"), cylinder->vector("through", kind::length), cylinder->value("radius")};
   if (const auto plane = table.optional_table("plane"))
     surface.plane = fem::SurfaceSelector::Plane{plane->direction("normal"), plane->vector("through", kind::length)};
   if (const auto box = table.optional_table("box"))
@@ -38,7 +39,7 @@ fem::SurfaceSelector read_surface(const SceneTable &table)
   if (!surface.cylinder && !surface.plane && !surface.box && !surface.group)
     throw table.error("needs at least one of 'cylinder', 'plane', 'box', 'group' to select faces by");
   if (table.has("tolerance"))
-    surface.tolerance = table.positive("tolerance", kind::length);
+    surface.tolerance = table.value("tolerance");
   surface.faces = table.is_text("faces") ? (table.choice("faces", {"any"}, "any"), 0) : table.integer("faces", 1);
   if (surface.faces < 1 && !table.is_text("faces"))
     throw table.error("faces", "needs the number of faces expected, 1 or more, or \"any\"");
@@ -91,14 +92,15 @@ fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, 
   return is_per_area ? per_direction(table, longer, per_area) : per_direction(table, key, total);
 }
 
-fem::Support read_support(const SceneTable &table, const fem::FrameSpecification &frame)
+fem::Support read_support(const SceneTable &any, const fem::FrameSpecification &frame)
 {
+  const SceneTable table = any.declared(support_keys());
   check_thing_name(table);
   fem::Support support;
   support.name          = table.name();
   support.place         = table.place();
   support.surfaces      = read_surface_names(table, frame);
-  const bool clamped    = table.boolean("clamped", false);
+  const bool clamped    = table.truth("clamped");
   const auto foundation = table.optional_table("foundation");
   const bool directions = table.has("directions");
   if (clamped == foundation.has_value())
@@ -134,13 +136,14 @@ fem::Support read_support(const SceneTable &table, const fem::FrameSpecification
   return support;
 }
 
-fem::InterfaceSpecification read_interface(const SceneTable &table, const fem::FrameSpecification &frame)
+fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::FrameSpecification &frame)
 {
+  const SceneTable table = any.declared(interface_keys());
   check_thing_name(table);
   fem::InterfaceSpecification interface;
   interface.name             = table.name();
   interface.place            = table.place();
-  const std::string coupling = table.choice("coupling", {"rigid", "average", "point", "node"}, "rigid");
+  const std::string coupling = table.choice("coupling");
   interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
                                : coupling == "average" ? fem::InterfaceCoupling::average
                                : coupling == "point"   ? fem::InterfaceCoupling::point
@@ -154,12 +157,13 @@ fem::InterfaceSpecification read_interface(const SceneTable &table, const fem::F
   if (table.has("radius") && !point)
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
   if (point)
-    interface.radius = table.not_negative("radius", kind::length, 0.);
+    interface.radius = table.value_or("radius", 0.);
   return interface;
 }
 
-fem::CutSpecification read_cut(const SceneTable &table)
+fem::CutSpecification read_cut(const SceneTable &any)
 {
+  const SceneTable table = any.declared(cut_keys());
   check_thing_name(table);
   const auto plane = table.table("plane");
   return {table.name(), plane.vector("through", kind::length), plane.direction("normal"), table.place()};
@@ -180,18 +184,19 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
 {
   fem::MeshOptions mesh;
   mesh.place     = table.place();
-  mesh.size      = is_mesh_file ? table.positive("size", kind::length, 0.) : table.positive("size", kind::length);
-  mesh.max_cells = table.positive("max_cells", kind::number, mesh.max_cells);
-  mesh.gap       = table.not_negative("gap", kind::length, 0.);
-  mesh.bodies    = table.integer("bodies", 1);
-  mesh.defeature = table.not_negative("defeature", kind::length, 0.);
-  mesh.curved    = table.boolean("curved", false);
-  mesh.overlaps =
-      table.choice("overlaps", {"refused", "once"}, "refused") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  mesh.size      = is_mesh_file ? table.value_or("size", 0.) : table.value("size");
+  mesh.max_cells = table.value("max_cells");
+  mesh.gap       = table.value("gap");
+  mesh.bodies    = table.whole("bodies");
+  mesh.defeature = table.value("defeature");
+  mesh.curved    = table.truth("curved");
+  mesh.overlaps  = table.choice("overlaps") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
   if (mesh.bodies < 1)
     throw table.error("bodies", "needs the number of bodies expected, 1 or more");
-  const std::vector<std::string> own{"size", "max_cells", "gap", "bodies", "defeature", "overlaps", "curved"};
-  std::vector<std::string>       known = own;
+  std::vector<std::string> own;
+  for (const Key &key : mesh_keys())
+    own.push_back(key.name);
+  std::vector<std::string> known = own;
   for (const auto &entry : frame.surfaces)
     known.push_back(entry.first);
   for (const auto &key : table.keys())
@@ -235,13 +240,14 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
 }
 
 /// A motor or a counterweight, on an interface or on surfaces of its own.
-fem::AttachedMass read_mass(const SceneTable &table, const fem::FrameSpecification &frame)
+fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification &frame)
 {
+  const SceneTable table = any.declared(attached_mass_keys());
   check_thing_name(table);
   fem::AttachedMass mass;
   mass.name  = table.name();
   mass.place = table.place();
-  mass.mass  = table.positive("mass", kind::mass);
+  mass.mass  = table.value("mass");
   if (table.has("inertia"))
     mass.inertia = read_tensor(table);
   if (table.has("position"))
@@ -252,9 +258,8 @@ fem::AttachedMass read_mass(const SceneTable &table, const fem::FrameSpecificati
   if (surfaces)
   {
     mass.surfaces = read_surface_names(table, frame);
-    mass.coupling = table.choice("coupling", {"rigid", "average"}, "rigid") == "rigid"
-                        ? fem::InterfaceCoupling::rigid
-                        : fem::InterfaceCoupling::average;
+    mass.coupling =
+        table.choice("coupling") == "rigid" ? fem::InterfaceCoupling::rigid : fem::InterfaceCoupling::average;
     return mass;
   }
   std::vector<std::string> known;
@@ -281,7 +286,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh", ".inp"};
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
-  specification.unit      = frame.positive("unit", kind::length, 0.);
+  specification.unit      = frame.value_or("unit", 0.);
   specification.material  = read_material(frame, scene);
   specification.materials = read_solid_materials(frame, scene);
   if (const auto table = frame.optional_table("damping"))

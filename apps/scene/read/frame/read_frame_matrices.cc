@@ -1,3 +1,4 @@
+#include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/scene/read/frame/matrix_units.h"
 #include "apps/scene/read/frame/read_damping.h"
 #include "apps/scene/read/frame/read_frame.h"
@@ -173,9 +174,10 @@ Sparse read_square(const SceneTable &frame, const std::string &key, const Kind &
 }
 
 /// rows = { "-uz" = 1 }: row 1 of q is the displacement against z.
-void add_interface(const SceneTable &table, Eigen::Index n, std::map<int, std::string> &owner,
+void add_interface(const SceneTable &any, Eigen::Index n, std::map<int, std::string> &owner,
                    std::vector<fem::Interface> &interfaces)
 {
+  const SceneTable table = any.declared(matrix_interface_keys());
   check_thing_name(table);
   for (const auto &other : interfaces)
     if (other.name == table.name())
@@ -245,8 +247,9 @@ std::vector<std::string> directions_of(const SceneTable &support)
 }
 
 /// A force read off the frame: stiffness_row . q + damping_row . q' + acceleration_row . g.
-fem::FrameOutput read_output(const SceneTable &table, const std::string &before, Eigen::Index n)
+fem::FrameOutput read_output(const SceneTable &any, const std::string &before, Eigen::Index n)
 {
+  const SceneTable table = any.declared(matrix_output_keys());
   check_thing_name(table);
   const auto row = [&](const std::string &key, const Kind &kind, Eigen::Index size, const std::string &needed)
   {
@@ -306,7 +309,7 @@ double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, b
   if (!has_translations && !frame.has("total_mass"))
     return 0.;
   const Eigen::Matrix3d mass = matrices.translations.transpose() * Eigen::MatrixXd(matrices.M * matrices.translations);
-  return frame.positive("total_mass", kind::mass, mass.diagonal().maxCoeff());
+  return frame.value_or("total_mass", mass.diagonal().maxCoeff());
 }
 
 } // namespace
@@ -344,7 +347,7 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
   matrices.picture = read_node_picture(frame, nodes, n);
   for (const auto &table : frame.tables("cut"))
     matrices.outputs.push_back(read_output(table, "cut.", n));
-  for (const auto &table : frame.tables("support"))
+  for (const auto &table : frame.tables("support")) // by matrix_support_keys()
     if (const auto directions = directions_of(table); directions.empty())
       matrices.outputs.push_back(read_output(table, "support.", n));
     else

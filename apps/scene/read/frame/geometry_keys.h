@@ -1,0 +1,18 @@
+#pragma once
+
+#include "apps/scene/file/declaration.h"
+
+namespace gestell::apps
+{
+
+/// Keys of [frame] from CAD or a mesh, or already reduced; of its `mesh`, beside patterns of names; of
+/// [frame.surface.NAME] and so on.
+const std::vector<Key> &frame_keys();
+const std::vector<Key> &mesh_keys();
+const std::vector<Key> &surface_keys();
+const std::vector<Key> &support_keys();
+const std::vector<Key> &interface_keys();
+const std::vector<Key> &cut_keys();
+const std::vector<Key> &attached_mass_keys();
+
+} // namespace gestell::apps

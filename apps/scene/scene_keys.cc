@@ -1,0 +1,125 @@
+#include "apps/scene/scene_keys.h"
+
+#include "apps/scene/values/requests.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// A table, or tables with names, whose keys are declared by themselves.
+Key one_of(const std::string &name, const std::string &meaning)
+{
+  return key::table(name, {}, meaning).by_default("");
+}
+
+Key coordinates(const std::string &name, const Kind &length, const Kind &angle, const std::string &meaning)
+{
+  return key::map(name, length, {}, meaning).on_angle(angle);
+}
+
+} // namespace
+
+const std::vector<Key> &scene_keys()
+{
+  static const std::vector<Key> keys = {
+      key::plain("name", Key::Form::text, "names the folder of the results").by_default("name of the file"),
+      key::plain("description", Key::Form::text, "one line for the report").by_default("none"),
+      key::vector("gravity", kind::acceleration, "acts on the frame and on all masses").by_default("[0, 0, 0]"),
+      key::plain("extends", Key::Form::file, "scene whose entries hold where this one has none").by_default("none"),
+      key::plain("parameters", Key::Form::map, "[parameters](scene/values.md#values) of expressions")
+          .by_default("none"),
+      one_of("material", "`[material.NAME]`"),
+      one_of("frame", "the frame"),
+      one_of("reduction", "its reduction"),
+      one_of("body", "`[body.NAME]`"),
+      one_of("place", "`[place.NAME]`"),
+      one_of("measure", "`[measure.NAME]`"),
+      one_of("element", "`[element.NAME]`"),
+      one_of("joint", "`[joint.NAME]`"),
+      one_of("switch", "`[switch.NAME]`"),
+      one_of("run", "the run in time"),
+      one_of("start", "the state it starts from"),
+      one_of("modes", "the machine's modes"),
+      one_of("output", "what is told")};
+  return keys;
+}
+
+const std::vector<Key> &reduction_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice("method", {"craig-bampton", "none"}, true,
+                  "`\"none\"` keeps every coordinate: for tests and small matrices. Without `[reduction]` a frame "
+                  "given by matrices keeps every coordinate"),
+      key::number(
+          "tolerance", kind::number,
+          "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "
+          "frequencies; chooses the number of modes. By receptance, modes may be fewer together with the static shapes "
+          "of their inertia (up to as many as interface coordinates), and where dampers act inside the frame with "
+          "theirs; [tried](../theory/reduction.md#how-many-modes-for-the-interface) from 0.05 down to 1e-5, with "
+          "dampers up to 200 times as stiff as the supports they stand beside. The error is one number for all "
+          "interfaces, Frobenius' norm with each coordinate scaled by its inertia: an interface far stiffer than the "
+          "others may be worse by itself, and the worst is told beside it. What cannot be reached a note tells")
+          .as_share()
+          .by_default(ReductionRequest().options.tolerance),
+      key::plain("modes", Key::Form::whole,
+                 "fixed number of modes instead; a `tolerance` beside it is not used. A note tells the error up to "
+                 "`frequency`, or that the modes kept end below it")
+          .by_default("by `tolerance`"),
+      key::number("frequency", kind::frequency, "highest frequency of interest").above_zero().by_default("automatic"),
+      key::choice("inside", {"fixed-interface", "free-interface"}, true,
+                  "modes of the inside: with the interface held (Craig and Bampton), or those of the frame as it is "
+                  "supported, which the reduced frame then has exactly; without `modes` all up to 1.5 times "
+                  "`frequency`, or the twelfth elastic one"),
+      key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
+                  "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time. Options of PETSc and "
+                  "SLEPc count with the prefix `reduction_`, such as `PETSC_OPTIONS=\"-reduction_eps_view\"`; a frame "
+                  "found in the cache was made without them"),
+      key::truth("inertia_relief", false,
+                 "with the static deflections under the inertia of rigid motions, up to six shapes more. Statics of a "
+                 "frame that floats and accelerates as a whole, and of any frame under weight, are exact then, "
+                 "whatever the number of modes")};
+  return keys;
+}
+
+const std::vector<Key> &start_keys()
+{
+  const std::string             rotors = "steady, without joints: of rotors, ";
+  static const std::vector<Key> keys   = {
+        key::choice("rule", {"given", "static", "steady"}, true,
+                    "a state as given, static equilibrium, or steady motion"),
+        coordinates(
+            "q", kind::length, kind::angle,
+            "given and steady, of a static start first guesses: values of coordinates and measures, `{ crank = \"120 "
+              "deg\", \"boom.angle\" = \"5 deg\", \"frame.crown.uz\" = \"-0.6 mm\" }`")
+            .by_default("0"),
+        coordinates("v", kind::speed, kind::angular_speed, "given and steady: their rates; of a static start warned of")
+            .by_default("0"),
+        key::truth("drift", false, "static: with the velocity of the quasi-static drift"),
+        key::truth("inertia_relief", false,
+                   "static: loads along motions that nothing holds are taken by the inertia of the machine; without it "
+                     "they are refused"),
+        key::map("angles", kind::angle, {}, rotors + "`{ crank = \"120 deg\" }`")
+            .by_default("by the balance of the `driver`"),
+        key::map("speeds", kind::angular_speed, {}, rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
+        key::named("driver", "steady, without joints: the rotor that makes up for what the drive lacks")
+            .by_default("a given angle")};
+  return keys;
+}
+
+const std::vector<Key> &modes_keys()
+{
+  static const std::vector<Key> keys = {
+      coordinates("at", kind::length, kind::angle,
+                  "configuration, `{ crank = \"160 deg\" }`. It is not looked for: the place of a static start, or any "
+                  "other equilibrium, is to be given here")
+          .by_default("0; with joints the start"),
+      key::plain("open", Key::Form::texts,
+                 "names of elements taken as open: play not closed, rope slack; what acts all the same, such as the "
+                 "oil film of a rod, stays. An element that acts in every position is refused")
+          .by_default("none"),
+      key::plain("number", Key::Form::whole, "how many").by_default(ModesRequest().number)};
+  return keys;
+}
+
+} // namespace gestell::apps
