@@ -1,7 +1,7 @@
 #include "apps/cli/atlas.h"
 
 #include "apps/atlas/atlas.h"
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/progress.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"

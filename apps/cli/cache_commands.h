@@ -1,10 +1,21 @@
 #pragma once
 
-#include "apps/cli/commands.h"
 #include "apps/scene/values/requests.h"
+
+#include <string>
 
 namespace gestell::apps
 {
+
+/// `gestell reduce`: a scene's frame, or the cache of frames.
+struct ReduceCommandOptions
+{
+  bool        list = false, explain = false, prune = false;
+  bool        all   = false;           ///< prune every frame
+  bool        check = false;           ///< list and prune read every file whole
+  std::string older_than, larger_than; ///< prune frames not used for "30 d", frames above "100 MB"
+  std::string export_format;           ///< "matrix-market" or "petsc"; empty: none
+};
 
 /// Prints what the cache of reduced frames holds; files are read whole if options.check asks for it.
 void list_cache(const ReduceCommandOptions &options);

@@ -1,6 +1,6 @@
 #include "apps/cli/chart_methods.h"
 #include "apps/cli/chart_reference.h"
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/prepared_machine.h"
 #include "apps/cli/results_path.h"
@@ -21,12 +21,31 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 namespace gestell::apps
 {
 namespace
 {
+
+/// What `gestell chart` compares; empty lists: chosen for the scene.
+struct ChartCommandOptions
+{
+  std::vector<std::string> methods;          ///< keys such as "exact-6", "cvode-5", "bdf*"
+  std::vector<std::string> steps;            ///< of fixed steps, "10 us" or plain numbers in s
+  std::vector<std::string> tolerances;       ///< of controlled steps and of peers
+  std::vector<std::string> errors;           ///< that a choice is offered for
+  std::vector<std::string> signals;          ///< that errors are measured in; "q*" for all that begin so
+  std::vector<int>         modes;            ///< numbers of modes of the reduced frame
+  std::string              reference;        ///< CSV file; empty: an own fine run
+  std::string              events  = "both"; ///< "both", "on" or "off"
+  bool                     peers   = true;   ///< general-purpose libraries as well
+  bool                     native  = false;  ///< vectors of peers compiled for this processor
+  bool                     quick   = false;  ///< fewer methods and settings
+  int                      samples = 2000;   ///< instants errors are measured at
+  double                   limit   = 0.;     ///< [s] of CPU time for one run; 0: 20, quick 5
+};
 
 constexpr double resolved_above = 10.; ///< times the error of the reference
 
@@ -296,9 +315,7 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   return reference.values;
 }
 
-} // namespace
-
-int chart_command(const CommonOptions &options, const ChartCommandOptions &chart_options)
+int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
   Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
@@ -361,6 +378,35 @@ int chart_command(const CommonOptions &options, const ChartCommandOptions &chart
   write_file(folder / "chart.html", work_precision_page(chart));
   std::cout << work_precision_text(chart) << "chart: " << (folder / "chart.html").string() << '\n';
   return interruption().load() ? exit_interrupted : exit_done;
+}
+
+} // namespace
+
+Command chart_command()
+{
+  const auto own = std::make_shared<ChartCommandOptions>();
+  return {
+      "chart",
+      "work-precision chart: error against work of methods and settings",
+      {"gestell chart apps/scenes/press_minimal.toml --quick -o results/chart"},
+      CommandInput::scene,
+      {{"--methods", &own->methods, "methods by name, such as bdf-2,exact*,cvode-5 (default: all)"},
+       {"--steps", &own->steps, "fixed steps, such as \"40 us\",\"10 us\""},
+       {"--tolerances", &own->tolerances, "tolerances of controlled steps, such as 1e-3,1e-5"},
+       {"--error", &own->errors, "errors a choice is offered for (default 1e-2,1e-3,1e-5,1e-7)"},
+       {"--signals", &own->signals, "signals that errors are measured in (default: all of the scene)"},
+       CommandOption{"--modes", &own->modes, "numbers of modes of the reduced frame, such as 10,20,50"}.above_zero(),
+       CommandOption{"--reference", &own->reference, "table of the true motion (CSV) instead of an own fine run"}
+           .existing_file(),
+       CommandOption{"--events", &own->events, "on: located, off: passed over, both (default)"}.one_of(
+           {"on", "off", "both"}),
+       {"--peers,!--no-peers", &own->peers, "general-purpose integrators as well (default)"},
+       {"--native-vectors", &own->native, "peers with vector arithmetic compiled for this processor"},
+       {"--quick", &own->quick, "a minute instead of ten: fewer methods, steps and tolerances"},
+       {"--samples", &own->samples, "instants that errors are measured at (default 2000)"},
+       CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
+           .above_zero()},
+      [own](const CommonOptions &options) { return make_chart(options, *own); }};
 }
 
 } // namespace gestell::apps

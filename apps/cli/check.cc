@@ -1,4 +1,4 @@
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
 #include "coupling/plugin/frame_service_loader.h"
@@ -46,9 +46,7 @@ std::size_t elements_written(const Scene &scene)
   return names.size();
 }
 
-} // namespace
-
-int check_command(const CommonOptions &options)
+int check(const CommonOptions &options)
 {
   Scene                    scene    = read_scene(options.input, options.overrides, options.scripts);
   std::vector<std::string> loose    = check_scene(scene);
@@ -77,6 +75,15 @@ int check_command(const CommonOptions &options)
   for (const std::string &warning : warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   return exit_done;
+}
+
+} // namespace
+
+Command check_command()
+{
+  return {
+      "check", "validate a scene without computing", {"gestell check apps/scenes/press.toml"}, CommandInput::scene, {},
+      check};
 }
 
 } // namespace gestell::apps

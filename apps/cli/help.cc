@@ -1,20 +1,45 @@
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/reference/help_text.h"
 #include "apps/reference/json_schema.h"
 #include "apps/reference/key_tables.h"
 
 #include <iostream>
+#include <memory>
 
 namespace gestell::apps
 {
+namespace
+{
 
-int help_command(const HelpCommandOptions &help)
+struct HelpCommandOptions
+{
+  std::string topic; ///< table or key; empty: the list of tables
+  bool        schema = false;
+  std::string docs; ///< folder whose schema and tables of keys are renewed; empty: none
+};
+
+int help(const HelpCommandOptions &help)
 {
   if (!help.docs.empty())
     renew_reference(help.docs);
   else
     std::cout << (help.schema ? json_schema() : help_text(help.topic));
   return exit_done;
+}
+
+} // namespace
+
+Command help_command()
+{
+  const auto own = std::make_shared<HelpCommandOptions>();
+  return {"help",
+          "explain the keys of a scene",
+          {"gestell help element.clearance", "gestell help stiffness"},
+          CommandInput::none,
+          {{"KEY", &own->topic, "table or key (default: the list of tables)"},
+           {"--schema", &own->schema, "JSON schema of scenes, for editors, instead"},
+           {"--renew", &own->docs, "write schema and tables of keys in this folder of documents anew, instead"}},
+          [own](const CommonOptions &) { return help(*own); }};
 }
 
 } // namespace gestell::apps

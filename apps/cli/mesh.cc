@@ -1,4 +1,4 @@
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/progress.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -19,6 +20,20 @@ namespace gestell::apps
 
 namespace
 {
+
+struct MeshCommandOptions
+{
+  std::string size; ///< a length such as "80 mm", plain numbers in m; empty: chosen for some 25 000 cells
+  std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
+  double      max_cells = 2e6;
+  std::string gap;                   ///< a length: solids at most that far apart are joined
+  std::string density;               ///< solids are weighed with; steel by default
+  std::string defeature;             ///< a length: smaller faces and edges are removed
+  std::string overlaps  = "refused"; ///< or "once"
+  int         bodies    = 1;         ///< expected
+  bool        selectors = false;     ///< surfaces as entries of a scene
+};
+
 /// A quantity given on the command line, in SI units; 0 if it is not given.
 double option_of(const std::string &option, const std::string &text, const Kind &kind, const std::string &example)
 {
@@ -143,9 +158,8 @@ void print_selectors(const coupling::MeshReport &report)
               << " m^2" << (surface.name.empty() ? "" : ", \"" + surface.name + "\"") << '\n'
               << surface.selector;
 }
-} // namespace
 
-int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
+int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
 {
   const fem::FrameSpecification frame = frame_of(options, mesh);
   if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
@@ -168,6 +182,28 @@ int mesh_command(const CommonOptions &options, const MeshCommandOptions &mesh)
   else
     print_surfaces(report);
   return exit_done;
+}
+
+} // namespace
+
+Command mesh_command()
+{
+  const auto own = std::make_shared<MeshCommandOptions>();
+  return {"mesh",
+          "mesh a CAD file; report its quality, surfaces and solids",
+          {"gestell mesh meshes/press_frame.step --size '80 mm'"},
+          CommandInput::cad,
+          {{"--size", &own->size, "element size, such as \"80 mm\""},
+           {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
+           CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
+           {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},
+           CommandOption{"--bodies", &own->bodies, "number of bodies expected that do not hang together"}.above_zero(),
+           CommandOption{"--overlaps", &own->overlaps, "refused, or once: a common part of solids belongs to the first"}
+               .one_of({"refused", "once"}),
+           {"--density", &own->density, "what solids are weighed with, such as \"2700 kg/m^3\" (steel)"},
+           {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
+           {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
+          [own](const CommonOptions &options) { return make_mesh(options, *own); }};
 }
 
 } // namespace gestell::apps

@@ -1,4 +1,4 @@
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/modes_along.h"
 #include "apps/cli/modes_converge.h"
 #include "apps/cli/prepared_machine.h"
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 namespace gestell::apps
@@ -61,9 +62,8 @@ void print_poles(const std::vector<coupling::Pole> &poles)
               << short_text(pole.s.real(), 6) << "   " << pole.moves << (pole.s.real() > 0. ? "   unstable" : "")
               << '\n';
 }
-} // namespace
 
-int modes_command(const CommonOptions &options, const ModesCommandOptions &modes)
+int find_modes(const CommonOptions &options, const ModesCommandOptions &modes)
 {
   const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   check_scene(scene);
@@ -125,6 +125,50 @@ int modes_command(const CommonOptions &options, const ModesCommandOptions &modes
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
   return convergence && !convergence->converged ? exit_failed : exit_done;
+}
+
+} // namespace
+
+Command modes_command()
+{
+  const auto own = std::make_shared<ModesCommandOptions>();
+  return {
+      "modes",
+      "natural frequencies and shapes of the frame and of the coupled machine",
+      {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank"},
+      CommandInput::scene,
+      {{"--along", &own->along, "follow them along a coordinate: a body, a measure or a driven joint"},
+       CommandOption{"--from", &own->from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
+           .with("--along"),
+       CommandOption{"--to", &own->to, "last position (default one turn further)"}.with("--along"),
+       CommandOption{"--positions", &own->positions, "how many, both ends included (default 73: every 5 deg of a turn)"}
+           .with("--along"),
+       CommandOption{"--configuration", &own->configuration,
+                     "equilibrium (default): standing still under weights and springs; or undeformed"}
+           .one_of({"equilibrium", "undeformed"})
+           .with("--along"),
+       CommandOption{"--hold", &own->hold, "coordinates that do not vibrate, such as a held drive"}.with("--along"),
+       CommandOption{"--speed", &own->speed, "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
+           .with("--along"),
+       CommandOption{"--orders", &own->orders, "highest order (default 10)"}.above_zero().with("--along"),
+       CommandOption{"--band", &own->band, "how near an order comes to be told (default \"5 %\")"}.with("--along"),
+       CommandOption{"--converge", &own->converge,
+                     "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
+                     "tell error and uncertainty"}
+           .above_zero(),
+       CommandOption{"--frequencies", &own->frequencies, "lowest elastic ones of the frame to converge (default 4)"}
+           .above_zero()
+           .with("--converge"),
+       CommandOption{"--watch", &own->watch,
+                     "what is to converge: all, or frequencies without compliances (default all)"}
+           .one_of({"all", "frequencies"})
+           .with("--converge"),
+       CommandOption{"--max-coordinates", &own->max_coordinates, "of the finest mesh (default 1000000)"}
+           .above_zero()
+           .with("--converge"),
+       CommandOption{"--geometric", &own->geometric, "on (default) or off: geometric stiffness of forces that turn"}
+           .one_of({"on", "off"})},
+      [own](const CommonOptions &options) { return find_modes(options, *own); }};
 }
 
 } // namespace gestell::apps

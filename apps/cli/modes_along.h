@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/cli/commands.h"
+#include "apps/cli/modes_options.h"
 #include "apps/cli/prepared_machine.h"
 
 namespace gestell::apps

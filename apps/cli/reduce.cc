@@ -1,5 +1,5 @@
 #include "apps/cli/cache_commands.h"
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/export_frame.h"
 #include "apps/cli/prepared_machine.h"
 #include "apps/cli/results_path.h"
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 
 namespace gestell::apps
 {
@@ -33,9 +34,7 @@ Scene scene_to_reduce(const CommonOptions &options)
   return scene;
 }
 
-} // namespace
-
-int reduce_command(const CommonOptions &options, const ReduceCommandOptions &reduce)
+int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduce)
 {
   if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
     throw std::invalid_argument(
@@ -112,6 +111,28 @@ int reduce_command(const CommonOptions &options, const ReduceCommandOptions &red
   for (const auto &[phase, seconds] : progress.wall_seconds())
     std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';
   return exit_done;
+}
+
+} // namespace
+
+/// The scene may be left out with --list and --prune.
+Command reduce_command()
+{
+  const auto own = std::make_shared<ReduceCommandOptions>();
+  return {"reduce",
+          "build (or reuse) the reduced frame and report its error estimate",
+          {"gestell reduce apps/scenes/press.toml --set reduction.modes=40",
+           "gestell reduce --explain apps/scenes/press.toml", "gestell reduce --prune --older-than '30 d' --list"},
+          CommandInput::scene_or_none,
+          {{"--export", &own->export_format, "write the reduced matrices, too: matrix-market or petsc"},
+           {"--list", &own->list, "the frames in the cache instead"},
+           {"--explain", &own->explain, "why the scene's frame is in the cache or not, instead"},
+           {"--prune", &own->prune, "remove what cannot be used from the cache, and what these name:"},
+           {"--older-than", &own->older_than, "frames not used for so long, such as \"30 d\""},
+           {"--larger-than", &own->larger_than, "frames of more than, such as \"100 MB\""},
+           {"--all", &own->all, "all frames"},
+           {"--check", &own->check, "with --list or --prune: compare every file with its checksum"}},
+          [own](const CommonOptions &options) { return reduce_frame(options, *own); }};
 }
 
 } // namespace gestell::apps

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/scene/values/requests.h"
 
 #include <filesystem>

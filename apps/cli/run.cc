@@ -1,4 +1,4 @@
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/prepared_machine.h"
 #include "apps/cli/results_path.h"
@@ -85,9 +85,8 @@ void print_answer(const coupling::RunResult &run)
     std::cout << "energy residual " << energy.residual << " J of " << energy.exchanged << " J exchanged, "
               << energy.input << " J supplied\n";
 }
-} // namespace
 
-int run_command(const CommonOptions &options)
+int run_scene(const CommonOptions &options)
 {
   const Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
@@ -144,6 +143,18 @@ int run_command(const CommonOptions &options)
     return exit_failed;
   }
   return result.run->interrupted ? exit_interrupted : exit_done;
+}
+
+} // namespace
+
+Command run_command()
+{
+  return {"run",
+          "simulate a scene in time",
+          {"gestell run apps/scenes/press.toml -o results/press"},
+          CommandInput::scene,
+          {},
+          run_scene};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,5 @@
 #include "apps/cli/atlas.h"
-#include "apps/cli/commands.h"
+#include "apps/cli/command.h"
 #include "apps/cli/prepared_machine.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/stability_report.h"
@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <sstream>
 
 namespace gestell::apps
@@ -18,6 +20,13 @@ namespace gestell::apps
 
 namespace
 {
+
+struct StabilityCommandOptions
+{
+  std::vector<double> zetas = {0., 0.01, 0.05}; ///< damping ratios of the maps
+  double              step  = 0.;               ///< [s] at which the scene's modes are shown; 0: run.step
+  std::string         atlas;                    ///< file of the failure atlas; empty: none
+};
 
 void check_ratios(const std::vector<double> &zetas)
 {
@@ -105,9 +114,7 @@ std::string ratio_name(double zeta)
   return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
 }
 
-} // namespace
-
-int stability_command(const CommonOptions &options, const StabilityCommandOptions &stability)
+int map_stability(const CommonOptions &options, const StabilityCommandOptions &stability)
 {
   if (!stability.atlas.empty())
     return write_atlas(stability.atlas, options.quiet);
@@ -150,6 +157,23 @@ int stability_command(const CommonOptions &options, const StabilityCommandOption
 
   std::cout << stability_text(study) << "maps: " << (folder / "stability.html").string() << '\n';
   return exit_done;
+}
+
+} // namespace
+
+/// The scene may be left out.
+Command stability_command()
+{
+  const auto own = std::make_shared<StabilityCommandOptions>();
+  return {"stability",
+          "stability and accuracy maps of the integrators, over a scene's own modes",
+          {"gestell stability apps/scenes/press_minimal.toml --zeta 0,0.02"},
+          CommandInput::scene_or_none,
+          {{"--zeta", &own->zetas, "damping ratios of the maps (default 0,0.01,0.05)"},
+           CommandOption{"--step", &own->step, "step [s] at which the scene's modes are shown (default run.step)"}
+               .above_zero(),
+           {"--atlas", &own->atlas, "write the failure atlas into this file (Markdown) instead"}},
+          [own](const CommonOptions &options) { return map_stability(options, *own); }};
 }
 
 } // namespace gestell::apps
