@@ -3,7 +3,7 @@
 #include "apps/output/paraview/paraview.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
-#include "apps/output/tables/modes_along_table.h"
+#include "apps/output/result_files.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/text/write_file.h"
 #include "coupling/frame/whole_file.h"
@@ -27,13 +27,7 @@ namespace
                               "; name a folder that can be written with -o DIR.");
 }
 
-/// Files a run of ours writes at the top of its folder, and the folders of which it owns files of one ending.
-const char *const complete    = "summary.json"; ///< the first to be removed and the last to be written
-const char *const own_files[] = {complete,     "history.csv",         "modes.csv",       "frame_modes.pvd",
-                                 "motion.pvd", "report.html",         "modes_along.csv", "modes_along_shapes.csv",
-                                 "stress.pvd", "mesh_convergence.csv"};
-const std::pair<const char *, const char *> own_folders[] = {
-    {"charts", ".svg"}, {"frame_modes", ".vtp"}, {"motion", ".vtp"}, {"stress", ".vtp"}};
+const char *const complete = "summary.json"; ///< the first to be removed and the last to be written
 
 template <typename Chosen>
 void remove_files(const fs::path &folder, const Chosen &chosen)
@@ -48,15 +42,16 @@ void remove_files(const fs::path &folder, const Chosen &chosen)
 
 void remove_earlier_results(const fs::path &folder)
 {
-  for (const char *name : own_files)
-    fs::remove(folder / name);
+  fs::remove(folder / complete);
+  for (const ResultFile &file : result_files())
+    fs::remove(folder / file.name);
   remove_files(folder, [](const fs::path &) { return false; });
-  for (const auto &[name, ending] : own_folders)
-    if (fs::is_directory(folder / name))
+  for (const ResultFile &file : result_files())
+    if (const fs::path inner = folder / file.folder; !file.folder.empty() && fs::is_directory(inner))
     {
-      remove_files(folder / name, [&, ending = ending](const fs::path &path) { return path.extension() == ending; });
-      if (fs::is_empty(folder / name))
-        fs::remove(folder / name);
+      remove_files(inner, [&](const fs::path &path) { return path.extension() == file.ending; });
+      if (fs::is_empty(inner))
+        fs::remove(inner);
     }
 }
 
@@ -72,19 +67,22 @@ std::string probe(const fs::path &folder)
   return written ? "" : std::strerror(reason);
 }
 
+/// Files that one function each makes, where the result has something for them.
 template <typename Write>
-void write_along_tables(const Write &write, const Result &result)
+void write_tables(const Write &write, const Result &result)
 {
-  write("modes_along.csv", modes_along_csv(*result.along));
-  write("modes_along_shapes.csv", modes_along_shapes_csv(*result.along, result.coordinate_names));
+  for (const ResultFile &file : result_files())
+    if (const std::string content = file.content ? file.content(result) : ""; !content.empty())
+      write(file.name, content);
 }
 
 } // namespace
 
 bool incomplete(const fs::path &folder)
 {
-  return !fs::exists(folder / complete) && std::any_of(std::begin(own_files), std::end(own_files),
-                                                       [&](const char *name) { return fs::exists(folder / name); });
+  return !fs::exists(folder / complete) &&
+         std::any_of(result_files().begin(), result_files().end(),
+                     [&](const ResultFile &file) { return fs::exists(folder / file.name); });
 }
 
 std::string incomplete_words(const fs::path &folder)
@@ -141,12 +139,7 @@ std::vector<std::string> write_results(const fs::path &folder, const Result &res
     names.push_back(name);
   };
 
-  if (result.run && !result.run->columns.empty())
-    write("history.csv", history_csv(*result.run));
-  if (!result.frame_modes.empty() || !result.coupled_modes.empty())
-    write("modes.csv", modes_csv(result));
-  if (result.along)
-    write_along_tables(write, result);
+  write_tables(write, result);
   Result told = result;
   for (const std::string &warning : write_paraview(folder, result, names))
     told.warnings.push_back(warning);
@@ -162,11 +155,10 @@ void write_modes(const fs::path &folder, const Result &result)
 {
   std::vector<std::string> names;
   write_paraview(folder, result, names);
-  write_file(folder / "modes.csv", modes_csv(result));
+  write_tables([&](const std::string &name, const std::string &content) { write_file(folder / name, content); },
+               result); // without a run no history
   if (!result.along)
     return;
-  write_along_tables([&](const std::string &name, const std::string &content) { write_file(folder / name, content); },
-                     result);
   for (const auto &[name, svg] : along_pictures(*result.along))
     write_file(folder / "charts" / (name + ".svg"), svg);
 }

@@ -1,5 +1,6 @@
 #include "apps/reference/key_tables.h"
 
+#include "apps/output/result_files.h"
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/json_schema.h"
@@ -101,9 +102,25 @@ std::string key_tables(const std::string &topic)
   throw std::invalid_argument("there is no table '" + topic + "' whose keys could be listed");
 }
 
+namespace
+{
+
+/// What stands behind a marker: "keys: run", "result files"; nothing behind other remarks.
+std::string generated(const std::string &marker)
+{
+  const std::string keys = "keys: ";
+  if (marker == "result files")
+    return result_files_table();
+  if (marker.rfind(keys, 0) != 0)
+    throw std::invalid_argument("the marker '" + marker + "' is not known; there are 'keys: TABLE' and 'result files'");
+  return key_tables(marker.substr(keys.size()));
+}
+
+} // namespace
+
 std::string renewed(const std::string &document)
 {
-  const std::string begin = "<!-- keys: ", closed = " -->\n", end = "<!-- end -->";
+  const std::string begin = "<!-- ", closed = " -->\n", end = "<!-- end -->";
   std::string       text;
   std::size_t       done = 0;
   for (auto from = document.find(begin); from != std::string::npos; from = document.find(begin, done))
@@ -111,8 +128,8 @@ std::string renewed(const std::string &document)
     const auto name = from + begin.size(), head = document.find(closed, name), tail = document.find(end, name);
     if (head == std::string::npos || tail == std::string::npos)
       throw std::invalid_argument("a marker '" + begin + "' has no end");
-    text += document.substr(done, head + closed.size() - done) + key_tables(document.substr(name, head - name));
-    done = tail;
+    text += document.substr(done, head + closed.size() - done) + generated(document.substr(name, head - name)) + end;
+    done = tail + end.size();
   }
   return text + document.substr(done);
 }
@@ -120,7 +137,7 @@ std::string renewed(const std::string &document)
 void renew_reference(const std::string &docs)
 {
   const std::filesystem::path        folder = docs;
-  std::vector<std::filesystem::path> documents{folder / "scene.md"};
+  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md"};
   for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
     documents.push_back(entry.path());
   for (const auto &document : documents)

@@ -13,10 +13,12 @@ namespace gestell::apps
  */
 std::string key_tables(const std::string &topic);
 
-/// A document with the text between its markers, "<!-- keys: run -->" and "<!-- end -->", as the declarations give it.
+/// A document with the text between its markers as the declarations give it: "<!-- keys: run -->", or "<!-- result
+/// files
+/// -->", to "<!-- end -->".
 std::string renewed(const std::string &document);
 
-/// Renews the schema and all documents in the folder docs, those in its folder scene and scene.md.
+/// Renews the schema and all documents in the folder docs, those in its folder scene, scene.md and results.md.
 void renew_reference(const std::string &docs);
 
 } // namespace gestell::apps
