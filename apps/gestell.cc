@@ -1,7 +1,7 @@
 // The program gestell: one executable with subcommands.
 
 #include "apps/cli/commands.h"
-#include "apps/cli/commit.h"
+#include "apps/session/commit.h"
 #include "apps/cli/team.h"
 #include "apps/version.h"
 #include "coupling/integration/system/second_order_system.h"

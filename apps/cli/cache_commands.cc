@@ -1,6 +1,6 @@
 #include "apps/cli/cache_commands.h"
 
-#include "apps/cli/prepared_machine.h"
+#include "apps/session/prepared_machine.h"
 #include "coupling/frame/frame_cache.h"
 #include "fem/values/number_text.h"
 

@@ -2,7 +2,7 @@
 #include "apps/cli/chart_reference.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
-#include "apps/cli/prepared_machine.h"
+#include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/cli/work_measurement.h"
 #include "apps/output/charts/work_precision.h"
@@ -12,6 +12,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
+#include "apps/session/prepared_machine.h"
 #include "apps/version.h"
 #include "fem/values/nearest_name.h"
 
@@ -247,7 +248,7 @@ struct ChartRequest
 /// Everything for one size of the model; gives its reference back to compare sizes.
 SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkPrecision &chart, ProgressLine &progress)
 {
-  PreparedMachine prepared = prepare_machine(scene, progress);
+  PreparedMachine prepared = prepare_machine(scene, progress.callback());
   if (prepared.companion)
     throw std::invalid_argument(scene.frame.place + ": the chart needs a small model; reduce the frame "
                                                     "(reduction.method = \"craig-bampton\")");

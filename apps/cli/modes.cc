@@ -1,10 +1,12 @@
 #include "apps/cli/command.h"
-#include "apps/cli/modes_along.h"
 #include "apps/cli/modes_converge.h"
-#include "apps/cli/prepared_machine.h"
+#include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/modes_along_table.h"
+#include "apps/session/modes_along.h"
+#include "apps/session/session.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -63,36 +65,71 @@ void print_poles(const std::vector<coupling::Pole> &poles)
               << '\n';
 }
 
-int find_modes(const CommonOptions &options, const ModesCommandOptions &modes)
+void print_along(const AlongResult &along)
 {
-  const Scene scene = read_scene(options.input, options.overrides, options.scripts);
-  check_scene(scene);
-  const std::filesystem::path folder = results_path(options, scene);
+  const coupling::SweptCoordinate &coordinate = along.modes.coordinate;
+  std::cout << "along " << coordinate.name
+            << "\n  line    lowest [Hz]             at   highest [Hz]             at   moves most\n";
+  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
+  {
+    const LineExtremes own = line_extremes(along.modes, i);
+    std::cout << "  " << std::setw(4) << i + 1;
+    if (along.modes.free[i])
+      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i];
+    else
+      std::cout << std::setw(15) << short_text(own.min, 6) << std::setw(15) << position_text(coordinate, own.x_min)
+                << std::setw(15) << short_text(own.max, 6) << std::setw(15) << position_text(coordinate, own.x_max)
+                << "   " << along.modes.moves_most[i];
+    if (own.growth > 0.)
+      std::cout << "   unstable: grows with up to " << short_text(own.growth, 3) << " 1/s at "
+                << position_text(coordinate, own.x_growth);
+    std::cout << '\n';
+  }
+  for (const coupling::OrderMeeting &meeting : along.meetings)
+    std::cout << "  order " << meeting.order << " is near line " << meeting.line + 1 << " at "
+              << position_text(coordinate, meeting.x) << ", " << short_text(meeting.frequency_hz, 5) << " Hz\n";
+}
+
+void print_answer(const Result &result, const std::optional<coupling::MeshConvergence> &convergence, double tolerance)
+{
+  for (const std::string &line : frame_text(result.model))
+    std::cout << "frame: " << line << '\n';
+  if (convergence)
+    print_convergence(*convergence, tolerance);
+  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
+  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
+              result.model.frequency_limit);
+  print_poles(result.poles);
+  if (result.along)
+    print_along(*result.along);
+}
+
+/// Of the command line.
+struct Asked
+{
+  ModesOptions    modes;
+  ConvergeOptions mesh;
+};
+
+int find_modes(const CommonOptions &options, const Asked &asked)
+{
+  ProgressLine progress(options.quiet);
+  Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
+  session.check();
+  const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
 
-  ProgressLine                             progress(options.quiet);
   std::optional<coupling::MeshConvergence> convergence;
-  if (modes.converge > 0.)
-    convergence = converge_frame(scene, modes, folder, progress);
-  PreparedMachine prepared =
-      convergence ? prepare_machine_on(scene, convergence->frame) : prepare_machine(scene, progress);
-
-  progress.show("modes");
-  const auto geometric =
-      modes.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
-  Result result = begin_result(scene, "modes", prepared, geometric);
-  result.asked  = {options.input, options.overrides, std::nullopt};
-  if (!modes.along.empty())
+  if (asked.mesh.converge > 0.)
   {
-    result.along = modes_along_result(scene, prepared, modes, progress);
-    for (const std::string &warning : along_warnings(*result.along))
-      result.warnings.push_back(warning);
+    convergence = converge_frame(session.scene(), asked.mesh, folder, session.progress());
+    session.use_frame(convergence->frame);
   }
+  Result result = session.modes(asked.modes);
   if (convergence)
-    for (const std::string &warning : convergence_warnings(*convergence, modes.converge))
+    for (const std::string &warning : convergence_warnings(*convergence, asked.mesh.converge))
       result.warnings.push_back(warning);
   progress.done();
-  result.wall_s           = progress.wall_seconds();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
   if (beside_a_run && incomplete(folder))
     result.warnings.push_back(incomplete_words(folder));
@@ -104,19 +141,9 @@ int find_modes(const CommonOptions &options, const ModesCommandOptions &modes)
     write_results(folder, result);
   }
 
-  for (const std::string &line : frame_text(result.model))
-    std::cout << "frame: " << line << '\n';
   if (convergence)
-  {
     write_convergence(folder, *convergence);
-    print_convergence(*convergence, modes.converge);
-  }
-  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
-  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
-              result.model.frequency_limit);
-  print_poles(result.poles);
-  if (result.along)
-    print_along(*result.along);
+  print_answer(result, convergence, asked.mesh.converge);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
@@ -131,42 +158,49 @@ int find_modes(const CommonOptions &options, const ModesCommandOptions &modes)
 
 Command modes_command()
 {
-  const auto own = std::make_shared<ModesCommandOptions>();
+  const auto own = std::make_shared<Asked>();
   return {
       "modes",
       "natural frequencies and shapes of the frame and of the coupled machine",
       {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank"},
       CommandInput::scene,
-      {{"--along", &own->along, "follow them along a coordinate: a body, a measure or a driven joint"},
-       CommandOption{"--from", &own->from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
+      {{"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
+       CommandOption{"--from", &own->modes.from,
+                     "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
            .with("--along"),
-       CommandOption{"--to", &own->to, "last position (default one turn further)"}.with("--along"),
-       CommandOption{"--positions", &own->positions, "how many, both ends included (default 73: every 5 deg of a turn)"}
+       CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
+       CommandOption{"--positions", &own->modes.positions,
+                     "how many, both ends included (default 73: every 5 deg of a turn)"}
            .with("--along"),
-       CommandOption{"--configuration", &own->configuration,
+       CommandOption{"--configuration", &own->modes.configuration,
                      "equilibrium (default): standing still under weights and springs; or undeformed"}
            .one_of({"equilibrium", "undeformed"})
            .with("--along"),
-       CommandOption{"--hold", &own->hold, "coordinates that do not vibrate, such as a held drive"}.with("--along"),
-       CommandOption{"--speed", &own->speed, "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
+       CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
+           "--along"),
+       CommandOption{"--speed", &own->modes.speed,
+                     "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
            .with("--along"),
-       CommandOption{"--orders", &own->orders, "highest order (default 10)"}.above_zero().with("--along"),
-       CommandOption{"--band", &own->band, "how near an order comes to be told (default \"5 %\")"}.with("--along"),
-       CommandOption{"--converge", &own->converge,
+       CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().with("--along"),
+       CommandOption{"--band", &own->modes.band, "how near an order comes to be told (default \"5 %\")"}.with(
+           "--along"),
+       CommandOption{"--converge", &own->mesh.converge,
                      "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
                      "tell error and uncertainty"}
            .above_zero(),
-       CommandOption{"--frequencies", &own->frequencies, "lowest elastic ones of the frame to converge (default 4)"}
+       CommandOption{"--frequencies", &own->mesh.frequencies,
+                     "lowest elastic ones of the frame to converge (default 4)"}
            .above_zero()
            .with("--converge"),
-       CommandOption{"--watch", &own->watch,
+       CommandOption{"--watch", &own->mesh.watch,
                      "what is to converge: all, or frequencies without compliances (default all)"}
            .one_of({"all", "frequencies"})
            .with("--converge"),
-       CommandOption{"--max-coordinates", &own->max_coordinates, "of the finest mesh (default 1000000)"}
+       CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
            .above_zero()
            .with("--converge"),
-       CommandOption{"--geometric", &own->geometric, "on (default) or off: geometric stiffness of forces that turn"}
+       CommandOption{"--geometric", &own->modes.geometric,
+                     "on (default) or off: geometric stiffness of forces that turn"}
            .one_of({"on", "off"})},
       [own](const CommonOptions &options) { return find_modes(options, *own); }};
 }

@@ -59,26 +59,24 @@ std::string reached(const coupling::MeshConvergence &convergence)
 
 } // namespace
 
-coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes,
-                                         const std::filesystem::path &folder, ProgressLine &progress)
+coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &asked,
+                                         const std::filesystem::path &folder, const coupling::Progress &progress)
 {
   if (scene.frame.source != FrameSource::geometry || frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": --converge refines the mesh of a frame, but this scene's frame is not "
                                              "made from geometry and reduced; give [frame] cad = \"FILE\" and "
                                              "reduction.method = \"craig-bampton\"");
   coupling::ConvergenceOptions options;
-  options.tolerance       = modes.converge;
-  options.n_frequencies   = modes.frequencies;
-  options.max_coordinates = modes.max_coordinates;
-  options.compliances     = modes.watch == "all";
+  options.tolerance       = asked.converge;
+  options.n_frequencies   = asked.frequencies;
+  options.max_coordinates = asked.max_coordinates;
+  options.compliances     = asked.watch == "all";
   options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far)
   {
     std::filesystem::create_directories(folder);
     write_convergence(folder, so_far);
   };
-  return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options,
-                                           [&progress](const std::string &phase, double share)
-                                           { progress.show(phase, share); });
+  return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options, progress);
 }
 
 void print_convergence(const coupling::MeshConvergence &convergence, double tolerance)

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "apps/cli/modes_options.h"
-#include "apps/cli/prepared_machine.h"
+#include "apps/session/session.h"
 #include "coupling/frame/mesh_convergence.h"
 
 #include <filesystem>
@@ -9,10 +8,19 @@
 namespace gestell::apps
 {
 
-/// `gestell modes SCENE --converge TOLERANCE`: refines the mesh of the scene's frame, see coupling::converge_mesh().
+/// `gestell modes SCENE --converge TOLERANCE`.
+struct ConvergeOptions
+{
+  double      converge        = 0.;      ///< relative error the mesh may leave; 0: the scene's mesh as it is
+  int         frequencies     = 4;       ///< lowest elastic ones of the frame that `converge` watches
+  std::string watch           = "all";   ///< or "frequencies": compliances of interfaces are left out
+  int         max_coordinates = 1000000; ///< of the finest mesh
+};
+
+/// Refines the mesh of the scene's frame, see coupling::converge_mesh().
 /// @throws std::invalid_argument if the frame is not made from geometry, or options are out of range.
-coupling::MeshConvergence converge_frame(const Scene &scene, const ModesCommandOptions &modes,
-                                         const std::filesystem::path &folder, ProgressLine &progress);
+coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &asked,
+                                         const std::filesystem::path &folder, const coupling::Progress &progress);
 
 /// Prints meshes, limits, errors and whether they are within the tolerance.
 void print_convergence(const coupling::MeshConvergence &convergence, double tolerance);

@@ -7,36 +7,18 @@
 namespace gestell::apps
 {
 
-ProgressLine::ProgressLine(bool quiet) : drawn_(!quiet && isatty(STDERR_FILENO)), begin_(Clock::now()) {}
+ProgressLine::ProgressLine(bool quiet) : drawn_(!quiet && isatty(STDERR_FILENO)) {}
 
 ProgressLine::~ProgressLine()
 {
   done();
 }
 
-void ProgressLine::end_phase()
-{
-  if (phase_.empty())
-    return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  const auto   known   = std::find_if(phases_.begin(), phases_.end(), [&](const auto &p) { return p.first == phase_; });
-  if (known == phases_.end())
-    phases_.emplace_back(phase_, seconds);
-  else
-    known->second += seconds;
-  phase_.clear();
-}
-
 void ProgressLine::show(const std::string &phase, double share)
 {
   const auto now       = Clock::now();
   const bool new_phase = phase != phase_;
-  if (new_phase)
-  {
-    end_phase();
-    phase_ = phase;
-    begin_ = now;
-  }
+  phase_               = phase;
   if (!drawn_ || (!new_phase && now - last_drawn_ < std::chrono::milliseconds(80)))
     return;
   last_drawn_ = now;
@@ -54,9 +36,14 @@ void ProgressLine::show(const std::string &phase, double share)
 
 void ProgressLine::done()
 {
-  end_phase();
+  phase_.clear();
   if (drawn_)
     std::fprintf(stderr, "\r\033[K");
+}
+
+coupling::Progress ProgressLine::callback()
+{
+  return [this](const std::string &phase, double share) { show(phase, share); };
 }
 
 } // namespace gestell::apps

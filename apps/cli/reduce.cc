@@ -1,11 +1,11 @@
 #include "apps/cli/cache_commands.h"
 #include "apps/cli/command.h"
 #include "apps/cli/export_frame.h"
-#include "apps/cli/prepared_machine.h"
+#include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
-#include "apps/scene/build/damping_text.h"
+#include "apps/session/session.h"
 #include "apps/version.h"
 #include "coupling/frame/frame_cache.h"
 #include "coupling/modes/modes.h"
@@ -22,19 +22,21 @@ namespace gestell::apps
 namespace
 {
 
-Scene scene_to_reduce(const CommonOptions &options)
+Session scene_to_reduce(const CommonOptions &options, const Watch &watch = {})
 {
   if (options.input.empty())
     throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
-  Scene scene = read_scene(options.input, options.overrides, options.scripts);
-  check_scene(scene);
-  if (frame_path(scene) != FramePath::reduce)
-    throw std::invalid_argument(scene.file + ": this scene's frame is not reduced; give it reduction.method = "
-                                             "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
-  return scene;
+  Session session(options.input, options.overrides, options.scripts, watch);
+  session.check();
+  if (frame_path(session.scene()) != FramePath::reduce)
+    throw std::invalid_argument(session.scene().file +
+                                ": this scene's frame is not reduced; give it reduction.method = "
+                                "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
+  return session;
 }
 
-int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduce)
+/// Options that contradict each other.
+void check_options(const CommonOptions &options, const ReduceCommandOptions &reduce)
 {
   if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
     throw std::invalid_argument(
@@ -44,40 +46,14 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
   if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
     throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
                                 options.input);
-  if (reduce.prune)
-    prune_cache(reduce);
-  if (reduce.list)
-    list_cache(reduce);
-  if (reduce.explain)
-    explain_cache(scene_to_reduce(options));
-  if (reduce.prune || reduce.list || reduce.explain)
-    return exit_done;
+}
 
-  const Scene       scene   = scene_to_reduce(options);
-  const bool        exports = !reduce.export_format.empty();
-  const auto        format  = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
-  const std::string folder  = exports ? results_path(options, scene).string() : options.folder;
-  if (!folder.empty())
-    require_writable(folder);
-  ProgressLine                 progress(options.quiet);
-  bool                         from_cache = false;
-  const coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
-  progress.done();
-
-  if (!folder.empty())
-  {
-    const std::filesystem::path file = std::filesystem::path(folder) / "reduced_frame.h5";
-    std::filesystem::create_directories(folder);
-    coupling::write_reduced_frame(file.string(), frame);
-    std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
-  }
-  if (exports)
-    for (const std::string &file : export_frame(
-             folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
-      std::cout << "written: " << file << '\n';
+void print_frame(const FrameAnswer &answer)
+{
+  const coupling::ReducedFrame &frame = answer.frame;
   std::cout
-      << (from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   " << frame.n_full
-      << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
+      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
+      << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
       << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
       << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
          "accelerations; reduction.inertia_relief carries it)\n"
@@ -97,18 +73,49 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     std::cout << '\n';
   }
   std::cout << "  " << refined_words << '\n';
-  ModelFacts facts;
-  facts.frame        = frame.facts;
-  facts.frame_mass   = frame.mass;
-  facts.free_motions = static_cast<int>((frame.frequencies_hz.array() == 0.).count());
-  facts.damping      = damping_text(scene.frame);
-  facts.mesh         = mesh_text(scene.frame);
-  facts.statements   = frame.statements;
-  for (const std::string &line : frame_text(facts))
+  for (const std::string &line : frame_text(answer.facts))
     std::cout << "  " << line << '\n';
   for (const std::string &note : frame.notes)
     std::cout << "  note: " << note << '\n';
-  for (const auto &[phase, seconds] : progress.wall_seconds())
+}
+
+int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduce)
+{
+  check_options(options, reduce);
+  if (reduce.prune)
+    prune_cache(reduce);
+  if (reduce.list)
+    list_cache(reduce);
+  if (reduce.explain)
+    explain_cache(scene_to_reduce(options).scene());
+  if (reduce.prune || reduce.list || reduce.explain)
+    return exit_done;
+
+  ProgressLine      progress(options.quiet);
+  Session           session = scene_to_reduce(options, {progress.callback()});
+  const Scene      &scene   = session.scene();
+  const bool        exports = !reduce.export_format.empty();
+  const auto        format  = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string folder  = exports ? results_path(options, scene).string() : options.folder;
+  if (!folder.empty())
+    require_writable(folder);
+  const FrameAnswer             answer = session.reduced_frame();
+  const coupling::ReducedFrame &frame  = answer.frame;
+  progress.done();
+
+  if (!folder.empty())
+  {
+    const std::filesystem::path file = std::filesystem::path(folder) / "reduced_frame.h5";
+    std::filesystem::create_directories(folder);
+    coupling::write_reduced_frame(file.string(), frame);
+    std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
+  }
+  if (exports)
+    for (const std::string &file : export_frame(
+             folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
+      std::cout << "written: " << file << '\n';
+  print_frame(answer);
+  for (const auto &[phase, seconds] : session.wall_seconds())
     std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';
   return exit_done;
 }

@@ -1,10 +1,11 @@
 #include "apps/cli/atlas.h"
 #include "apps/cli/command.h"
-#include "apps/cli/prepared_machine.h"
+#include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
+#include "apps/session/prepared_machine.h"
 #include "apps/version.h"
 #include "fem/values/number_text.h"
 
@@ -71,7 +72,7 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
                  const std::vector<MethodFamily> &families, StabilityStudy &study)
 {
   ProgressLine    progress(options.quiet);
-  PreparedMachine prepared = prepare_machine(scene, progress);
+  PreparedMachine prepared = prepare_machine(scene, progress.callback());
   progress.show("modes");
   const coupling::Machine     &machine = prepared.small();
   const coupling::InitialState start   = initial_state(scene, prepared.small());

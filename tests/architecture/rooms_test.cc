@@ -41,6 +41,7 @@ const std::vector<std::vector<std::string>> directions = {
     {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/machine", "coupling/equilibrium",
      "coupling/modes", "coupling/simulation"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/elements", "apps/scene/build"},
+    {"apps/scene", "apps/session", "apps/cli"},
     {"apps/output/text", "apps/output/pictures", "apps/output/charts", "apps/output/report"},
 };
 

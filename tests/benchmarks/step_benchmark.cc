@@ -1,6 +1,6 @@
 // One BDF2 step of the press: with two masses, and with its reduced frame (from the cache, or made first).
 
-#include "apps/cli/prepared_machine.h"
+#include "apps/session/prepared_machine.h"
 #include "coupling/integration/bdf/bdf.h"
 #include "coupling/integration/system/energy_balance.h"
 
@@ -14,8 +14,7 @@ using namespace gestell;
 void bdf2_steps(benchmark::State &state, const char *scene_file, const std::vector<std::string> &overrides)
 {
   const apps::Scene scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/" + scene_file, overrides);
-  apps::ProgressLine    progress(true);
-  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
+  apps::PreparedMachine prepared = apps::prepare_machine(scene);
   const auto            initial  = apps::prepare_start(scene, prepared);
   coupling::Machine    &machine  = prepared.machine;
 
@@ -48,9 +47,8 @@ void bdf2_steps(benchmark::State &state, const char *scene_file, const std::vect
 /// What Newton asks of the elements of the press once per iteration: forces and exact tangents, the rod's chain closed.
 void press_elements(benchmark::State &state)
 {
-  const apps::Scene  scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {});
-  apps::ProgressLine progress(true);
-  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
+  const apps::Scene scene = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {});
+  apps::PreparedMachine prepared = apps::prepare_machine(scene);
   const auto            initial  = apps::prepare_start(scene, prepared);
   coupling::Machine    &machine  = prepared.machine;
   coupling::LocalState  local;

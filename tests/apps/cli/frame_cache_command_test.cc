@@ -1,6 +1,6 @@
 // A frame that is asked for again, through the program: found, explained, listed, pruned, and without the heavy half.
 
-#include "apps/cli/prepared_machine.h"
+#include "apps/session/prepared_machine.h"
 #include "coupling/frame/frame_cache.h"
 #include "tests/support/cached_frame.h"
 #include "tests/support/program.h"

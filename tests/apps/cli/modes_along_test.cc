@@ -1,6 +1,6 @@
 // Natural frequencies along a coordinate against closed forms.
 
-#include "apps/cli/modes_along.h"
+#include "apps/session/modes_along.h"
 #include "coupling/machine/loop_closure.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/scene_text.h"
@@ -15,16 +15,15 @@ namespace
 {
 
 using apps::AlongResult;
-using apps::ModesCommandOptions;
+using apps::ModesOptions;
 
-AlongResult along(const apps::Scene &scene, const ModesCommandOptions &options)
+AlongResult along(const apps::Scene &scene, const ModesOptions &options)
 {
-  apps::ProgressLine    progress(true);
-  apps::PreparedMachine prepared = apps::prepare_machine(scene, progress);
-  return apps::modes_along_result(scene, prepared, options, progress);
+  apps::PreparedMachine prepared = apps::prepare_machine(scene);
+  return apps::modes_along_result(scene, prepared, options);
 }
 
-AlongResult along(const std::string &text, const ModesCommandOptions &options)
+AlongResult along(const std::string &text, const ModesOptions &options)
 {
   const test::SceneFolder folder;
   return along(apps::read_scene(folder.write("scene.toml", text)), options);
@@ -35,10 +34,10 @@ apps::Scene press(const std::vector<std::string> &overrides = {})
   return apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", overrides);
 }
 
-ModesCommandOptions of(const std::string &coordinate, int positions = 73, const std::string &from = "",
-                       const std::string &to = "")
+ModesOptions of(const std::string &coordinate, int positions = 73, const std::string &from = "",
+                const std::string &to = "")
 {
-  ModesCommandOptions options;
+  ModesOptions options;
   options.along     = coordinate;
   options.positions = positions;
   options.from      = from;
@@ -46,7 +45,7 @@ ModesCommandOptions of(const std::string &coordinate, int positions = 73, const 
   return options;
 }
 
-std::string complaint(const std::string &text, const ModesCommandOptions &options)
+std::string complaint(const std::string &text, const ModesOptions &options)
 {
   try
   {
@@ -173,7 +172,7 @@ TEST(ModesAlong, SliderCrankOnATorsionalSpringHasItsReducedMass)
 
 TEST(ModesAlong, ADrivenCrankHeldLeavesTheElasticRod)
 {
-  const std::string   elastic = slider_crank.substr(0, slider_crank.find("[joint.rod]")) + R"(
+  const std::string elastic = slider_crank.substr(0, slider_crank.find("[joint.rod]")) + R"(
 [measure.span]
 type = "distance"
 from = "crank"
@@ -186,8 +185,8 @@ on = "span"
 stiffness = 1e7
 rest = 0.4
 )";
-  ModesCommandOptions options = of("crank.angle", 25);
-  options.hold                = {"crank"};
+  ModesOptions      options = of("crank.angle", 25);
+  options.hold              = {"crank"};
   for (const auto &at : along(elastic, options).modes.positions)
   {
     ASSERT_EQ(at.modes.size(), 1u);
@@ -228,12 +227,12 @@ TEST(ModesAlong, ALoadSwingsByItsGeometricStiffness)
 {
   for (const bool elastic : {false, true})
   {
-    const double        length  = elastic ? 2.02 : 2.;
-    ModesCommandOptions options = of("trolley", 3, "0 m", "1 m");
-    options.hold                = {"trolley"};
-    const AlongResult with      = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
-    options.geometric           = "off";
-    const AlongResult without   = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
+    const double length       = elastic ? 2.02 : 2.;
+    ModesOptions options      = of("trolley", 3, "0 m", "1 m");
+    options.hold              = {"trolley"};
+    const AlongResult with    = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
+    options.geometric         = "off";
+    const AlongResult without = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 2; ++j) // in the plane and out of it
       {
@@ -261,9 +260,9 @@ TEST(ModesAlong, AFreeDriveIsAFreeMotionAndIsNamed)
 // A cylinder's length takes the place of what its law prescribes: the rope gets longer.
 TEST(ModesAlong, ADrivenLengthIsACoordinate)
 {
-  ModesCommandOptions options = of("rope", 4, "1 m", "4 m");
-  options.hold                = {"trolley"};
-  const AlongResult result    = along(load_on_rope + ideal_rope + "motion = { speed = \"0.1 m/s\" }\n", options);
+  ModesOptions options     = of("rope", 4, "1 m", "4 m");
+  options.hold             = {"trolley"};
+  const AlongResult result = along(load_on_rope + ideal_rope + "motion = { speed = \"0.1 m/s\" }\n", options);
   for (const auto &at : result.modes.positions)
     EXPECT_NEAR(at.modes[0].frequency_hz, std::sqrt(9.81 / at.x) / two_pi, 1e-9) << at.x;
   EXPECT_EQ(result.modes.positions.back().x, 4.);
@@ -285,11 +284,11 @@ TEST(ModesAlong, PositionsThatCannotBeAssembledAreGaps)
 // sqrt(c / m(phi)) does.
 TEST(ModesAlong, OrdersOfTheSpeedAreFoundWhereTheyMeetALine)
 {
-  ModesCommandOptions options = of("crank");
-  options.speed               = "127.5 1/min"; // 2.125 Hz
-  options.orders              = 4;
-  options.band                = "0.1 %";
-  const AlongResult result    = along(with_oscillator(0.), options);
+  ModesOptions options       = of("crank");
+  options.speed              = "127.5 1/min"; // 2.125 Hz
+  options.orders             = 4;
+  options.band               = "0.1 %";
+  const AlongResult result   = along(with_oscillator(0.), options);
   int               meetings = 0, constant = 0;
   for (const auto &meeting : result.meetings)
   {
@@ -333,10 +332,10 @@ TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
 // reckoning.
 TEST(ModesAlong, WithoutGeometricStiffnessThePressHasTheFrequenciesOfItsReference)
 {
-  ModesCommandOptions options = of("crank", 3, "140 deg", "180 deg");
-  options.geometric           = "off";
-  const AlongResult result    = along(press(), options);
-  const auto       &modes     = result.modes.positions[1].modes;
+  ModesOptions options     = of("crank", 3, "140 deg", "180 deg");
+  options.geometric        = "off";
+  const AlongResult result = along(press(), options);
+  const auto       &modes  = result.modes.positions[1].modes;
   EXPECT_EQ(result.modes.positions[1].configuration, coupling::Configuration::equilibrium);
   const double expected[] = {11.58486756566711, 19.964060481812542, 84.67576532126137, 132.75797317903064};
   ASSERT_EQ(modes.size(), 5u); // the first is the drive's turning, held by weights alone
@@ -348,9 +347,9 @@ TEST(ModesAlong, WithoutGeometricStiffnessThePressHasTheFrequenciesOfItsReferenc
 // The punch would stand in the sheet here and push at the rod.
 TEST(ModesAlong, TechnologicalForcesRest)
 {
-  const ModesCommandOptions options = of("crank", 3, "160 deg", "180 deg");
-  const AlongResult         strong  = along(press(), options),
-                    weak            = along(press({"element.sheet.shear_resistance=\"100 MPa\""}), options);
+  const ModesOptions options = of("crank", 3, "160 deg", "180 deg");
+  const AlongResult  strong  = along(press(), options),
+                    weak     = along(press({"element.sheet.shear_resistance=\"100 MPa\""}), options);
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 5; ++j)
       EXPECT_EQ(strong.modes.positions[k].modes[j].frequency_hz, weak.modes.positions[k].modes[j].frequency_hz);
@@ -376,8 +375,8 @@ TEST(ModesAlong, BadInputIsTold)
   expect_words(complaint(slider_crank, of("slide")), "--from");
   expect_words(complaint(slider_crank, of("crank", 5, "10 deg", "10 deg")), "must differ");
   expect_words(complaint(slider_crank, of("crank", 5, "10 mm", "20 deg")), "--from: ");
-  ModesCommandOptions options = of("crank");
-  options.speed               = "30 Hz";
+  ModesOptions options = of("crank");
+  options.speed        = "30 Hz";
   expect_words(complaint(slider_crank, options), "--speed: ");
   options      = of("crank");
   options.hold = {"rod"};

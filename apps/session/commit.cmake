@@ -6,7 +6,7 @@ if(Git_FOUND AND EXISTS "${TOP}/.git")
     WORKING_DIRECTORY "${TOP}" OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 endif()
 file(CONFIGURE OUTPUT "${SOURCE_FILE}" @ONLY CONTENT [[
-#include "apps/cli/commit.h"
+#include "apps/session/commit.h"
 
 std::string gestell::apps::commit()
 {

@@ -1,14 +1,17 @@
 #pragma once
 
-#include "apps/cli/progress.h"
 #include "apps/output/values/result.h"
 #include "apps/scene/build/build_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
+#include "coupling/frame/reduction_options.h"
 
 #include <optional>
 
 namespace gestell::apps
 {
+
+/// Tells that a phase begins or goes on, share 0..1 of it done, negative: unknown; `progress` may be empty.
+void tell(const coupling::Progress &progress, const std::string &phase, double share = -1.);
 
 /// A scene's machine, ready to compute with.
 struct PreparedMachine
@@ -27,7 +30,7 @@ struct PreparedMachine
 };
 
 /// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
-PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress);
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {});
 
 /// The same on a reduced frame that was made before.
 PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
@@ -39,7 +42,7 @@ coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepar
 coupling::FrameOrigin frame_origin(const Scene &scene);
 
 /// The reduced frame of a scene with geometry or large matrices; from_cache tells whether it was there already.
-coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache);
+coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress, bool &from_cache);
 
 /// What is to be said where no mesh is known whose error could be told: of frames given by matrices; else empty.
 std::string mesh_text(const FrameRequest &frame);

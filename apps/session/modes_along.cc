@@ -1,15 +1,11 @@
-#include "apps/cli/modes_along.h"
+#include "apps/session/modes_along.h"
 
-#include "apps/output/report/modes_along_report.h"
-#include "apps/output/tables/modes_along_table.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <iostream>
 
 namespace gestell::apps
 {
@@ -49,8 +45,7 @@ coupling::SweptCoordinate named(const std::string &option, const coupling::Machi
   }
 }
 
-void set_range(const coupling::SweptCoordinate &coordinate, const ModesCommandOptions &options,
-               coupling::AlongOptions &along)
+void set_range(const coupling::SweptCoordinate &coordinate, const ModesOptions &options, coupling::AlongOptions &along)
 {
   const bool given = !options.from.empty() || !options.to.empty();
   if (!coordinate.full_turn && (options.from.empty() || options.to.empty()))
@@ -70,15 +65,15 @@ double start_speed(const coupling::SweptCoordinate &coordinate, const coupling::
   return coordinate.full_turn && coordinate.coordinate >= 0 ? std::abs(start.v[coordinate.coordinate]) : 0.;
 }
 
+} // namespace
+
 std::string position_text(const coupling::SweptCoordinate &coordinate, double x)
 {
   return coordinate.unit == "rad" ? short_text(x * 180. / M_PI, 5) + " deg" : short_text(x, 5) + " " + coordinate.unit;
 }
 
-} // namespace
-
-AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, const ModesCommandOptions &options,
-                               ProgressLine &progress)
+AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, const ModesOptions &options,
+                               const coupling::Progress &progress)
 {
   coupling::Machine              &machine    = prepared.small();
   const coupling::SweptCoordinate coordinate = named("--along", machine, options.along);
@@ -111,7 +106,7 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
   result.speed                       = options.speed.empty() ? start_speed(coordinate, start)
                                                              : std::abs(option_value("--speed", options.speed, kind::angular_speed));
   result.modes                       = coupling::modes_along(machine, coordinate, start, along,
-                                                             [&](double share) { progress.show("modes along " + coordinate.name, share); });
+                                                             [&](double share) { tell(progress, "modes along " + coordinate.name, share); });
   result.meetings = coupling::order_meetings(result.modes, result.speed / (2. * M_PI), result.orders, result.band);
   return result;
 }
@@ -146,31 +141,6 @@ std::vector<std::string> along_warnings(const AlongResult &along)
   if (undeformed > 0)
     warnings.insert(warnings.begin(), std::to_string(undeformed) + " positions are undeformed; " + first_undeformed);
   return warnings;
-}
-
-void print_along(const AlongResult &along)
-{
-  const coupling::SweptCoordinate &coordinate = along.modes.coordinate;
-  std::cout << "along " << coordinate.name
-            << "\n  line    lowest [Hz]             at   highest [Hz]             at   moves most\n";
-  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
-  {
-    const LineExtremes own = line_extremes(along.modes, i);
-    std::cout << "  " << std::setw(4) << i + 1;
-    if (along.modes.free[i])
-      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i];
-    else
-      std::cout << std::setw(15) << short_text(own.min, 6) << std::setw(15) << position_text(coordinate, own.x_min)
-                << std::setw(15) << short_text(own.max, 6) << std::setw(15) << position_text(coordinate, own.x_max)
-                << "   " << along.modes.moves_most[i];
-    if (own.growth > 0.)
-      std::cout << "   unstable: grows with up to " << short_text(own.growth, 3) << " 1/s at "
-                << position_text(coordinate, own.x_growth);
-    std::cout << '\n';
-  }
-  for (const coupling::OrderMeeting &meeting : along.meetings)
-    std::cout << "  order " << meeting.order << " is near line " << meeting.line + 1 << " at "
-              << position_text(coordinate, meeting.x) << ", " << short_text(meeting.frequency_hz, 5) << " Hz\n";
 }
 
 } // namespace gestell::apps

@@ -1,4 +1,4 @@
-#include "apps/cli/stress_answer.h"
+#include "apps/session/stress_answer.h"
 
 #include "coupling/frame/stress_search.h"
 #include "fem/values/number_text.h"

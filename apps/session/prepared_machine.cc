@@ -1,10 +1,10 @@
-#include "apps/cli/prepared_machine.h"
+#include "apps/session/prepared_machine.h"
 
-#include "apps/cli/commit.h"
 #include "apps/scene/build/carried_bodies.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/read/frame/matrix_units.h"
+#include "apps/session/commit.h"
 #include "apps/version.h"
 #include "coupling/equilibrium/static_expansion.h"
 #include "coupling/frame/frame_cache.h"
@@ -24,21 +24,22 @@ namespace
 /// Modes damped in an unreduced frame with modal damping, at least.
 constexpr int damped_modes = 60;
 
-coupling::Progress progress_of(ProgressLine &line)
-{
-  return [&line](const std::string &phase, double share) { line.show(phase, share); };
-}
-
 /// A frame made from geometry or given by matrices, with its reduced companion.
-coupling::MeshService::Unreduced unreduced_frame(const Scene &scene, ProgressLine &progress)
+coupling::MeshService::Unreduced unreduced_frame(const Scene &scene, const coupling::Progress &progress)
 {
   const coupling::ReductionOptions &options = scene.reduction.options;
   if (scene.frame.source == FrameSource::geometry)
-    return coupling::mesh_service().assemble(scene.frame.geometry, options, progress_of(progress));
+    return coupling::mesh_service().assemble(scene.frame.geometry, options, progress);
   const fem::FrameMatrices &given = scene.frame.matrices;
-  return {given, coupling::frame_service().reduce(given, options, progress_of(progress))};
+  return {given, coupling::frame_service().reduce(given, options, progress)};
 }
 } // namespace
+
+void tell(const coupling::Progress &progress, const std::string &phase, double share)
+{
+  if (progress)
+    progress(phase, share);
+}
 
 coupling::FrameOrigin frame_origin(const Scene &scene)
 {
@@ -52,7 +53,7 @@ coupling::FrameOrigin frame_origin(const Scene &scene)
   return origin;
 }
 
-coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress, bool &from_cache)
+coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress, bool &from_cache)
 {
   const coupling::FrameOrigin origin = frame_origin(scene);
   std::string                 note;
@@ -62,8 +63,8 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, ProgressLine &progress,
     return std::move(*known);
   coupling::ReducedFrame frame =
       scene.frame.source == FrameSource::geometry
-          ? coupling::mesh_service().reduce(scene.frame.geometry, scene.reduction.options, progress_of(progress))
-          : coupling::frame_service().reduce(scene.frame.matrices, scene.reduction.options, progress_of(progress));
+          ? coupling::mesh_service().reduce(scene.frame.geometry, scene.reduction.options, progress)
+          : coupling::frame_service().reduce(scene.frame.matrices, scene.reduction.options, progress);
   const std::string kept = coupling::keep_in_cache(frame, origin);
   for (const std::string &text : {note, kept})
     if (!text.empty())
@@ -86,10 +87,10 @@ void add_warnings(const Scene &scene, PreparedMachine &prepared)
 }
 } // namespace
 
-PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
 {
   PreparedMachine prepared;
-  progress.show("frame");
+  tell(progress, "frame");
   switch (frame_path(scene))
   {
   case FramePath::none:
@@ -109,7 +110,7 @@ PreparedMachine prepare_machine(const Scene &scene, ProgressLine &progress)
     if (frame.modal_damping_ratio.any())
     {
       const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
-      coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress_of(progress));
+      coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
     }
     prepared.machine = build_machine(scene, std::move(frame));
     break;

@@ -1,0 +1,188 @@
+#include "apps/session/session.h"
+
+#include "apps/scene/build/damping_text.h"
+#include "apps/scene/scene.h"
+#include "apps/session/modes_along.h"
+#include "apps/session/stress_answer.h"
+#include "coupling/simulation/simulation.h"
+
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string settings_text(const coupling::RunOptions &run)
+{
+  const coupling::MethodOptions &method = run.method;
+  std::ostringstream             text;
+  text << coupling::method_name(method) << ", ";
+  if (method.tolerance > 0.)
+  {
+    text << "step controlled to a tolerance of " << method.tolerance;
+    if (method.step > 0.)
+      text << ", at most " << method.step << " s";
+  }
+  else
+    text << "fixed step " << method.step << " s";
+  text << ", from " << run.begin << " s to " << run.end << " s; "
+       << (run.events ? "events located, the integration restarts at each of them"
+                      : "events are gone over and told afterwards");
+  return text.str();
+}
+
+/// Pictures show the companion of an unreduced frame.
+void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &run)
+{
+  if (!prepared.companion)
+    return;
+  for (Eigen::VectorXd &state : run.picture_states)
+    state = prepared.project(state);
+}
+
+/// The state at the begin of the run, or why there is none.
+coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, std::string &failure)
+{
+  try
+  {
+    coupling::InitialState initial = prepare_start(scene, prepared);
+    require_free_motion(scene, prepared.machine, initial);
+    return initial;
+  }
+  catch (const coupling::ConvergenceFailure &none)
+  {
+    failure = none.what();
+    return {};
+  }
+}
+
+coupling::RunResult not_started(const coupling::RunOptions &run, const std::string &failure)
+{
+  coupling::RunResult result;
+  result.method  = coupling::method_name(run.method);
+  result.failure = "the machine does not start: " + failure;
+  return result;
+}
+
+} // namespace
+
+Session::Session(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
+                 const Watch &watch)
+    : path_(path), overrides_(overrides), scene_(read_scene(path, overrides, scripts)), watch_(watch)
+{
+}
+
+void Session::check()
+{
+  if (!checked_)
+    check_scene(scene_);
+  checked_ = true;
+}
+
+void Session::check_run()
+{
+  require_run(scene_);
+  check();
+}
+
+coupling::Progress Session::progress()
+{
+  return [this](const std::string &phase, double share)
+  {
+    times_.begin(phase);
+    tell(watch_.progress, phase, share);
+  };
+}
+
+PreparedMachine &Session::machine()
+{
+  check();
+  if (!machine_)
+    machine_ = prepare_machine(scene_, progress());
+  return *machine_;
+}
+
+void Session::use_frame(const coupling::ReducedFrame &frame)
+{
+  machine_ = prepare_machine_on(scene_, frame);
+}
+
+FrameAnswer Session::reduced_frame()
+{
+  check();
+  FrameAnswer answer;
+  answer.frame              = apps::reduced_frame(scene_, progress(), answer.from_cache);
+  answer.facts.frame        = answer.frame.facts;
+  answer.facts.frame_mass   = answer.frame.mass;
+  answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());
+  answer.facts.damping      = damping_text(scene_.frame);
+  answer.facts.mesh         = mesh_text(scene_.frame);
+  answer.facts.statements   = answer.frame.statements;
+  times_.end();
+  return answer;
+}
+
+Result Session::modes(const ModesOptions &options)
+{
+  PreparedMachine &prepared = machine();
+  progress()("modes", -1.);
+  const auto geometric =
+      options.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
+  Result result = begin_result(scene_, "modes", prepared, geometric);
+  result.asked  = {path_, overrides_, std::nullopt};
+  if (!options.along.empty())
+  {
+    result.along = modes_along_result(scene_, prepared, options, progress());
+    for (const std::string &warning : along_warnings(*result.along))
+      result.warnings.push_back(warning);
+  }
+  return finished(std::move(result));
+}
+
+Result Session::run()
+{
+  check_run();
+  PreparedMachine &prepared = machine();
+  require_stress(scene_, prepared.machine.reduced_frame());
+  const auto signals = scene_signals(scene_, prepared.machine);
+  progress()("start", -1.);
+  std::string                  failure;
+  const coupling::InitialState initial = found_start(scene_, prepared, failure);
+  progress()("modes", -1.);
+  Result result   = begin_result(scene_, "run", prepared);
+  result.settings = settings_text(scene_.run.options);
+  result.asked    = {path_, overrides_, scene_.run.options};
+  result.run      = failure.empty() ? simulated(initial, signals) : not_started(scene_.run.options, failure);
+  progress()("results", -1.);
+  states_for_pictures(prepared, *result.run);
+  if (scene_.stress.given && !result.run->rows.empty())
+    result.stress = stress_answer(scene_, *prepared.machine.reduced_frame(), *result.run, result.warnings);
+  return finished(std::move(result));
+}
+
+coupling::RunResult Session::simulated(const coupling::InitialState        &initial,
+                                       const std::vector<coupling::Signal> &signals)
+{
+  const coupling::RunOptions &run = scene_.run.options;
+  const auto                  now = progress();
+  now("integration", 0.);
+  const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  try
+  {
+    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(scene_.run.place + ": " + error.what());
+  }
+}
+
+Result Session::finished(Result result)
+{
+  times_.end();
+  result.wall_s = times_.seconds();
+  return result;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "apps/session/modes_options.h"
+#include "apps/session/phase_times.h"
+#include "apps/session/prepared_machine.h"
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// How a session tells what it is doing, and how it is told to stop.
+struct Watch
+{
+  coupling::Progress       progress{};             ///< phase, and the share of it that is done; negative: unknown
+  const std::atomic<bool> *interruption = nullptr; ///< ends a run, which keeps what it has; null: nothing does
+};
+
+/// The reduced frame of a scene.
+struct FrameAnswer
+{
+  coupling::ReducedFrame frame;
+  bool                   from_cache = false;
+  ModelFacts             facts;
+};
+
+/**
+ * A scene that has been read, and what can be computed with it, as values: no terminal, no files of results.
+ *
+ *     Session session("press.toml", {"run.step=1e-5"});
+ *     const Result run = session.run();
+ *
+ * Wrong input throws std::invalid_argument with its place, a frame or modes that cannot be found ConvergenceFailure; a
+ * run that fails or is interrupted is a result, with the reason in it.
+ */
+class Session
+{
+public:
+  /// @param overrides  "key.path=value"
+  explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
+                   fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
+
+  const Scene &scene() const { return scene_; }
+
+  void check();     ///< what can be known without computing
+  void check_run(); ///< that it says how to run, too
+
+  /// Its machine, made at the first call: the frame is taken from the cache or reduced and kept there.
+  PreparedMachine &machine();
+  /// The machine on this frame instead, of a finer mesh.
+  void use_frame(const coupling::ReducedFrame &frame);
+
+  /// The reduced frame alone; the scene's frame must be one that is reduced (frame_path()).
+  FrameAnswer reduced_frame();
+  /// Modes of the frame and of the coupled machine, and along a coordinate where options say so.
+  Result modes(const ModesOptions &options = {});
+  /// The scene simulated in time, with modes, stresses and warnings.
+  Result run();
+
+  /// Of all that was computed so far, by phase.
+  const std::vector<std::pair<std::string, double>> &wall_seconds() const { return times_.seconds(); }
+
+  /// Times a phase and tells it to the watch; for what is computed beside the session, which must outlive it.
+  coupling::Progress progress();
+
+private:
+  coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals);
+  Result              finished(Result result);
+
+  std::string                    path_;
+  std::vector<std::string>       overrides_;
+  Scene                          scene_;
+  Watch                          watch_;
+  PhaseTimes                     times_;
+  std::optional<PreparedMachine> machine_;
+  bool                           checked_ = false;
+};
+
+} // namespace gestell::apps
