@@ -197,7 +197,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   scene.description = table.text("description", "");
   if (scene.name.find('/') != std::string::npos || scene.name == "." || scene.name == "..")
     throw table.error("name", "must not contain '/': it names the folder of the results");
-  scene.gravity                = table.vector("gravity", kind::acceleration, {});
+  scene.gravity                = table.vector_or("gravity", {});
   scene.frame                  = read_frame(table);
   scene.frame.geometry.scripts = scripts;
   scene.reduction              = read_reduction(table, scene.frame);

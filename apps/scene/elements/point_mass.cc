@@ -10,8 +10,8 @@ void read_point_mass(const SceneTable &table, const Names &names, Scene &scene)
   point.name    = table.name();
   point.marker  = names.marker(table, "on");
   point.mass    = table.value("mass");
-  point.inertia = table.vector("inertia", kind::inertia, {});
-  point.offset  = table.vector("offset", kind::length, {});
+  point.inertia = table.vector_or("inertia", {});
+  point.offset  = table.vector_or("offset", {});
   if (point.marker == "ground")
     throw table.error("on", "a mass on the ground never moves; name a body or an interface of the frame");
   for (const double J : point.inertia)

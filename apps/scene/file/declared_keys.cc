@@ -71,6 +71,16 @@ int SceneTable::whole(const std::string &key) const
   return integer(key, static_cast<int>(declaration(key).fallback.value_or(0.)));
 }
 
+Vector3 SceneTable::vector(const std::string &key) const
+{
+  return vector(key, declaration(key).kind);
+}
+
+Vector3 SceneTable::vector_or(const std::string &key, const Vector3 &otherwise) const
+{
+  return has(key) ? vector(key) : otherwise;
+}
+
 bool SceneTable::truth(const std::string &key) const
 {
   return boolean(key, declaration(key).fallback.value_or(0.) != 0.);

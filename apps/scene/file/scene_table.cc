@@ -327,11 +327,6 @@ Vector3 SceneTable::vector(const std::string &key, const Kind &kind) const
   return {x[0], x[1], x[2]};
 }
 
-Vector3 SceneTable::vector(const std::string &key, const Kind &kind, const Vector3 &fallback) const
-{
-  return has(key) ? vector(key, kind) : fallback;
-}
-
 Vector3 SceneTable::direction(const std::string &key) const
 {
   Vector3      d      = vector(key, kind::number);

@@ -43,6 +43,8 @@ public:
   std::string choice(const std::string &key) const;
   bool        truth(const std::string &key) const;
   int         whole(const std::string &key) const;
+  Vector3     vector(const std::string &key) const;
+  Vector3     vector_or(const std::string &key, const std::array<double, 3> &otherwise) const;
 
   double number(const std::string &key, const Kind &kind) const;
   double number(const std::string &key, const Kind &kind, double fallback) const;
@@ -72,7 +74,6 @@ public:
   std::string              file(const std::string &key) const;        ///< absolute path of a file that exists
 
   Vector3                          vector(const std::string &key, const Kind &kind) const;
-  Vector3                          vector(const std::string &key, const Kind &kind, const Vector3 &fallback) const;
   Vector3                          direction(const std::string &key) const; ///< made a unit vector
   Vector3                          direction(const std::string &key, const Vector3 &fallback) const;
   std::vector<double>              numbers(const std::string &key, const Kind &kind) const;

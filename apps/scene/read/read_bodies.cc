@@ -133,12 +133,12 @@ BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scrip
       return body;
     }
     body.mass     = table.value("mass");
-    body.position = table.vector("position", kind::length);
+    body.position = table.vector("position");
     if (type == "planar")
       body.inertia = table.value("inertia");
     if (type == "rigid")
       body.tensor = read_tensor(table);
-    body.size   = table.vector("size", kind::length, {});
+    body.size   = table.vector_or("size", {});
     body.radius = table.value("radius");
     return body;
   }
@@ -150,7 +150,7 @@ BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scrip
     read_part(any, scene, body, scripts);
     return body;
   }
-  body.position = table.vector("position", kind::length, {});
+  body.position = table.vector_or("position", {});
   if (rotor)
   {
     body.inertia = table.value("inertia");
@@ -160,7 +160,7 @@ BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scrip
   else
   {
     body.mass = table.value("mass");
-    body.size = table.vector("size", kind::length, {});
+    body.size = table.vector_or("size", {});
   }
   return body;
 }

@@ -384,7 +384,7 @@ void read_places(const SceneTable &scene, Names &names, Scene &result)
     if (names.find_body(table.name()))
       throw table.error("a body has the name '" + table.name() + "' too; 'from' and 'to' could not tell them apart");
     const SceneTable   own = table.declared(place_keys());
-    const PlaceRequest point{names.marker(own, "on"), own.vector("at", kind::length)};
+    const PlaceRequest point{names.marker(own, "on"), own.vector("at")};
     names.add_place(table.name(), point);
     result.places.push_back({table.name(), point, table.place()});
   }

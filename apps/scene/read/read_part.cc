@@ -38,7 +38,7 @@ Placement read_placement(const SceneTable &table)
   const auto inner = table.optional_table("placement");
   if (!inner)
     return placement;
-  placement.origin = vector(inner->vector("origin", kind::length, {}));
+  placement.origin = vector(inner->vector_or("origin", {}));
   if (inner->has("axis") != inner->has("angle"))
     throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
                        "the part is turned by `angle` about `axis` through the file's origin; give both");
@@ -145,7 +145,7 @@ coupling::FrameService &service(const SceneTable &table)
 void read_rotor(const SceneTable &table, BodyRequest &body)
 {
   const Vector3d centre = vector(body.position), axis = vector(body.axis);
-  body.position             = table.vector("position", kind::length, body.position);
+  body.position             = table.vector_or("position", body.position);
   const double eccentricity = axis.cross(centre - vector(body.position)).norm();
   body.inertia += body.mass * eccentricity * eccentricity;
   if (eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))

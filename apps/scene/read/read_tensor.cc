@@ -50,7 +50,7 @@ Eigen::Matrix3d read_tensor(const SceneTable &table)
       J.row(i) = Eigen::RowVector3d(rows[i].data());
     return J;
   }
-  const Vector3 moments = table.vector("inertia", kind::inertia);
+  const Vector3 moments = table.vector("inertia");
   J.diagonal()          = Eigen::Vector3d(moments.data());
   if (!table.has("principal_axes"))
     return J;

@@ -23,13 +23,13 @@ fem::SurfaceSelector read_surface(const SceneTable &any)
   fem::SurfaceSelector surface;
   surface.place = table.place();
   if (const auto cylinder = table.optional_table("cylinder"))
-    surface.cylinder = fem::SurfaceSelector::Cylinder{
-        cylinder->direction("axis"), cylinder->vector("through", kind::length), cylinder->value("radius")};
+    surface.cylinder = fem::SurfaceSelector::Cylinder{cylinder->direction("axis"), cylinder->vector("through"),
+                                                      cylinder->value("radius")};
   if (const auto plane = table.optional_table("plane"))
-    surface.plane = fem::SurfaceSelector::Plane{plane->direction("normal"), plane->vector("through", kind::length)};
+    surface.plane = fem::SurfaceSelector::Plane{plane->direction("normal"), plane->vector("through")};
   if (const auto box = table.optional_table("box"))
   {
-    surface.box = fem::SurfaceSelector::Box{box->vector("min", kind::length), box->vector("max", kind::length)};
+    surface.box = fem::SurfaceSelector::Box{box->vector("min"), box->vector("max")};
     for (int i = 0; i < 3; ++i)
       if (surface.box->min[i] > surface.box->max[i])
         throw box->error("'min' lies above 'max' in direction " + std::string(1, "xyz"[i]));
@@ -153,7 +153,7 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
   if (!node || table.has("surface") || table.has("surfaces"))
     interface.surfaces = read_surface_names(table, frame);
   if (point || node || table.has("position"))
-    interface.position = table.vector("position", kind::length);
+    interface.position = table.vector("position");
   if (table.has("radius") && !point)
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
   if (point)
@@ -166,7 +166,7 @@ fem::CutSpecification read_cut(const SceneTable &any)
   const SceneTable table = any.declared(cut_keys());
   check_thing_name(table);
   const auto plane = table.table("plane");
-  return {table.name(), plane.vector("through", kind::length), plane.direction("normal"), table.place()};
+  return {table.name(), plane.vector("through"), plane.direction("normal"), table.place()};
 }
 
 /// '*' stands for any letters, '?' for one.
@@ -251,7 +251,7 @@ fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification
   if (table.has("inertia"))
     mass.inertia = read_tensor(table);
   if (table.has("position"))
-    mass.centre = table.vector("position", kind::length);
+    mass.centre = table.vector("position");
   const bool surfaces = table.has("surface") || table.has("surfaces");
   if (surfaces == table.has("on"))
     throw table.error("needs either 'on', the interface that carries it, or 'surfaces' it is fastened to");

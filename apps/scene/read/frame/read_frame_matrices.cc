@@ -184,7 +184,7 @@ void add_interface(const SceneTable &any, Eigen::Index n, std::map<int, std::str
       throw table.error("is a node of the table of nodes already; rename one of them");
   fem::Interface interface;
   interface.name     = table.name();
-  interface.position = table.vector("position", kind::length, {});
+  interface.position = table.vector_or("position", {});
   const auto rows    = table.table("rows");
   for (const auto &key : rows.keys())
   {
