@@ -122,7 +122,7 @@ bool named(const std::string &name, const std::vector<std::string> &wanted)
 
 /// The signals errors are measured in: those named, those the file has, those of the scene, or the interface and
 /// the bodies.
-std::vector<coupling::Signal> choose_signals(const Scene &scene, const coupling::Machine &machine,
+std::vector<coupling::Signal> choose_signals(const Scene &scene, coupling::Machine &machine,
                                              const ChartCommandOptions &chart, const std::optional<ReferenceFile> &file)
 {
   std::vector<coupling::Signal> all = scene_signals(scene, machine), chosen;
@@ -246,18 +246,13 @@ struct ChartRequest
 };
 
 /// Everything for one size of the model; gives its reference back to compare sizes.
-SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkPrecision &chart, ProgressLine &progress)
+/// Motion of a model at the instants that errors are measured at.
+WorkProblem problem_of(const ChartRequest &request, const Scene &scene, coupling::Machine &machine,
+                       const coupling::InitialState &initial)
 {
-  PreparedMachine prepared = prepare_machine(scene, progress.callback());
-  if (prepared.companion)
-    throw std::invalid_argument(scene.frame.place + ": the chart needs a small model; reduce the frame "
-                                                    "(reduction.method = \"craig-bampton\")");
-  progress.show("start");
-  const coupling::InitialState initial = prepare_start(scene, prepared);
-
-  WorkProblem problem{prepared.machine, initial};
+  WorkProblem problem{machine, initial};
   problem.begin     = scene.run.options.begin;
-  problem.signals   = choose_signals(scene, prepared.machine, request.chart, request.file);
+  problem.signals   = choose_signals(scene, machine, request.chart, request.file);
   problem.cpu_limit = request.chart.limit > 0. ? request.chart.limit : request.chart.quick ? 5. : 20.;
   if (request.chart.quick)
     problem.repeat_s = 0.1;
@@ -267,9 +262,38 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   else
     for (int k = 1; k <= request.chart.samples; ++k)
       problem.samples.push_back(problem.begin + (scene.run.options.end - problem.begin) * k / request.chart.samples);
+  return problem;
+}
 
-  const int index = int(chart.models.size());
-  WorkModel model;
+/// Methods asked for, or all that a quick or a whole chart has.
+std::vector<ChartMethod> methods_of(const ChartCommandOptions &chart, int n_coordinates)
+{
+  const PeerChoice         peers = chart.peers ? PeerChoice::with : PeerChoice::without;
+  std::vector<std::string> keys  = chart.methods;
+  if (keys.empty() && chart.quick)
+    keys = quick_methods(peers);
+  std::vector<ChartMethod> methods = choose_methods(keys, peers, n_coordinates);
+  for (ChartMethod &method : methods)
+    if (method.peer && chart.native)
+    {
+      method.peer->vectors = peers::PeerVectors::native;
+      method.name          = peers::peer_name(*method.peer);
+    }
+  return methods;
+}
+
+SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkPrecision &chart, ProgressLine &progress)
+{
+  PreparedMachine prepared = prepare_machine(scene, progress.callback());
+  if (prepared.companion)
+    throw std::invalid_argument(scene.frame.place + ": the chart needs a small model; reduce the frame "
+                                                    "(reduction.method = \"craig-bampton\")");
+  progress.show("start");
+  const coupling::InitialState initial = prepare_start(scene, prepared);
+
+  const WorkProblem problem = problem_of(request, scene, prepared.machine, initial);
+  const int         index   = int(chart.models.size());
+  WorkModel         model;
   model.coordinates = prepared.machine.size();
   model.modes       = std::max(0, model_facts(prepared).modes);
   progress.show("reference");
@@ -290,21 +314,11 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   const auto steps = ladder("--steps", request.chart.steps, kind::time, default_steps(scene, request.chart.quick));
   const auto tolerances =
       ladder("--tolerances", request.chart.tolerances, kind::number, default_tolerances(request.chart.quick));
-  const PeerChoice         peers = request.chart.peers ? PeerChoice::with : PeerChoice::without;
-  std::vector<std::string> keys  = request.chart.methods;
-  if (keys.empty() && request.chart.quick)
-    keys = quick_methods(peers);
-  std::vector<ChartMethod> methods = choose_methods(keys, peers, prepared.machine.size());
-  for (ChartMethod &method : methods)
-    if (method.peer && request.chart.native)
-    {
-      method.peer->vectors = peers::PeerVectors::native;
-      method.name          = peers::peer_name(*method.peer);
-    }
-  const MotionScales scales = motion_scales(problem, reference.method, true);
-  const SeriesRun    series(problem, reference.values, model, scales, longest_step(problem));
-  const double       n_series = double(methods.size() * request.events.size());
-  double             done     = 0.;
+  const std::vector<ChartMethod> methods = methods_of(request.chart, prepared.machine.size());
+  const MotionScales             scales  = motion_scales(problem, reference.method, true);
+  const SeriesRun                series(problem, reference.values, model, scales, longest_step(problem));
+  const double                   n_series = double(methods.size() * request.events.size());
+  double                         done     = 0.;
   for (const ChartMethod &method : methods)
     for (const bool events : request.events)
     {
@@ -314,6 +328,22 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
       done += 1.;
     }
   return reference.values;
+}
+
+void write_chart(const std::filesystem::path &folder, const WorkPrecision &chart)
+{
+  prepare_folder(folder);
+  write_file(folder / "chart.csv", work_precision_csv(chart));
+  write_file(folder / "chart_settings.toml", work_precision_settings(chart));
+  for (std::size_t m = 0; m < chart.models.size(); ++m)
+  {
+    const std::string ending =
+        chart.models.size() == 1 ? ".svg" : "_m" + std::to_string(chart.models[m].modes) + ".svg";
+    write_file(folder / "charts" / ("work_precision" + ending), work_precision_svg(chart, int(m), WorkMeasure::cpu));
+    write_file(folder / "charts" / ("work_precision_counts" + ending),
+               work_precision_svg(chart, int(m), WorkMeasure::evaluations));
+  }
+  write_file(folder / "chart.html", work_precision_page(chart));
 }
 
 int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_options)
@@ -365,18 +395,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
     chart.models[m].truncation = scaled_error(references[m], references.back());
   progress.done();
 
-  prepare_folder(folder);
-  write_file(folder / "chart.csv", work_precision_csv(chart));
-  write_file(folder / "chart_settings.toml", work_precision_settings(chart));
-  for (std::size_t m = 0; m < chart.models.size(); ++m)
-  {
-    const std::string ending =
-        chart.models.size() == 1 ? ".svg" : "_m" + std::to_string(chart.models[m].modes) + ".svg";
-    write_file(folder / "charts" / ("work_precision" + ending), work_precision_svg(chart, int(m), WorkMeasure::cpu));
-    write_file(folder / "charts" / ("work_precision_counts" + ending),
-               work_precision_svg(chart, int(m), WorkMeasure::evaluations));
-  }
-  write_file(folder / "chart.html", work_precision_page(chart));
+  write_chart(folder, chart);
   std::cout << work_precision_text(chart) << "chart: " << (folder / "chart.html").string() << '\n';
   return interruption().load() ? exit_interrupted : exit_done;
 }

@@ -112,6 +112,18 @@ bool tells_rotation(const std::string &path, const std::string &marker)
   return path.rfind(marker + ".r", 0) == 0;
 }
 
+/// Angles of nodes that are asked for.
+void look_at_signals(const Scene &scene, Search &search)
+{
+  for (const auto &interface : scene.frame.geometry.interfaces)
+    for (const SignalRequest &signal : scene.signals)
+      if (tells_rotation(signal.path, "frame." + interface.name))
+      {
+        search.look_at(signal.place);
+        search.refuse("frame." + interface.name, "its angle is asked for");
+      }
+}
+
 } // namespace
 
 void refuse_rotations_of_nodes(const Scene &scene)
@@ -169,13 +181,7 @@ void refuse_rotations_of_nodes(const Scene &scene)
     if (mass.inertia != Vector3{} || mass.offset != Vector3{})
       search.refuse(mass.marker, "an inertia or an offset needs one");
   }
-  for (const auto &interface : scene.frame.geometry.interfaces)
-    for (const SignalRequest &signal : scene.signals)
-      if (tells_rotation(signal.path, "frame." + interface.name))
-      {
-        search.look_at(signal.place);
-        search.refuse("frame." + interface.name, "its angle is asked for");
-      }
+  look_at_signals(scene, search);
 }
 
 } // namespace gestell::apps
