@@ -1,8 +1,8 @@
 // The program gestell: one executable with subcommands.
 
 #include "apps/cli/commands.h"
-#include "apps/session/commit.h"
 #include "apps/cli/team.h"
+#include "apps/session/commit.h"
 #include "apps/version.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "fem/values/nearest_name.h"

@@ -18,7 +18,8 @@ namespace gestell::apps
  *
  * The units that follow a number belong to it more tightly than any operator; "N s/m" is (N s)/m and "kg m^2" squares
  * the metre only.  What reads in two ways is refused: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  Where
- * an operand is expected a parameter comes before a unit of the same name.  A full list of units is in docs/scene/values.md.
+ * an operand is expected a parameter comes before a unit of the same name.  A full list of units is in
+ * docs/scene/values.md.
  *
  * A number per minute or hour counts the turns of a shaft, as on every name plate, however it is written: "1500 1/min",
  * "1500/min", "1500/(1 min)", "1500 min^-1", "1500 r/min", "1500 rpm".  It is 2 pi 25 rad/s as an angular speed and
