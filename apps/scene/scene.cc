@@ -10,6 +10,7 @@
 #include "apps/scene/read/read_run.h"
 #include "apps/scene/read/read_share.h"
 #include "apps/scene/read/read_switches.h"
+#include "coupling/reduction/reductions.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -22,11 +23,27 @@ namespace gestell::apps
 namespace
 {
 
+/// The name of a reduction, whose keys are those of the table.
+std::string read_reduction_method(const SceneTable &table, const std::string &fallback)
+{
+  const auto               entries = coupling::Reductions::entries();
+  std::vector<std::string> names;
+  for (const auto &entry : entries)
+    names.push_back(entry.name);
+  const std::string name = table.choice("method", names, fallback);
+  const auto        own  = std::find_if(entries.begin(), entries.end(), [&](const auto &e) { return e.name == name; });
+  for (const auto &entry : entries)
+    for (const std::string &key : entry.keys)
+      if (table.has(key) && !own->takes(key))
+        throw table.error(key, "is not for method = \"" + name + "\", " + own->title + "; leave it out");
+  return name;
+}
+
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
 {
   const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
   ReductionRequest request;
-  request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
+  request.method        = frame.source == FrameSource::geometry ? request.options.method : "none";
   request.options.place = scene.place();
   const auto table      = scene.optional_table("reduction");
   if (!table)
@@ -35,9 +52,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     throw table->error("there is no frame to reduce; [frame] must give 'cad' or matrices");
 
   request.options.place     = table->place();
-  request.method            = table->choice("method", {"none", "craig-bampton"}, "craig-bampton") == "none"
-                                  ? ReductionMethod::none
-                                  : ReductionMethod::craig_bampton;
+  request.method            = read_reduction_method(*table, request.options.method);
   request.options.tolerance = read_share(*table, "tolerance", request.options.tolerance);
   if (table->has("modes"))
   {
@@ -46,10 +61,10 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
       throw table->error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
   }
   request.options.frequency = table->positive("frequency", kind::frequency, 0.);
-  request.options.inner =
-      table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "fixed-interface"
-          ? coupling::InnerModes::interface_held
-          : coupling::InnerModes::interface_free;
+  if (request.reduces())
+    request.options.method = request.method;
+  if (table->choice("inside", {"fixed-interface", "free-interface"}, "fixed-interface") == "free-interface")
+    request.options.method = "free-interface";
   request.options.eigensolver =
       table->choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, request.options.eigensolver);
   request.options.inertia_relief = table->boolean("inertia_relief", false);
