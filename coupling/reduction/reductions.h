@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/reduction/methods/condensation.h"
 #include "coupling/reduction/methods/craig_bampton.h"
 #include "coupling/reduction/methods/free_interface.h"
 #include "coupling/reduction/methods/unreduced.h"
@@ -25,6 +26,7 @@ struct ReductionTable
 /// All there are: a line each.
 using Reductions = ReductionTable<CraigBampton,  //
                                   FreeInterface, //
+                                  Condensation,  //
                                   Unreduced>;
 
 } // namespace gestell::coupling
