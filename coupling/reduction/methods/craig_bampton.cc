@@ -59,10 +59,10 @@ ReductionSpace chosen(FixedInterfaceModes &fixed, InterfaceStatics &statics, con
                       const ReductionOptions &options)
 {
   ReductionSpace space{std::move(statics.basis)};
-  auto           selection =
-      select_modes(space.basis, statics.held, fixed, statics.response, frame, options, statics.progress, space.notes);
-  space.refined    = std::move(selection.refined);
-  space.attachment = std::move(selection.shapes);
+  auto           selection = select_modes(space.basis, fixed, statics, frame, options);
+  space.refined            = std::move(selection.refined);
+  space.attachment         = std::move(selection.shapes);
+  space.notes              = std::move(selection.notes);
   if (!selection.statement.empty())
     space.statements.push_back(selection.statement);
   statics.begin("reduced matrices");

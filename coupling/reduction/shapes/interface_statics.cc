@@ -10,16 +10,11 @@ namespace
 
 using Eigen::MatrixXd;
 
-void tell(const Progress &progress, const char *phase)
-{
-  if (progress)
-    progress(phase, -1.);
-}
-
 FixedInterfaceFrame factorised(const fem::FrameMatrices &frame, const ReductionOptions &options,
                                const Progress &progress)
 {
-  tell(progress, "factorisation");
+  if (progress)
+    progress("factorisation", -1.);
   return {frame, frame.interface_coordinates(), options.eigensolver};
 }
 
@@ -52,9 +47,10 @@ InterfaceStatics::InterfaceStatics(const fem::FrameMatrices &frame, const Reduct
   relief   = options.inertia_relief ? inertia_relief_shapes(held, frame, basis.q1) : MatrixXd(frame.M.rows(), 0);
 }
 
-void InterfaceStatics::begin(const char *phase) const
+void InterfaceStatics::begin(const char *phase, double share) const
 {
-  tell(progress, phase);
+  if (progress)
+    progress(phase, share);
 }
 
 } // namespace gestell::coupling

@@ -21,7 +21,7 @@ struct InterfaceStatics
   /// @throws std::invalid_argument if a motion is free while the interface is held.
   InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress);
 
-  void begin(const char *phase) const; ///< tells progress
+  void begin(const char *phase, double share = -1.) const; ///< tells progress
 
   Progress            progress;
   FixedInterfaceFrame held;
