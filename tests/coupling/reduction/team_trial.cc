@@ -163,16 +163,13 @@ int lead(const std::string &how)
     compare_with_one_process(*team);
   try
   {
-    Trial trial{how};
-    team->together(trial);
-    std::cout << trial.sum << " ranks took part" << std::endl;
+    std::cout << team->together(Trial{how}).sum << " ranks took part" << std::endl;
   }
   catch (const std::invalid_argument &error)
   {
     std::cout << "told: " << error.what() << std::endl;
   }
-  Trial next{"sound"}; // after a failure all are on speaking terms
-  team->together(next);
+  const Trial next = team->together(Trial{"sound"}); // after a failure all are on speaking terms
   std::cout << "then " << next.sum << " ranks took part" << std::endl;
   team->ranks().order(0);
   return 0;
