@@ -1,6 +1,6 @@
 // Frequencies of a clamped CAD frame and the CPU time they took; with --deck the same mesh as an input file of
 // CalculiX, with --eigensolvers by factors and eigensolvers of ours and of PETSc and SLEPc in turn.
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/eigensolvers/slepc/registered_types.h"
 #include "coupling/reduction/reduce_frame.h"

@@ -1,6 +1,6 @@
 #include "coupling/plugin/frame_service.h"
 
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/plugin/frame/make_mesh_report.h"
 #include "coupling/plugin/mesh_report.h"
 #include "coupling/reduction/modal_damping.h"

@@ -1,6 +1,6 @@
 #include "coupling/plugin/mesh_service.h"
 
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/plugin/frame/mesh_statement.h"
 #include "coupling/reduction/reduce_frame.h"
