@@ -101,11 +101,7 @@ std::string choice_text(const std::string &name, const std::string &value)
       {"support.",
                ".kind",
                {{int(fem::SupportKind::clamped), "clamped"}, {int(fem::SupportKind::foundation), "foundation"}}},
-      {"mesh.overlaps", "", {{int(fem::Overlaps::refused), "refused"}, {int(fem::Overlaps::once), "once"}}},
-      {"reduction.inside",
-               "",
-               {{int(coupling::InnerModes::interface_held), "fixed-interface"},
-                {int(coupling::InnerModes::interface_free), "free-interface"}}}};
+      {"mesh.overlaps", "", {{int(fem::Overlaps::refused), "refused"}, {int(fem::Overlaps::once), "once"}}}};
   for (const Choice &choice : choices)
     if (const std::string end = choice.end; begins(name, choice.begin) && name.size() >= end.size() &&
                                             name.compare(name.size() - end.size(), end.size(), end) == 0)

@@ -353,7 +353,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   check_scene(scene);
   if (chart_options.samples < 2)
     throw std::invalid_argument("--samples: needs 2 or more, got " + std::to_string(chart_options.samples));
-  if (!chart_options.modes.empty() && scene.reduction.method == ReductionMethod::none)
+  if (!chart_options.modes.empty() && !scene.reduction.reduces())
     throw std::invalid_argument("--modes: " + options.input +
                                 " does not reduce its frame, so that it has no modes to choose; "
                                 "leave the option out or give the scene a [reduction]");

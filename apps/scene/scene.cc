@@ -10,6 +10,7 @@
 #include "apps/scene/read/read_run.h"
 #include "apps/scene/read/read_switches.h"
 #include "apps/scene/scene_keys.h"
+#include "coupling/reduction/reductions.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -22,11 +23,24 @@ namespace gestell::apps
 namespace
 {
 
+/// The name of a reduction, whose keys are those of the table.
+std::string read_reduction_method(const SceneTable &table)
+{
+  const auto        entries = coupling::Reductions::entries();
+  const std::string name    = table.choice("method");
+  const auto        own = std::find_if(entries.begin(), entries.end(), [&](const auto &e) { return e.name == name; });
+  for (const auto &entry : entries)
+    for (const std::string &key : entry.keys)
+      if (table.has(key) && !own->takes(key))
+        throw table.error(key, "is not for method = \"" + name + "\", " + own->title + "; leave it out");
+  return name;
+}
+
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
 {
   const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
   ReductionRequest request;
-  request.method = frame.source == FrameSource::geometry ? ReductionMethod::craig_bampton : ReductionMethod::none;
+  request.method        = frame.source == FrameSource::geometry ? request.options.method : "none";
   request.options.place = scene.place();
   if (!scene.has("reduction"))
     return request;
@@ -35,7 +49,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     throw table.error("there is no frame to reduce; [frame] must give 'cad' or matrices");
 
   request.options.place     = table.place();
-  request.method            = table.choice("method") == "none" ? ReductionMethod::none : ReductionMethod::craig_bampton;
+  request.method            = read_reduction_method(table);
   request.options.tolerance = table.value("tolerance");
   if (table.has("modes"))
   {
@@ -43,9 +57,11 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     if (request.options.n_modes < 0)
       throw table.error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
   }
+  if (request.reduces())
+    request.options.method = request.method;
+  if (table.choice("inside") == "free-interface")
+    request.options.method = "free-interface";
   request.options.frequency      = table.value_or("frequency", 0.);
-  request.options.inner          = table.choice("inside") == "fixed-interface" ? coupling::InnerModes::interface_held
-                                                                               : coupling::InnerModes::interface_free;
   request.options.eigensolver    = table.choice("eigensolver");
   request.options.inertia_relief = table.truth("inertia_relief");
   return request;

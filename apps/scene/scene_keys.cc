@@ -1,6 +1,7 @@
 #include "apps/scene/scene_keys.h"
 
 #include "apps/scene/values/requests.h"
+#include "coupling/reduction/reductions.h"
 
 namespace gestell::apps
 {
@@ -45,12 +46,35 @@ const std::vector<Key> &scene_keys()
   return keys;
 }
 
+namespace
+{
+
+std::vector<std::string> names_of(const std::vector<coupling::ReductionEntry> &entries)
+{
+  std::vector<std::string> names;
+  for (const auto &entry : entries)
+    names.push_back(entry.name);
+  return names;
+}
+
+/// "`"craig-bampton"`: static shapes of the interface and modes with the interface held; ..."
+std::string titles_of(const std::vector<coupling::ReductionEntry> &entries)
+{
+  std::string text;
+  for (const auto &entry : entries)
+    text += (text.empty() ? "`\"" : "; `\"") + entry.name + "\"`: " + entry.title;
+  return text;
+}
+
+} // namespace
+
 const std::vector<Key> &reduction_keys()
 {
   static const std::vector<Key> keys = {
-      key::choice("method", {"craig-bampton", "none"}, true,
-                  "`\"none\"` keeps every coordinate: for tests and small matrices. Without `[reduction]` a frame "
-                  "given by matrices keeps every coordinate"),
+      key::choice("method", names_of(coupling::Reductions::entries()), true,
+                  titles_of(coupling::Reductions::entries()) +
+                      ". A key that the method does not take is refused. Without `[reduction]` a frame given by "
+                      "matrices keeps every coordinate"),
       key::number(
           "tolerance", kind::number,
           "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "
@@ -64,13 +88,17 @@ const std::vector<Key> &reduction_keys()
           .by_default(ReductionRequest().options.tolerance),
       key::plain("modes", Key::Form::whole,
                  "fixed number of modes instead; a `tolerance` beside it is not used. A note tells the error up to "
-                 "`frequency`, or that the modes kept end below it")
+                 "`frequency`, or that the modes kept end below it. Of `\"free-interface\"` without it: all up to 1.5 "
+                 "times `frequency`, or the twelfth elastic one")
           .by_default("by `tolerance`"),
-      key::number("frequency", kind::frequency, "highest frequency of interest").above_zero().by_default("automatic"),
+      key::number("frequency", kind::frequency,
+                  "highest frequency of interest; of `\"condensation\"` without it as far as frequencies stay within "
+                  "`tolerance`, and modes that it leaves out below are "
+                  "[told](../theory/reduction.md#static-condensation)")
+          .above_zero()
+          .by_default("automatic"),
       key::choice("inside", {"fixed-interface", "free-interface"}, true,
-                  "modes of the inside: with the interface held (Craig and Bampton), or those of the frame as it is "
-                  "supported, which the reduced frame then has exactly; without `modes` all up to 1.5 times "
-                  "`frequency`, or the twelfth elastic one"),
+                  "beside `\"craig-bampton\"`: `\"free-interface\"` is the method of that name"),
       key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
                   "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time. Options of PETSc and "
                   "SLEPc count with the prefix `reduction_`, such as `PETSC_OPTIONS=\"-reduction_eps_view\"`; a frame "

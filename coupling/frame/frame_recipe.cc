@@ -255,13 +255,13 @@ public:
 
   void add(const ReductionOptions &value)
   {
-    const auto &[n_modes, tolerance, frequency, place, inner, eigensolver, inertia_relief] = value;
+    const auto &[n_modes, tolerance, frequency, place, method, eigensolver, inertia_relief] = value;
+    add("reduction.method", method);
     if (n_modes >= 0)
       add("reduction.modes", n_modes);
     else
       add("reduction.tolerance", tolerance);
     add("reduction.frequency", frequency); // of what the frame says of its limits, too
-    add("reduction.inside", inner);
     add("reduction.eigensolver", eigensolver);
     add("reduction.inertia relief", inertia_relief);
   }

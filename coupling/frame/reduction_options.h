@@ -6,20 +6,13 @@
 namespace gestell::coupling
 {
 
-/// The modes that describe the inside of a frame beside the static shapes of its interface.
-enum class InnerModes
-{
-  interface_held, ///< Craig & Bampton
-  interface_free  ///< of the frame as supported: MacNeal, Rubin
-};
-
 struct ReductionOptions
 {
-  int         n_modes   = -1;   ///< fixed-interface modes kept; < 0: chosen for `tolerance`
+  int         n_modes   = -1;   ///< modes kept; < 0: chosen for `tolerance`
   double      tolerance = 0.01; ///< relative error of the interface's receptance up to `frequency` (automatic number)
   double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
   std::string place;            ///< "press.toml:60: reduction", heads messages
-  InnerModes  inner          = InnerModes::interface_held;
+  std::string method         = "craig-bampton"; ///< a name of Reductions
   std::string eigensolver    = "block-lanczos"; ///< or a type of SLEPc, see search_modes()
   bool        inertia_relief = false; ///< with the deflections under the inertia of rigid motions beside the modes
 };

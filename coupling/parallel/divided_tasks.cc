@@ -1,6 +1,6 @@
 #include "coupling/parallel/divided_tasks.h"
 
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/integration/system/second_order_system.h"
 

@@ -21,7 +21,7 @@ struct DivideTask
 {
   static constexpr RankTask order  = RankTask::divide;
   int                       number = 0;
-  MatricesOnFirst           matrices;
+  MatricesOnFirst           matrices{};
   void                      run(const fem::Ranks &ranks);
 };
 
@@ -61,7 +61,7 @@ struct InertiaTask
   static constexpr RankTask order  = RankTask::inertia;
   int                       number = 0;
   double                    sigma  = 0.;
-  Inertia                   inertia; ///< found by run()
+  Inertia                   inertia{}; ///< found by run()
   void                      run(const fem::Ranks &ranks);
 };
 
@@ -70,8 +70,8 @@ struct SearchTask
 {
   static constexpr RankTask order  = RankTask::search;
   int                       number = 0, search = 0; ///< names the search
-  std::string               eigensolver;
-  BlockLanczos::Options     options;
+  std::string               eigensolver{};
+  BlockLanczos::Options     options{};
   const LowestModes        *known = nullptr;
   void                      run(const fem::Ranks &ranks);
 };
@@ -88,7 +88,7 @@ struct FoundTask
 {
   static constexpr RankTask order  = RankTask::found;
   int                       search = 0, count = 0;
-  LowestModes               modes; ///< collected by run()
+  LowestModes               modes{}; ///< collected by run()
   void                      run(const fem::Ranks &ranks);
 };
 

@@ -39,9 +39,10 @@ public:
   /// For the next thing that all ranks keep; from 1 on.
   static int next_number();
 
+  /// @returns the task, with what it has found.
   /// @throws std::invalid_argument, ConvergenceFailure: failures that all ranks agreed on.  Others end the program.
   template <typename Task>
-  void together(Task &task) const
+  Task together(Task task) const
   {
     ranks_.order(int(Task::order));
     try
@@ -52,6 +53,7 @@ public:
     {
       report(failure);
     }
+    return task;
   }
 
   /// On this rank, as part of what all do; any failure but an agreed one ends all ranks.

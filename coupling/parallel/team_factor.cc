@@ -2,8 +2,6 @@
 
 #include "coupling/parallel/divided_tasks.h"
 
-#include <utility>
-
 namespace gestell::coupling
 {
 
@@ -14,33 +12,14 @@ namespace
 class DividedSearch final : public ModeSearch
 {
 public:
-  DividedSearch(const Team &team, SearchTask task) : team_(team), search_(task.search) { team.together(task); }
-  ~DividedSearch() override
-  {
-    EndSearchTask end;
-    end.search = search_;
-    team_.together(end);
-  }
+  DividedSearch(const Team &team, int search) : team_(team), search_(search) {}
+  ~DividedSearch() override { team_.together(EndSearchTask{search_}); }
   DividedSearch(const DividedSearch &)            = delete;
   DividedSearch &operator=(const DividedSearch &) = delete;
 
-  void find(int count) override
-  {
-    FindTask task;
-    task.search = search_;
-    task.count  = count;
-    team_.together(task);
-    own_ = task.found;
-  }
-  LowestModes modes(int count) const override
-  {
-    FoundTask task;
-    task.search = search_;
-    task.count  = count;
-    team_.together(task);
-    return std::move(task.modes);
-  }
-  Gap gap_above(int count) const override { return own_->gap_above(count); }
+  void        find(int count) override { own_ = team_.together(FindTask{search_, count}).found; }
+  LowestModes modes(int count) const override { return team_.together(FoundTask{search_, count}).modes; }
+  Gap         gap_above(int count) const override { return own_->gap_above(count); }
 
 private:
   const Team       &team_;
@@ -52,63 +31,43 @@ private:
 
 TeamFactor::TeamFactor(const Team &team, const MatricesOnFirst &matrices) : team_(team), number_(Team::next_number())
 {
-  DivideTask task;
-  task.number   = number_;
-  task.matrices = matrices;
-  team.together(task);
+  team.together(DivideTask{number_, matrices});
 }
 
 TeamFactor::~TeamFactor()
 {
-  ForgetFactorTask task;
-  task.number = number_;
-  team_.together(task);
+  team_.together(ForgetFactorTask{number_});
 }
 
 bool TeamFactor::factorise()
 {
-  FactoriseTask task;
-  task.number = number_;
-  team_.together(task);
-  pivot_ratio_ = task.pivot_ratio;
-  failed_      = task.failed;
+  const auto made = team_.together(FactoriseTask{number_});
+  pivot_ratio_    = made.pivot_ratio;
+  failed_         = made.failed;
   return failed_ < 0;
 }
 
 void TeamFactor::release()
 {
-  ReleaseFactorTask task;
-  task.number = number_;
-  team_.together(task);
+  team_.together(ReleaseFactorTask{number_});
 }
 
 void TeamFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
 {
-  SolveDividedTask task;
-  task.number = number_;
-  task.X      = &X;
-  team_.together(task);
+  team_.together(SolveDividedTask{number_, &X});
 }
 
 Inertia TeamFactor::below(double omega) const
 {
-  InertiaTask task;
-  task.number = number_;
-  task.sigma  = omega * omega;
-  team_.together(task);
-  return task.inertia;
+  return team_.together(InertiaTask{number_, omega * omega}).inertia;
 }
 
 std::unique_ptr<ModeSearch> TeamFactor::search(const std::string &eigensolver, const BlockLanczos::Options &options,
                                                const LowestModes &known) const
 {
-  SearchTask task;
-  task.number      = number_;
-  task.search      = Team::next_number();
-  task.eigensolver = eigensolver;
-  task.options     = options;
-  task.known       = &known;
-  return std::make_unique<DividedSearch>(team_, task);
+  const int search = Team::next_number();
+  team_.together(SearchTask{number_, search, eigensolver, options, &known});
+  return std::make_unique<DividedSearch>(team_, search);
 }
 
 } // namespace gestell::coupling

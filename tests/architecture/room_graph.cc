@@ -68,6 +68,7 @@ std::vector<std::string> RoomGraph::cycles() const
     stack.push_back(room);
     on_stack.insert(room);
     if (const auto found = includes_.find(room); found != includes_.end())
+    {
       for (const std::string &next : found->second)
         if (!number.count(next))
         {
@@ -76,6 +77,7 @@ std::vector<std::string> RoomGraph::cycles() const
         }
         else if (on_stack.count(next))
           lowest[room] = std::min(lowest[room], number[next]);
+    }
     if (lowest[room] != number[room])
       return;
     std::string knot;

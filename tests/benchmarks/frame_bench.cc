@@ -1,9 +1,9 @@
 // Frequencies of a clamped CAD frame and the CPU time they took; with --deck the same mesh as an input file of
 // CalculiX, with --eigensolvers by factors and eigensolvers of ours and of PETSc and SLEPc in turn.
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/eigensolvers/slepc/registered_types.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/supports.h"
 #include "fem/mesh/mesher.h"
@@ -112,7 +112,7 @@ void solve(const fem::Mesh &mesh, const fem::FrameSpecification &frame, int n_mo
     phase = next;
     began = cpu_seconds();
   };
-  const coupling::ReducedFrame reduced = coupling::craig_bampton(matrices, options, tell_phase_ends);
+  const coupling::ReducedFrame reduced = coupling::reduce_frame(matrices, options, tell_phase_ends);
   tell_phase_ends("", 0.);
   std::cout << "coordinates " << matrices.C.rows() << "\ncpu mesh [s] " << meshing << "\ncpu assembly [s] " << assembly
             << "\ncpu without mesh [s] " << cpu_seconds() - start << '\n';

@@ -119,7 +119,7 @@ coupling::Machine machine_on(const Scene &scene, Frame frame)
 
 FramePath frame_path(const Scene &scene)
 {
-  const bool reduce = scene.reduction.method == ReductionMethod::craig_bampton;
+  const bool reduce = scene.reduction.reduces();
   switch (scene.frame.source)
   {
   case FrameSource::none:

@@ -26,7 +26,7 @@ void require_stresses(const SceneTable &stress, const Scene &scene)
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:
-    if (scene.reduction.method == ReductionMethod::none)
+    if (!scene.reduction.reduces())
       throw stress.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
   }
 }

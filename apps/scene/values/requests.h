@@ -39,16 +39,12 @@ struct FrameRequest
   std::string             place;
 };
 
-enum class ReductionMethod
-{
-  none,
-  craig_bampton
-};
-
 struct ReductionRequest
 {
-  ReductionMethod            method = ReductionMethod::none;
-  coupling::ReductionOptions options;
+  std::string                method = "none"; ///< a name of coupling::Reductions
+  coupling::ReductionOptions options;         ///< of an unreduced frame those of its companion
+
+  bool reduces() const { return method != "none"; }
 };
 
 /// The shape of a body from CAD, placed as the scene describes it.

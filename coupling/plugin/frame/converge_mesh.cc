@@ -3,7 +3,7 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/frame/mesh_extrapolation.h"
 #include "coupling/modes/modes.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/curved_sides.h"
 #include "fem/mesh/memory_estimate.h"
@@ -153,8 +153,8 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
   if (progress)
     progress("assembly", -1.);
   const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, specification);
-  Reduction reduced                 = craig_bampton_with_basis(matrices, reduction, progress);
-  Computed  result;
+  ReducedModel reduced              = reduce_with_basis(matrices, reduction, progress);
+  Computed     result;
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;
   result.watched    = watch_frequencies(result.frame, options.n_frequencies);

@@ -1,9 +1,10 @@
 #include "coupling/plugin/frame_service.h"
 
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/plugin/frame/make_mesh_report.h"
 #include "coupling/plugin/mesh_report.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/mesh/measure_body.h"
 
 namespace gestell::coupling
@@ -26,7 +27,7 @@ public:
                       const Progress &progress) override
   {
     use_one_blas_thread();
-    return craig_bampton(frame, options, progress);
+    return reduce_frame(frame, options, progress);
   }
 
   void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) override

@@ -1,9 +1,9 @@
 #include "coupling/plugin/mesh_service.h"
 
-#include "coupling/eigensolvers/blas_threads.h"
+#include "coupling/algebra/openblas.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/plugin/frame/mesh_statement.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/attached_masses.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
@@ -79,7 +79,7 @@ public:
     if (progress)
       progress("assembly", -1.);
     fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
-    Reduction           reduced        = craig_bampton_with_basis(discretisation.matrices, options, progress);
+    ReducedModel        reduced        = reduce_with_basis(discretisation.matrices, options, progress);
     if (progress)
       progress("mesh error", -1.);
     auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);

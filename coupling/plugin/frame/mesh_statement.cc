@@ -39,7 +39,7 @@ struct Modes
   int        within; // elastic ones up to the limit
 };
 
-Modes modes_of(const Reduction &reduced)
+Modes modes_of(const ReducedModel &reduced)
 {
   const int    n_rigid = reduced.frame.n_rigid();
   DenseModes   ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled_by_reduction, n_rigid);
@@ -49,7 +49,7 @@ Modes modes_of(const Reduction &reduced)
 }
 
 /// By the stresses of the first mode, the last and some between.
-Eigen::VectorXd by_stresses(const Modes &modes, const Reduction &reduced, const fem::MeshError &mesh_error)
+Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, const fem::MeshError &mesh_error)
 {
   std::vector<int> looked_at;
   for (int j = 0, count = std::min(modes.within, most_modes); j < count; ++j)
@@ -60,7 +60,7 @@ Eigen::VectorXd by_stresses(const Modes &modes, const Reduction &reduced, const 
 }
 
 /// By elements of degree three; empty where these cost too much.
-Eigen::VectorXd by_degree(const Modes &modes, const Reduction &reduced, const fem::FrameMatrices &frame,
+Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const fem::FrameMatrices &frame,
                           const fem::MeshError &mesh_error, bool thin_walls)
 {
   const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
@@ -96,7 +96,7 @@ Eigen::VectorXd by_degree(const Modes &modes, const Reduction &reduced, const fe
 
 } // namespace
 
-MeshErrorEstimate modal_mesh_error(const Reduction &reduced, const fem::FrameMatrices &frame,
+MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls)
 {
   const Modes modes = modes_of(reduced);
@@ -112,7 +112,7 @@ MeshErrorEstimate modal_mesh_error(const Reduction &reduced, const fem::FrameMat
   return {by_stresses(modes, reduced, mesh_error), limit, false};
 }
 
-MeshStatement mesh_statement(const Reduction &reduced, const fem::FrameMatrices &frame,
+MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                              const fem::MeshError &mesh_error, const fem::Mesh &mesh)
 {
   const fem::WallThickness walls      = fem::wall_thickness(mesh);

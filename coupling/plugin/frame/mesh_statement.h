@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/recovery/mesh_error.h"
 #include "fem/values/mesh.h"
 
@@ -24,7 +24,7 @@ struct MeshErrorEstimate
  * @param frame       that was reduced
  * @param thin_walls  whether such walls are no small part of it
  */
-MeshErrorEstimate modal_mesh_error(const Reduction &reduced, const fem::FrameMatrices &frame,
+MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls);
 
 struct MeshStatement
@@ -38,7 +38,7 @@ struct MeshStatement
  * up to 80 Hz are 1 % to 12 % too high ...", and where walls are thinner than the elements, how thin.  Errors below 2 %
  * are no reason to warn unless they are known from below alone.
  */
-MeshStatement mesh_statement(const Reduction &reduced, const fem::FrameMatrices &frame,
+MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                              const fem::MeshError &mesh_error, const fem::Mesh &mesh);
 
 } // namespace gestell::coupling

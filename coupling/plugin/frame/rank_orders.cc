@@ -6,9 +6,8 @@ void gestell_use_team()
 {
   using namespace gestell::coupling;
   Team::use();
-  PrepareTask prepare;
   if (const Team *team = Team::of_this_run())
-    team->together(prepare);
+    team->together(PrepareTask{});
 }
 
 void gestell_obey(int order)

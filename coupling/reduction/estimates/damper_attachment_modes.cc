@@ -215,31 +215,29 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
   return false;
 }
 
-DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const ReductionBasis &basis,
-                                              double highest, int m, const MatrixXd &X, const fem::FrameMatrices &frame,
-                                              const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups,
-                                              double tolerance, int most)
+DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
+                                              const ModelOfModes &modes, const ReceptanceGoal &goal)
 {
-  DampedModel model(held, basis, highest, m, frame);
-  if (X.cols() > 0)
-    model.append(X);
+  DampedModel model(held, modes.basis, modes.highest, modes.m, frame);
+  if (modes.X.cols() > 0)
+    model.append(modes.X);
   DamperAttachmentModes result;
   Index                 shapes = 0;
   for (;;)
   {
     DampedModel::Answer worst;
     result.of_groups.clear();
-    for (const ReceptanceFrequency &frequency : frequencies)
+    for (const ReceptanceFrequency &frequency : goal.frequencies)
     {
       auto answer = model.at(frequency);
-      raise_errors(groups, answer.H_model, answer.H, result.of_groups);
+      raise_errors(goal.groups, answer.H_model, answer.H, result.of_groups);
       if (answer.error >= worst.error)
         worst = std::move(answer);
     }
     result.left = worst.error;
-    if (worst.error <= tolerance || shapes >= most || !std::isfinite(worst.error))
+    if (worst.error <= goal.tolerance || shapes >= goal.most || !std::isfinite(worst.error))
       break;
-    const Index added = model.append(model.principal_shapes(worst, tolerance, most - shapes));
+    const Index added = model.append(model.principal_shapes(worst, goal.tolerance, goal.most - shapes));
     result.exhausted  = added == 0;
     if (result.exhausted)
       break;

@@ -23,6 +23,24 @@ struct DamperAttachmentModes
 /// Whether B acts on anything but q1.
 bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B);
 
+/// A model of modes with the interface held, and of shapes.
+struct ModelOfModes
+{
+  const ReductionBasis &basis; ///< of all modes known
+  double highest;              ///< omega_0 [rad/s] of the last, above all frequencies; INFINITY where there are no more
+  int    m;                    ///< the model has the first m
+  const Eigen::MatrixXd &X;    ///< its shapes [n x k], zero on q1, or [n x 0]
+};
+
+/// What is asked of a receptance.
+struct ReceptanceGoal
+{
+  std::vector<ReceptanceFrequency> frequencies; ///< to look at, as for InterfaceReceptance
+  Groups                           groups;      ///< of q1, whose own errors are told
+  double                           tolerance;
+  int                              most; ///< shapes
+};
+
 /**
  * Completes a model by what it lacks of the deflection under the dampers inside the frame, such as those of its
  * foundation.
@@ -40,18 +58,10 @@ bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<do
  * and again, until the error is within the tolerance or `most` shapes are made.  Thus dampers of any strength are met:
  * shapes of second order, C22^-1 B C22^-1 B Psi, come with the second round.
  *
- * @param held         with its factor.
- * @param basis        of all modes known; the model has the first m.
- * @param highest      omega_0 [rad/s], above all frequencies; INFINITY where all modes are known.
- * @param X            other shapes of the model [n x k], zero on q1, or [n x 0].
- * @param frequencies  to look at, as for InterfaceReceptance.
- * @param groups       of q1, whose own errors are told.
+ * @param held  with its factor.
  * Source: docs/theory/reduction.md (16e).
  */
-DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const ReductionBasis &basis,
-                                              double highest, int m, const Eigen::MatrixXd &X,
-                                              const fem::FrameMatrices               &frame,
-                                              const std::vector<ReceptanceFrequency> &frequencies, const Groups &groups,
-                                              double tolerance, int most);
+DamperAttachmentModes damper_attachment_modes(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
+                                              const ModelOfModes &modes, const ReceptanceGoal &goal);
 
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
 #include "coupling/reduction/estimates/mode_selection.h"
 
 #include "coupling/reduction/estimates/damper_attachment_modes.h"
+#include "coupling/reduction/estimates/interface_receptance.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
@@ -168,70 +169,109 @@ MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
   return both;
 }
 
+/// What the modes in the basis tell of the frame, and whether they do.
+struct Look
+{
+  RefinedModes                       refined;
+  double                             within  = 0.; // [rad/s] highest frequency of interest
+  double                             highest = 0.; // [rad/s] below it all fixed-interface modes are known
+  std::optional<InterfaceReceptance> receptance{}; // where the choice rests on it
+  Judgement                          judgement{};
+
+  bool good() const { return judgement.good && highest >= reach * within; }
+};
+
+bool by_receptance(const ReductionBasis &basis, const ReductionOptions &options)
+{
+  return options.frequency > 0. && basis.n1() > 0;
+}
+
+/// @param n_modes  there are; those in the basis are all that may be asked for if `last`.
+Look look_at(const ReductionBasis &basis, int n_modes, bool last, const InterfaceStatics &statics,
+             const fem::FrameMatrices &frame, const ReductionOptions &options)
+{
+  const int             m    = basis.m();
+  const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+  Look                  look{refined_modes(basis, star, statics.response, frame)};
+  look.within    = highest_of_interest(options, look.refined);
+  look.highest   = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
+  look.judgement = {false, {}, "modes below that frequency out"};
+  if (!by_receptance(basis, options))
+    look.judgement = judge_frequencies(basis, star, look.refined, options.tolerance, look.within);
+  else if (look.highest > look.within)
+  {
+    look.receptance.emplace(basis, star, statics.response, look.refined, frame.modal_damping_ratio, look.within);
+    look.judgement = judge_receptance(*look.receptance, m, !last, options.tolerance);
+  }
+  return look;
+}
+
+ModeSelection too_few(Look look, int m, const ReductionOptions &options)
+{
+  ModeSelection found{std::move(look.refined)};
+  found.notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave " +
+                        look.judgement.shortcoming + " up to " + rounded(look.within / two_pi) +
+                        " Hz, above the tolerance of " + percent(options.tolerance) +
+                        "; lower the frequency of interest or set the number of modes");
+  return found;
+}
+
+/// Shapes for dampers inside the frame, where there are any and their effect can be known.
+std::optional<DamperAttachmentModes> for_dampers(const Look &look, const ReductionBasis &basis, const MatrixXd &shapes,
+                                                 const InterfaceStatics &statics, const fem::FrameMatrices &frame,
+                                                 const ReductionOptions &options)
+{
+  if (!look.receptance || !has_inner_dampers(basis, frame.B))
+    return std::nullopt;
+  statics.begin("dampers inside the frame");
+  const ReceptanceGoal goal{receptance_frequencies(look.refined, frame.modal_damping_ratio, look.within),
+                            groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes};
+  return damper_attachment_modes(statics.held, frame, {basis, look.highest, look.judgement.fewest.modes, shapes}, goal);
+}
+
+ModeSelection enough(const Look &look, ReductionBasis &basis, const InterfaceStatics &statics,
+                     const fem::FrameMatrices &frame, const ReductionOptions &options)
+{
+  const InsideCount &fewest = look.judgement.fewest;
+  ModeSelection      found{look.refined, MatrixXd(frame.M.rows(), 0)};
+  if (fewest.shapes > 0)
+    found.shapes = inertia_shapes(statics.held, basis);
+  const auto dampers = for_dampers(look, basis, found.shapes, statics, frame, options);
+  if (dampers)
+    found.shapes = beside(found.shapes, dampers->W);
+  if (look.receptance)
+    found.statement = receptance_statement(*look.receptance, basis, frame.interfaces, fewest, options.frequency,
+                                           dampers ? &*dampers : nullptr);
+  if (dampers && dampers->left > options.tolerance)
+    found.notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
+                          percent(options.tolerance) +
+                          (dampers->exhausted ? ", for dampers act where the frame has no mass"
+                                              : ", for the dampers inside the frame are strong"));
+  basis.truncate(fewest.modes);
+  return found;
+}
+
 } // namespace
 
-ModeSelection select_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, FixedInterfaceModes &fixed,
-                           const ResidualFlexibility &response, const fem::FrameMatrices &frame,
-                           const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes)
+ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, const InterfaceStatics &statics,
+                           const fem::FrameMatrices &frame, const ReductionOptions &options)
 {
-  const int  n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
-  const bool by_receptance = options.frequency > 0. && basis.n1() > 0;
+  const int n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
   {
-    if (progress)
-      progress("fixed-interface modes", double(m) / most);
+    statics.begin("fixed-interface modes", double(m) / most);
     fixed.find(m);
     const LowestModes modes = fixed.lowest(m);
     basis.set_modes(modes.V, modes.omega);
-    if (progress)
-      progress("error estimate", -1.);
-    const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
-    ModeSelection         found{refined_modes(basis, star, response, frame), Eigen::MatrixXd(frame.M.rows(), 0)};
-    const RefinedModes   &refined = found.refined;
-    const double          within  = highest_of_interest(options, refined);
-    const double          highest = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
-    const bool            reaches = highest >= reach * within;
-
-    std::optional<InterfaceReceptance> receptance;
-    if (by_receptance && highest > within)
-      receptance.emplace(basis, star, response, refined, frame.modal_damping_ratio, within);
-    Judgement judgement{false, {}, "modes below that frequency out"};
-    if (receptance)
-      judgement = judge_receptance(*receptance, m, m < most, options.tolerance);
-    else if (!by_receptance)
-      judgement = judge_frequencies(basis, star, refined, options.tolerance, within);
-    const bool good = judgement.good && reaches;
-    if (!good && m < most && (by_receptance || highest < rule * within))
+    statics.begin("error estimate");
+    Look       look       = look_at(basis, n_modes, m == most, statics, frame, options);
+    const bool more_helps = by_receptance(basis, options) || look.highest < rule * look.within;
+    if (!look.good() && m < most && more_helps)
       continue;
-    if (!good)
-      notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave " + judgement.shortcoming +
-                      " up to " + rounded(within / two_pi) + " Hz, above the tolerance of " +
-                      percent(options.tolerance) + "; lower the frequency of interest or set the number of modes");
-    else
-    {
-      if (judgement.fewest.shapes > 0)
-        found.shapes = inertia_shapes(held, basis);
-      std::optional<DamperAttachmentModes> dampers;
-      if (receptance && has_inner_dampers(basis, frame.B))
-      {
-        if (progress)
-          progress("dampers inside the frame", -1.);
-        dampers      = damper_attachment_modes(held, basis, highest, judgement.fewest.modes, found.shapes, frame,
-                                               receptance_frequencies(refined, frame.modal_damping_ratio, within),
-                                               groups_of(frame.interfaces, basis.q1), options.tolerance, most_modes);
-        found.shapes = beside(found.shapes, dampers->W);
-      }
-      if (receptance)
-        found.statement = receptance_statement(*receptance, basis, frame.interfaces, judgement.fewest,
-                                               options.frequency, dampers ? &*dampers : nullptr);
-      if (dampers && dampers->left > options.tolerance)
-        notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
-                        percent(options.tolerance) +
-                        (dampers->exhausted ? ", for dampers act where the frame has no mass"
-                                            : ", for the dampers inside the frame are strong"));
-      basis.truncate(judgement.fewest.modes);
-      fixed.find(judgement.fewest.modes); // known by then: that many are to be proved complete
-    }
+    ModeSelection found =
+        look.good() ? enough(look, basis, statics, frame, options) : too_few(std::move(look), m, options);
+    if (basis.m() < m)
+      fixed.find(basis.m()); // known by then: that many are to be proved complete
     fixed.finish();
     return found;
   }

@@ -5,6 +5,7 @@
 #include "coupling/reduction/estimates/interface_receptance.h"
 #include "coupling/reduction/estimates/refined_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_modes.h"
+#include "coupling/reduction/shapes/interface_statics.h"
 
 #include <string>
 #include <vector>
@@ -26,9 +27,10 @@ std::string receptance_statement(const InterfaceReceptance &receptance, const Re
 /// What select_modes() found.
 struct ModeSelection
 {
-  RefinedModes    refined;     // the choice rests on them
-  Eigen::MatrixXd shapes;      // [n x k] to be appended to the modes
-  std::string     statement{}; // within which error the receptance is, where that is what was asked
+  RefinedModes             refined;     // the choice rests on them
+  Eigen::MatrixXd          shapes{};    // [n x k] to be appended to the modes, if any
+  std::string              statement{}; // within which error the receptance is, where that is what was asked
+  std::vector<std::string> notes{};     // what the modes leave
 };
 
 /**
@@ -44,10 +46,10 @@ struct ModeSelection
  * then looked for among the modes there are.  At 200 modes growth
  * stops, for frequencies at the book's rule, modes up to 3.5 times the highest; then a note tells what was reached.
  *
- * @param held with its factor, unless `fixed` makes it anew.
+ * @param basis    with its constraint modes.
+ * @param statics  its factor is released in the end.
  */
-ModeSelection select_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, FixedInterfaceModes &fixed,
-                           const ResidualFlexibility &response, const fem::FrameMatrices &frame,
-                           const ReductionOptions &options, const Progress &progress, std::vector<std::string> &notes);
+ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, const InterfaceStatics &statics,
+                           const fem::FrameMatrices &frame, const ReductionOptions &options);
 
 } // namespace gestell::coupling

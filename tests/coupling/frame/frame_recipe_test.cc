@@ -127,6 +127,7 @@ TEST_F(ContentKey, ChangesWithEveryValue)
         f.masses.back().mass = 100.;
       });
   with([](Frame &, Options &o) { o.n_modes = 12; });
+  with([](Frame &, Options &o) { o.method = "free-interface"; });
   with(
       [](Frame &, Options &o)
       {

@@ -1,4 +1,4 @@
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/integration/system/second_order_system.h"
 #include "tests/support/lattice.h"
@@ -12,7 +12,7 @@ namespace gestell
 namespace
 {
 
-using coupling::craig_bampton;
+using coupling::reduce_frame;
 using test::frame_of;
 using test::Lattice;
 
@@ -20,7 +20,7 @@ std::string message_of(const fem::FrameMatrices &frame, const coupling::Reductio
 {
   try
   {
-    craig_bampton(frame, options);
+    reduce_frame(frame, options);
   }
   catch (const std::invalid_argument &error)
   {
@@ -152,7 +152,7 @@ TEST(BadReduction, AskingForMoreModesThanThereAreMassesFails)
   frame.M.coeffRef(100, 100) = 1.;
   coupling::ReductionOptions options;
   options.n_modes = 2;
-  EXPECT_THROW(craig_bampton(frame, options), coupling::ConvergenceFailure);
+  EXPECT_THROW(reduce_frame(frame, options), coupling::ConvergenceFailure);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,8 @@ namespace gestell
 namespace
 {
 
-using coupling::craig_bampton;
 using coupling::dense_modes;
+using coupling::reduce_frame;
 using coupling::ReducedFrame;
 using coupling::ReductionOptions;
 using Eigen::MatrixXd;
@@ -63,7 +64,7 @@ std::vector<int> first(int n)
 TEST(CraigBampton, WithAllModesIsTheFullModel)
 {
   const auto frame   = frame_of(Lattice());
-  const auto reduced = craig_bampton(frame, with_modes(internal_coordinates(frame)));
+  const auto reduced = reduce_frame(frame, with_modes(internal_coordinates(frame)));
 
   const VectorXd exact = full_frequencies(frame);
   const VectorXd found = dense_modes(reduced.C, reduced.M).omega;
@@ -83,7 +84,7 @@ TEST(CraigBampton, FrequenciesComeFromAboveAndFallWithTheNumberOfModes)
   VectorXd       previous = VectorXd::Constant(12, INFINITY);
   for (const int m : {0, 3, 8, 20, 60})
   {
-    const auto     reduced = craig_bampton(frame, with_modes(m));
+    const auto     reduced = reduce_frame(frame, with_modes(m));
     const VectorXd omega   = dense_modes(reduced.C, reduced.M).omega.head(12);
     for (int j = 0; j < 12; ++j) // min-max principle; 1e-10 for rounding
     {
@@ -104,8 +105,8 @@ TEST(CraigBampton, StaticDeflectionUnderInterfaceLoadsIsExactForAnyNumberOfModes
   const VectorXd exact = MatrixXd(frame.C).llt().solve(f);
   for (const int m : {0, 1, 7})
   {
-    const auto basis       = coupling::craig_bampton_basis(frame, m);
-    const auto reduced     = craig_bampton(frame, with_modes(m));
+    const auto basis       = test::basis_with_modes(frame, m);
+    const auto reduced     = reduce_frame(frame, with_modes(m));
     VectorXd   load_p      = VectorXd::Zero(reduced.C.rows());
     load_p.head(q1.size()) = load;
     const VectorXd q       = basis.T * reduced.C.llt().solve(load_p);
@@ -116,7 +117,7 @@ TEST(CraigBampton, StaticDeflectionUnderInterfaceLoadsIsExactForAnyNumberOfModes
 TEST(CraigBampton, BlocksAreTheProductsWithT)
 {
   const auto     frame = frame_of(Lattice());
-  const auto     basis = coupling::craig_bampton_basis(frame, 9);
+  const auto     basis = test::basis_with_modes(frame, 9);
   const auto     star  = coupling::reduced_matrices(basis, frame.B, frame.C);
   const MatrixXd T     = basis.T;
   const auto     close = [&](const MatrixXd &block, const MatrixXd &product)
@@ -129,8 +130,8 @@ TEST(CraigBampton, BlocksAreTheProductsWithT)
 TEST(CraigBampton, LeavesInterfaceCoordinatesPhysical)
 {
   const auto frame   = frame_of(Lattice());
-  const auto basis   = coupling::craig_bampton_basis(frame, 5);
-  const auto reduced = craig_bampton(frame, with_modes(5));
+  const auto basis   = test::basis_with_modes(frame, 5);
+  const auto reduced = reduce_frame(frame, with_modes(5));
   for (std::size_t k = 0; k < frame.interfaces.size(); ++k)
     for (int d = 0; d < 6; ++d)
     {
@@ -142,8 +143,8 @@ TEST(CraigBampton, LeavesInterfaceCoordinatesPhysical)
 TEST(CraigBampton, RowsOfOutputsPicturesAndGravityAreTheFullOnesTimesT)
 {
   const auto frame   = frame_of(Lattice());
-  const auto basis   = coupling::craig_bampton_basis(frame, 5);
-  const auto reduced = craig_bampton(frame, with_modes(5));
+  const auto basis   = test::basis_with_modes(frame, 5);
+  const auto reduced = reduce_frame(frame, with_modes(5));
   EXPECT_LT((reduced.outputs.at(0).on_q - basis.T.transpose() * frame.outputs[0].on_q).norm(),
             1e-12 * reduced.outputs[0].on_q.norm());
   EXPECT_LT((reduced.outputs.at(0).on_v - basis.T.transpose() * frame.outputs[0].on_v).norm(),
@@ -155,7 +156,7 @@ TEST(CraigBampton, RowsOfOutputsPicturesAndGravityAreTheFullOnesTimesT)
 
 TEST(CraigBampton, ReceptancesAreReciprocal)
 {
-  const auto reduced = craig_bampton(frame_of(Lattice()), with_modes(10));
+  const auto reduced = reduce_frame(frame_of(Lattice()), with_modes(10));
   const auto H       = receptance(reduced.M, reduced.B, reduced.C, 300., first(reduced.n_interface));
   EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm());
 }

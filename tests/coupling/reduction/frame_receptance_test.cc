@@ -1,6 +1,6 @@
 // The number of modes of a frame from CAD, against its full matrices.
 
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
 #include "fem/values/two_pi.h"
@@ -98,7 +98,7 @@ protected:
   {
     coupling::ReductionOptions options;
     options.n_modes          = 60;
-    const auto     many      = craig_bampton(frame, options);
+    const auto     many      = reduce_frame(frame, options);
     const VectorXd resonance = many.frequencies_hz;
     highest_hz               = 0.5 * (resonance(last) + resonance(last + 1));
     for (int j = 0; j <= last; j += 2)
@@ -115,7 +115,7 @@ protected:
     options.n_modes   = n_modes;
     options.tolerance = tolerance;
     options.frequency = highest_hz;
-    return craig_bampton(frame, options);
+    return reduce_frame(frame, options);
   }
 
   /// Largest |H - H_full| / |H_full|, coordinates scaled by their own inertia.

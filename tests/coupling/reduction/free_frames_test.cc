@@ -1,4 +1,4 @@
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
@@ -54,7 +54,7 @@ TEST(FreeFrame, HasSixNamedZeroModesAndTheFrequenciesOfAFreeBeam)
   specification.material.nu  = 0.;
   specification.interfaces   = {test::interface("end", {"x1"}, fem::InterfaceCoupling::average)};
   const auto frame           = fem::discretise(box_mesh({{16, 1, 1}}, {{l, a, a}}), specification);
-  const auto reduced         = coupling::craig_bampton(frame, with_modes(24));
+  const auto reduced         = coupling::reduce_frame(frame, with_modes(24));
 
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 6);
   EXPECT_EQ(reduced.facts.free_motions,
@@ -80,11 +80,11 @@ TEST(FreeFrame, CostsNothingAtAllToMoveRigidly)
   const auto mesh          = box_mesh({{6, 1, 1}}, {{1., 0.1, 0.1}});
   auto       specification = free_steel();
   specification.interfaces = {test::interface("end", {"x1"}, fem::InterfaceCoupling::rigid)};
-  const auto one           = coupling::craig_bampton(fem::discretise(mesh, specification), with_modes(4));
+  const auto one           = coupling::reduce_frame(fem::discretise(mesh, specification), with_modes(4));
   EXPECT_TRUE(one.C.topRows(6).isZero(0.)) << "one interface alone moves rigidly only";
 
   specification.interfaces.push_back(test::interface("begin", {"x0"}, fem::InterfaceCoupling::rigid));
-  const auto      two  = coupling::craig_bampton(fem::discretise(mesh, specification), with_modes(4));
+  const auto      two  = coupling::reduce_frame(fem::discretise(mesh, specification), with_modes(4));
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(two.M.rows()); // about z
   for (const auto &interface : two.interfaces)
   {
@@ -102,7 +102,7 @@ TEST(FreeFrame, OfTwoPartsNamesTwelveMotionsPartByPart)
   auto specification       = free_steel();
   specification.interfaces = {test::interface("first", {"x1"}, fem::InterfaceCoupling::rigid),
                               test::interface("second", {"second x1"}, fem::InterfaceCoupling::rigid)};
-  const auto reduced       = coupling::craig_bampton(fem::discretise(two_boxes(), specification), with_modes(6));
+  const auto reduced       = coupling::reduce_frame(fem::discretise(two_boxes(), specification), with_modes(6));
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 12);
   ASSERT_EQ(reduced.facts.free_motions.size(), 12u);
   EXPECT_EQ(reduced.facts.free_motions[0].find("translation along x of part 1 of 2, near ("), 0u)
@@ -118,7 +118,7 @@ TEST(FreeFrame, WhosePartNoInterfaceHoldsIsRefusedNamingThePart)
   specification.interfaces = {test::interface("first", {"x1"}, fem::InterfaceCoupling::rigid)};
   try
   {
-    coupling::craig_bampton(fem::discretise(two_boxes(), specification), with_modes(6));
+    coupling::reduce_frame(fem::discretise(two_boxes(), specification), with_modes(6));
     FAIL() << "the second box floats";
   }
   catch (const std::invalid_argument &error)
@@ -136,7 +136,7 @@ TEST(FreeFrame, OnWheelsHasTheMotionsItsSpringsLeave)
   specification.supports   = {test::foundation("wheels", {"z0"}, {{0., 0., 1e6}})};
   specification.interfaces = {test::interface("end", {"x1"}, fem::InterfaceCoupling::rigid)};
   const auto reduced =
-      coupling::craig_bampton(fem::discretise(box_mesh({{3, 2, 1}}, {{1., 0.6, 0.1}}), specification), with_modes(10));
+      coupling::reduce_frame(fem::discretise(box_mesh({{3, 2, 1}}, {{1., 0.6, 0.1}}), specification), with_modes(10));
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 3);
   EXPECT_EQ(reduced.facts.free_motions.size(), 3u);
 }
@@ -149,8 +149,8 @@ TEST(FreeFrame, OfGreatSlendernessHasItsRigidMotionsApartFromTheModesWithTheInte
                               test::interface("right", {"x1"}, fem::InterfaceCoupling::average)};
   const auto frame         = fem::discretise(box_mesh({{24, 1, 1}}, {{20., 0.05, 0.02}}), specification);
   auto       options       = with_modes(6);
-  options.inner            = coupling::InnerModes::interface_free;
-  const auto reduced       = coupling::craig_bampton(frame, options);
+  options.method           = "free-interface";
+  const auto reduced       = coupling::reduce_frame(frame, options);
 
   coupling::FixedInterfaceFrame full(frame, frame.interface_coordinates());
   EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 6);

@@ -3,7 +3,8 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/eigensolvers/sturm_check.h"
 #include "coupling/integration/system/second_order_system.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
         coupling::dense_modes(R.transpose() * (between * R), R.transpose() * (frame.M * R), 1e-12, 6).omega;
     coupling::ReductionOptions options;
     options.n_modes    = 10;
-    const auto reduced = coupling::craig_bampton(frame, options);
+    const auto reduced = coupling::reduce_frame(frame, options);
     EXPECT_EQ((reduced.frequencies_hz.array() == 0.).count(), 6) << soft;
     EXPECT_EQ(reduced.facts.free_motions.size(), 6u);
     for (int j = 6; j < 12; ++j) // rounding of C*, 1e-16 of 1e9, beside 1e-4
@@ -79,7 +80,7 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
     auto damped                = frame; // every elastic mode is damped, soft ones too
     damped.modal_damping_ratio = 0.02;
     options.inertia_relief     = true;
-    const auto   relieved      = coupling::craig_bampton(damped, options);
+    const auto   relieved      = coupling::reduce_frame(damped, options);
     const auto   modes         = coupling::dense_modes(relieved.C, relieved.M, 1e-10, 6);
     const double omega         = modes.omega[6];
     EXPECT_NEAR(modes.V.col(6).dot(relieved.B * modes.V.col(6)), 2. * 0.02 * omega, 1e-2 * omega) << soft;
@@ -93,7 +94,7 @@ TEST(LumpedMasses, HaveAsManyModesAsThereAreAndNoMoreAreLookedFor)
     if (i / 3 % 10 != 4) // nine points keep theirs
       frame.M.coeffRef(i, i) = 0.;
   const VectorXd full    = coupling::dense_modes(frame.C, frame.M).omega;
-  const auto     reduced = coupling::craig_bampton(frame, coupling::ReductionOptions());
+  const auto     reduced = coupling::reduce_frame(frame, coupling::ReductionOptions());
   EXPECT_LE(reduced.omega0.size(), 27);
   for (int j = 0; j < 12; ++j)
     EXPECT_NEAR(reduced.frequencies_hz[j] * 2. * M_PI, full[j], 0.01 * full[j]) << j;
@@ -102,7 +103,7 @@ TEST(LumpedMasses, HaveAsManyModesAsThereAreAndNoMoreAreLookedFor)
   options.n_modes = 40;
   try
   {
-    coupling::craig_bampton(frame, options);
+    coupling::reduce_frame(frame, options);
     FAIL() << "40 of 27 modes";
   }
   catch (const coupling::ConvergenceFailure &failure)

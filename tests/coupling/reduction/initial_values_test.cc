@@ -1,6 +1,7 @@
 #include "coupling/reduction/shapes/reduction_basis.h"
 
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ using test::Lattice;
 TEST(InitialValues, OfAMotionInTheReducedSpaceAreItsCoordinates)
 {
   const auto     frame = frame_of(Lattice());
-  const auto     basis = coupling::craig_bampton_basis(frame, 7);
+  const auto     basis = test::basis_with_modes(frame, 7);
   const VectorXd p     = VectorXd::LinSpaced(basis.T.cols(), -1., 2.);
   EXPECT_LT((coupling::project_initial(basis, frame.C, basis.T * p) - p).norm(), 1e-10 * p.norm());
 }
@@ -30,7 +31,7 @@ TEST(InitialValues, OfAMotionInTheReducedSpaceAreItsCoordinates)
 TEST(InitialValues, FollowTheBlocksOfTheFormula)
 {
   const auto       frame = frame_of(Lattice());
-  const auto       basis = coupling::craig_bampton_basis(frame, 7);
+  const auto       basis = test::basis_with_modes(frame, 7);
   const int        n     = int(frame.C.rows());
   std::vector<int> q2;
   for (int i = 0; i < n; ++i)
@@ -51,7 +52,7 @@ TEST(InitialValues, FollowTheBlocksOfTheFormula)
 TEST(InitialValues, LeaveTheLeastEnergyInWhatTheModelCannotShow)
 {
   const auto frame = frame_of(Lattice());
-  const auto basis = coupling::craig_bampton_basis(frame, 7);
+  const auto basis = test::basis_with_modes(frame, 7);
   VectorXd   q(frame.C.rows());
   for (int i = 0; i < q.size(); ++i)
     q(i) = std::sin(1.3 * i * i);

@@ -1,8 +1,9 @@
 // The inside of a frame by modes with the interface free, and by its deflection under the inertia of rigid motions.
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "coupling/reduction/shapes/free_interface_modes.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/cube.h"
 #include "tests/support/lattice.h"
 
@@ -15,7 +16,6 @@ namespace gestell::test
 namespace
 {
 
-using coupling::InnerModes;
 using coupling::ReductionOptions;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -35,11 +35,11 @@ fem::FrameMatrices floating(int nx = 5, int ny = 3, int nz = 6)
   return frame;
 }
 
-ReductionOptions inside(InnerModes inner, int n_modes, bool inertia_relief = false)
+ReductionOptions inside(const std::string &method, int n_modes, bool inertia_relief = false)
 {
   ReductionOptions options;
   options.n_modes        = n_modes;
-  options.inner          = inner;
+  options.method         = method;
   options.inertia_relief = inertia_relief;
   return options;
 }
@@ -67,10 +67,10 @@ TEST(FreeInterfaceModes, GiveTheFrequenciesOfTheFullFrame)
   // 270 coordinates are solved densely, 756 by Krylov's space; the residual allowed there is 1e-10.
   for (const auto &frame : {floating(), floating(7, 4, 9)})
   {
-    const auto free = coupling::craig_bampton(frame, inside(InnerModes::interface_free, 10));
+    const auto free = coupling::reduce_frame(frame, inside("free-interface", 10));
     EXPECT_EQ((free.frequencies_hz.array() == 0.).count(), 6);
     EXPECT_LT(largest_frequency_error(frame, free, 6, 10), 1e-8);
-    const auto held = coupling::craig_bampton(frame, inside(InnerModes::interface_held, 10));
+    const auto held = coupling::reduce_frame(frame, inside("craig-bampton", 10));
     EXPECT_GT(largest_frequency_error(frame, held, 6, 10), 1e-4) << "or the test shows nothing";
   }
 }
@@ -78,7 +78,7 @@ TEST(FreeInterfaceModes, GiveTheFrequenciesOfTheFullFrame)
 TEST(FreeInterfaceModes, OfASupportedFrameLikewise)
 {
   const auto frame = frame_of(Lattice());
-  const auto free  = coupling::craig_bampton(frame, inside(InnerModes::interface_free, 8));
+  const auto free  = coupling::reduce_frame(frame, inside("free-interface", 8));
   EXPECT_LT(largest_frequency_error(frame, free, 0, 8), 1e-8);
 }
 
@@ -86,9 +86,9 @@ TEST(FreeInterfaceModes, WithoutANumberReachHalfAgainBeyondTheHighestFrequencyOf
 {
   const auto       frame   = floating(7, 4, 9);
   const VectorXd   full    = coupling::dense_modes(MatrixXd(frame.C), MatrixXd(frame.M)).omega / (2. * M_PI);
-  ReductionOptions options = inside(InnerModes::interface_free, -1);
+  ReductionOptions options = inside("free-interface", -1);
   options.frequency        = 1.01 * full[6 + 7]; // the eighth elastic one
-  const auto reduced       = coupling::craig_bampton(frame, options);
+  const auto reduced       = coupling::reduce_frame(frame, options);
   const auto expected      = (full.array() <= 1.5 * options.frequency).count() - 6;
   EXPECT_EQ(reduced.omega0.size(), expected);
   EXPECT_LT(largest_frequency_error(frame, reduced, 6, 8), 1e-8);
@@ -100,7 +100,7 @@ TEST(FreeInterfaceModes, GiveAnErrorOfTheModesKeptAlone)
   {
     const auto frame   = is_floating ? floating() : frame_of(Lattice());
     const int  n_rigid = is_floating ? 6 : 0, kept = 10;
-    const auto reduced = coupling::craig_bampton(frame, inside(InnerModes::interface_free, kept));
+    const auto reduced = coupling::reduce_frame(frame, inside("free-interface", kept));
     ASSERT_EQ(reduced.frequency_error.size(), 12 + kept);
     for (int j = 0; j < reduced.frequency_error.size(); ++j)
       if (j < n_rigid + kept)
@@ -115,7 +115,7 @@ TEST(FreeInterfaceModes, AreCountedByInertiaBesideRigidMotions)
 {
   for (const auto &frame : {floating(7, 4, 9), frame_of(Lattice{7, 4, 9})})
   {
-    const auto reduced = coupling::craig_bampton(frame, inside(InnerModes::interface_free, 10));
+    const auto reduced = coupling::reduce_frame(frame, inside("free-interface", 10));
     EXPECT_NE(statements_of(reduced).find("elastic modes with the interface free below it, and as many are found"),
               std::string::npos)
         << statements_of(reduced);
@@ -132,7 +132,7 @@ TEST(FreeInterfaceModes, PassedOverAreCountedSearchedForAndFound)
   frame.interfaces = {{"corner", {}, {0, -1, -1, -1, -1, -1}, {1., 1., 1., 1., 1., 1.}}};
   const auto exact = cube_frequencies(9);
 
-  const auto                      basis = coupling::craig_bampton_basis(frame, 0);
+  const auto                      basis = test::basis_with_modes(frame, 0);
   coupling::FixedInterfaceFrame   held(frame, {0});
   coupling::BlockLanczos::Options options;
   options.block = 1;
@@ -158,9 +158,9 @@ TEST(FreeInterfaceModes, PassedOverAreCountedSearchedForAndFound)
 TEST(InnerShapes, KeepUnitMassAndDiagonalStiffness)
 {
   const auto frame = floating();
-  for (const auto &options : {inside(InnerModes::interface_free, 6, true), inside(InnerModes::interface_held, 6, true)})
+  for (const auto &options : {inside("free-interface", 6, true), inside("craig-bampton", 6, true)})
   {
-    const auto      reduced = coupling::craig_bampton_with_basis(frame, options);
+    const auto      reduced = coupling::reduce_with_basis(frame, options);
     const MatrixXd &T       = reduced.basis.T;
     const MatrixXd  M = T.transpose() * frame.M * T, C = T.transpose() * frame.C * T;
     EXPECT_EQ(T.cols(), 12 + 6 + 6);
@@ -188,7 +188,7 @@ TEST(InertiaRelief, MakesStaticsOfAFloatingFrameExactWithoutAnyMode)
 
   const auto error = [&](const ReductionOptions &options)
   {
-    const auto      reduced = coupling::craig_bampton_with_basis(frame, options);
+    const auto      reduced = coupling::reduce_with_basis(frame, options);
     const MatrixXd &T       = reduced.basis.T;
     // the rigid motions lie in the space of T: their coordinates are those of q1, and none of the modes
     MatrixXd R                    = MatrixXd::Zero(T.cols(), 6);
@@ -196,17 +196,17 @@ TEST(InertiaRelief, MakesStaticsOfAFloatingFrameExactWithoutAnyMode)
     const VectorXd p              = relieved(reduced.frame.C, reduced.frame.M, R, T.transpose() * f);
     return (T * p - exact).norm() / exact.norm();
   };
-  EXPECT_LT(error(inside(InnerModes::interface_held, 0, true)), 1e-9);
-  EXPECT_LT(error(inside(InnerModes::interface_free, 3, true)), 1e-9);
-  EXPECT_GT(error(inside(InnerModes::interface_held, 0)), 1e-3);
+  EXPECT_LT(error(inside("craig-bampton", 0, true)), 1e-9);
+  EXPECT_LT(error(inside("free-interface", 3, true)), 1e-9);
+  EXPECT_GT(error(inside("craig-bampton", 0)), 1e-3);
 }
 
 TEST(InertiaRelief, CarriesTheWeightOfASupportedFrame)
 {
   const auto frame = frame_of(Lattice());
-  EXPECT_GT(coupling::craig_bampton(frame, inside(InnerModes::interface_held, 5)).static_residual, 0.01);
+  EXPECT_GT(coupling::reduce_frame(frame, inside("craig-bampton", 5)).static_residual, 0.01);
   // the square root of what rounding leaves of one
-  EXPECT_LT(coupling::craig_bampton(frame, inside(InnerModes::interface_held, 5, true)).static_residual, 1e-6);
+  EXPECT_LT(coupling::reduce_frame(frame, inside("craig-bampton", 5, true)).static_residual, 1e-6);
 }
 
 } // namespace

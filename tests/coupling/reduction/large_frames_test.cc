@@ -1,6 +1,8 @@
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +28,7 @@ fem::FrameMatrices large_frame()
 TEST(FixedInterfaceModes, AreOrthonormalAndZeroOnTheInterface)
 {
   const auto     frame = large_frame();
-  const auto     basis = coupling::craig_bampton_basis(frame, 30);
+  const auto     basis = test::basis_with_modes(frame, 30);
   const MatrixXd V     = basis.fixed_modes();
   EXPECT_LT((V.transpose() * frame.M * V - MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff(), 1e-9);
   const MatrixXd C = V.transpose() * frame.C * V;
@@ -38,10 +40,10 @@ TEST(FixedInterfaceModes, AreOrthonormalAndZeroOnTheInterface)
 TEST(FixedInterfaceModes, FoundInTwoBatchesAreThoseFoundInOne)
 {
   const auto                 frame   = large_frame();
-  const auto                 at_once = coupling::craig_bampton_basis(frame, 45);
+  const auto                 at_once = test::basis_with_modes(frame, 45);
   coupling::ReductionOptions options;
   options.tolerance  = 1e-4; // needs more than the first thirty
-  const auto reduced = craig_bampton(frame, options);
+  const auto reduced = reduce_frame(frame, options);
   const int  m       = std::min<int>(45, reduced.omega0.size());
   ASSERT_GT(m, 30);
   for (int j = 0; j < m; ++j)

@@ -1,10 +1,12 @@
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/machine/dense_base.h"
 #include "coupling/modes/modes.h"
 #include "coupling/reduction/estimates/refined_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +20,8 @@ namespace gestell
 namespace
 {
 
-using coupling::craig_bampton;
 using coupling::dense_modes;
+using coupling::reduce_frame;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::frame_of;
@@ -121,8 +123,8 @@ TEST(ModalDamping, ForTheSameModesIsTheSameOperatorInTheFullAndInTheReducedModel
   auto      frame           = without_dampers(Lattice());
   const int n2              = int(frame.M.rows() - frame.interface_coordinates().size());
   frame.modal_damping_ratio = 0.02;
-  const auto reduced        = craig_bampton(frame, with_modes(n2)); // all modes: T is a change of coordinates
-  const auto basis          = coupling::craig_bampton_basis(frame, n2);
+  const auto reduced        = reduce_frame(frame, with_modes(n2)); // all modes: T is a change of coordinates
+  const auto basis          = test::basis_with_modes(frame, n2);
   coupling::add_modal_damping(frame, int(frame.M.rows()));
   const auto    &damping = frame.modal_damping;
   const MatrixXd TZ      = basis.T.transpose() * damping.Z;
@@ -134,7 +136,7 @@ TEST(ModalDamping, OfTheReducedModelIsTheRatioWithinTheErrorOfItsModes)
 {
   auto frame                = without_dampers(Lattice());
   frame.modal_damping_ratio = 0.02;
-  const auto reduced        = craig_bampton(frame, with_modes(40));
+  const auto reduced        = reduce_frame(frame, with_modes(40));
   const auto lines          = coupling::DenseBase(reduced.M, reduced.B, reduced.C, {}).spectrum();
   ASSERT_EQ(reduced.frequency_error.size(), Eigen::Index(lines.size()));
   // a mode with frequency error e meets its refined self up to an angle of the order of sqrt(2 e)
@@ -148,8 +150,8 @@ TEST(ModalDamping, LeavesRigidMotionsOfAFloatingFrameAlone)
   lattice.foundation        = 0.;
   auto frame                = without_dampers(lattice);
   frame.modal_damping_ratio = 0.05;
-  const auto reduced        = craig_bampton(frame, with_modes(20));
-  const auto R = coupling::craig_bampton_basis(frame, 20).T.householderQr().solve(frame.rigid_motions).eval();
+  const auto reduced        = reduce_frame(frame, with_modes(20));
+  const auto R              = test::basis_with_modes(frame, 20).T.householderQr().solve(frame.rigid_motions).eval();
   EXPECT_LT((R.transpose() * reduced.B * R).norm(), 1e-12 * reduced.B.norm() * R.squaredNorm());
   EXPECT_LT((R.transpose() * reduced.C * R).norm(), 1e-12 * reduced.C.norm() * R.squaredNorm());
   EXPECT_EQ(reduced.frequencies_hz.head(6).norm(), 0.);
@@ -161,7 +163,7 @@ TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
 {
   const auto     frame   = frame_of(Lattice());
   const VectorXd exact   = dense_modes(frame.C, frame.M).omega;
-  const auto     reduced = craig_bampton(frame, with_modes(12));
+  const auto     reduced = reduce_frame(frame, with_modes(12));
   for (int j = 0; j < 10; ++j)
   {
     const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
@@ -174,7 +176,7 @@ TEST(ErrorEstimate, GivesRefinedFrequenciesBetweenThoseOfTheFullFrameAndTheReduc
 {
   const auto        frame   = frame_of(Lattice());
   const VectorXd    exact   = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
-  const auto        reduced = craig_bampton(frame, with_modes(12));
+  const auto        reduced = reduce_frame(frame, with_modes(12));
   coupling::Machine machine;
   machine.set_frame(reduced);
   machine.finish();
@@ -195,12 +197,12 @@ TEST(AutomaticNumber, KeepsTheFirstTwelveFrequenciesWithinTheToleranceWithTheFew
   for (const double tolerance : {0.05, 0.005, 0.0005})
   {
     options.tolerance  = tolerance;
-    const auto reduced = craig_bampton(frame, options);
+    const auto reduced = reduce_frame(frame, options);
     const int  m       = int(reduced.omega0.size());
     const auto worst   = [&](const VectorXd &found)
     { return (found.head(12) - exact.head(12)).cwiseQuotient(exact.head(12)).maxCoeff(); };
     EXPECT_LE(worst(reduced.frequencies_hz), 1.1 * tolerance); // the estimate is no bound, but close
-    EXPECT_GE(worst(craig_bampton(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
+    EXPECT_GE(worst(reduce_frame(frame, with_modes(m - 1)).frequencies_hz), 0.9 * tolerance) << m;
     EXPECT_GE(m, previous);
     EXPECT_TRUE(reduced.notes.empty());
     previous = m;
@@ -213,7 +215,7 @@ TEST(AutomaticNumber, TellsWhereItStopsShort)
   options.frequency = 400.; // more than 200 modes lie below 1.5 times as much
   Lattice lattice;
   lattice.nx = 9, lattice.ny = 5, lattice.nz = 9;
-  const auto reduced = craig_bampton(frame_of(lattice), options);
+  const auto reduced = reduce_frame(frame_of(lattice), options);
   ASSERT_EQ(reduced.notes.size(), 1u);
   EXPECT_NE(reduced.notes[0].find("above the tolerance"), std::string::npos) << reduced.notes[0];
   ASSERT_EQ(reduced.statements.size(), 1u) << "that no mode is missing is no warning";

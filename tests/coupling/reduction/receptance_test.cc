@@ -1,5 +1,5 @@
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/lattice.h"
 
@@ -123,7 +123,7 @@ TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanT
   coupling::ReductionOptions options;
   options.tolerance    = tolerance;
   options.frequency    = c.highest_hz;
-  const auto     model = craig_bampton(c.frame, options);
+  const auto     model = reduce_frame(c.frame, options);
   const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
   const auto     q1    = c.frame.interface_coordinates();
   const int      m     = int(model.omega0.size());
@@ -141,7 +141,7 @@ TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanT
   const double found = error_of(model);
   EXPECT_LE(found, 1.01 * tolerance);                                        // the grids differ
   for (int few = (2 * m - 1) / 3; few > 0 && few < m - 1; few = few * 2 / 3) // 1.5 times as many are less than m
-    EXPECT_GT(error_of(craig_bampton(c.frame, with_modes(few))), tolerance) << few << " do where " << m << " are taken";
+    EXPECT_GT(error_of(reduce_frame(c.frame, with_modes(few))), tolerance) << few << " do where " << m << " are taken";
 
   ASSERT_FALSE(model.statements.empty());
   EXPECT_NE(model.statements[0].find("keep the receptance of the interface up to"), std::string::npos)
@@ -205,12 +205,12 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
     const VectorXd scale = M.diagonal().head(first.size()).cwiseSqrt();
     return error(direct(M, B, C, first, omegas), exact, scale);
   };
-  const auto   model = craig_bampton(frame, options);
+  const auto   model = reduce_frame(frame, options);
   const double found = error_of(model.M, model.B, model.C);
   ASSERT_FALSE(model.statements.empty());
   const double told = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
   frame.B.setZero();
-  const auto     without = craig_bampton_with_basis(frame, options);
+  const auto     without = reduce_with_basis(frame, options);
   const MatrixXd B       = without.basis.T.transpose() * (frame_of(lattice).B * without.basis.T);
   if (strength > 1.)
   {
@@ -242,7 +242,7 @@ TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
       frame.M.coeffRef(i, i) = 0.;
   coupling::ReductionOptions options;
   options.frequency = highest / two_pi;
-  const auto model  = craig_bampton(frame, options);
+  const auto model  = reduce_frame(frame, options);
   ASSERT_LT(model.omega0(model.omega0.size() - 1), highest) << "or the test shows nothing";
 
   std::vector<double> omegas;
@@ -276,7 +276,7 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
   {
     auto options         = with_modes(m);
     options.frequency    = c.highest_hz;
-    const auto     model = craig_bampton(c.frame, options);
+    const auto     model = reduce_frame(c.frame, options);
     const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
     ASSERT_FALSE(model.statements.empty());
     const auto       at   = model.statements[0].find("within ");
@@ -309,7 +309,7 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   const Case c       = make_case(3e6, 10);
   auto       options = with_modes(2);
   options.frequency  = c.highest_hz;
-  const auto model   = craig_bampton(c.frame, options);
+  const auto model   = reduce_frame(c.frame, options);
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
       << model.notes[0];
@@ -317,18 +317,18 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   EXPECT_NEAR(told, model.omega0[1] / (2. * M_PI), 1e-2 * told) << "rounded";
   EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
 
-  EXPECT_NE(craig_bampton(c.frame,
-                          [&]
-                          {
-                            auto none    = options;
-                            none.n_modes = 0;
-                            return none;
-                          }())
+  EXPECT_NE(reduce_frame(c.frame,
+                         [&]
+                         {
+                           auto none    = options;
+                           none.n_modes = 0;
+                           return none;
+                         }())
                 .notes[0]
                 .find("no fixed-interface modes are kept"),
             std::string::npos);
   options.n_modes = 40;
-  EXPECT_TRUE(craig_bampton(c.frame, options).notes.empty());
+  EXPECT_TRUE(reduce_frame(c.frame, options).notes.empty());
 }
 
 } // namespace

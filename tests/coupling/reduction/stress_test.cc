@@ -1,7 +1,7 @@
 // Stresses of a reduced frame against those of the full one.
 
 #include "coupling/frame/stress_field.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
@@ -55,7 +55,7 @@ ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
 {
   coupling::ReductionOptions options;
   options.n_modes = modes;
-  return coupling::craig_bampton(frame, options);
+  return coupling::reduce_frame(frame, options);
 }
 
 /// Largest difference over the largest stress.  Columns in single precision are rounded to 6e-8; stresses of unit

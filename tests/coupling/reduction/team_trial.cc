@@ -5,7 +5,7 @@
 #include "coupling/parallel/obey.h"
 #include "coupling/parallel/team.h"
 #include "coupling/parallel/team_factor.h"
-#include "coupling/reduction/craig_bampton.h"
+#include "coupling/reduction/reduce_frame.h"
 #include "tests/support/lattice.h"
 
 #include <cmath>
@@ -128,7 +128,7 @@ void exhaust_modes()
     {
       gestell::coupling::ReductionOptions options;
       options.n_modes    = count;
-      const auto reduced = gestell::coupling::craig_bampton(frame, options);
+      const auto reduced = gestell::coupling::reduce_frame(frame, options);
       std::cout << count << " of 21 modes found: " << reduced.omega0.size() << ", " << reduced.statements.front()
                 << std::endl;
     }
@@ -147,7 +147,7 @@ void reduce_without_modes()
   frame.B.setZero();
   gestell::coupling::ReductionOptions options;
   options.frequency  = 0.5;
-  const auto reduced = gestell::coupling::craig_bampton(frame, options);
+  const auto reduced = gestell::coupling::reduce_frame(frame, options);
   std::cout << reduced.omega0.size() << " modes: " << reduced.statements.front() << std::endl;
 }
 
@@ -163,16 +163,13 @@ int lead(const std::string &how)
     compare_with_one_process(*team);
   try
   {
-    Trial trial{how};
-    team->together(trial);
-    std::cout << trial.sum << " ranks took part" << std::endl;
+    std::cout << team->together(Trial{how}).sum << " ranks took part" << std::endl;
   }
   catch (const std::invalid_argument &error)
   {
     std::cout << "told: " << error.what() << std::endl;
   }
-  Trial next{"sound"}; // after a failure all are on speaking terms
-  team->together(next);
+  const Trial next = team->together(Trial{"sound"}); // after a failure all are on speaking terms
   std::cout << "then " << next.sum << " ranks took part" << std::endl;
   team->ranks().order(0);
   return 0;

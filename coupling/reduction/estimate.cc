@@ -1,0 +1,57 @@
+#include "coupling/reduction/estimate.h"
+
+#include "coupling/reduction/estimates/mode_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// As many of the model's own modes as it has exactly.
+RefinedModes exact_modes(const RefinedModes &ritz, Eigen::Index known)
+{
+  const auto kept = std::min(known, ritz.omega.size());
+  return {ritz.n_rigid, ritz.omega.head(kept), ritz.P.leftCols(kept)};
+}
+
+} // namespace
+
+ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
+                           const ReductionOptions &options)
+{
+  const int    n1 = space.basis.n1(), m = space.basis.m();
+  RefinedModes damped = completed || space.exact ? ritz_modes(star, space.refined.n_rigid) : space.refined;
+  if (!space.exact)
+    return {frequency_estimate(star, n1, m, space.refined), std::move(damped), space.limit};
+  const RefinedModes exact = exact_modes(damped, space.exact->size());
+  const auto         kept  = exact.omega.size();
+  const double       limit = kept > 0 ? std::min((*space.exact)[kept - 1], highest_of_interest(options, damped)) : 0.;
+  return {frequency_estimate(star, n1, m, exact), std::move(damped), limit};
+}
+
+StaticRemainder static_remainder(const MatrixXd &deflection, const ReductionBasis &basis, const MatrixXd &load)
+{
+  MatrixXd f2 = load;
+  for (const int i : basis.q1)
+    f2.row(i).setZero();
+  StaticRemainder remainder{deflection};
+  const VectorXd  energy    = (f2.array() * remainder.deflection.array()).colwise().sum();
+  const auto      stiffness = basis.omega0.array().square().matrix();
+  const MatrixXd  modal     = stiffness.asDiagonal().inverse() * (basis.fixed_modes().transpose() * f2);
+  remainder.deflection -= basis.fixed_modes() * modal;
+  const VectorXd left = (f2.array() * remainder.deflection.array()).colwise().sum();
+  for (int d = 0; d < load.cols(); ++d)
+    if (energy(d) > 0.)
+      remainder.relative = std::max(remainder.relative, std::sqrt(std::max(0., left(d) / energy(d))));
+  return remainder;
+}
+
+} // namespace gestell::coupling

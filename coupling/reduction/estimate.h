@@ -1,0 +1,40 @@
+#pragma once
+
+#include "coupling/frame/reduction_options.h"
+#include "coupling/reduction/methods/reduction_space.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/// What is known about a reduced model.
+struct ReductionEstimate
+{
+  FrequencyEstimate frequencies; ///< of the model, and their errors
+  RefinedModes      damped;      ///< modes that a modal damping ratio refers to
+  double            limit;       ///< [rad/s] up to which the model is meant to hold
+};
+
+/**
+ * Error of the frequencies by what the method knows of the frame's modes, refined or exact.
+ *
+ * @param star       of the whole basis.
+ * @param completed  whether attachment modes joined it: then damping refers to the model's own modes.
+ */
+ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
+                           const ReductionOptions &options);
+
+/// What the modes leave out of the static deflection of q2 under loads f [n x k]:  C22^-1 f2 - V22 diag(1/omega_0^2)
+/// V22^T f2.
+struct StaticRemainder
+{
+  Eigen::MatrixXd deflection;    ///< [n x k], zero in q1
+  double          relative = 0.; ///< of the energy norm of C22^-1 f2; the worst load
+};
+
+/// @param deflection C22^-1 f2.
+StaticRemainder static_remainder(const Eigen::MatrixXd &deflection, const ReductionBasis &basis,
+                                 const Eigen::MatrixXd &load);
+
+} // namespace gestell::coupling

@@ -1,0 +1,115 @@
+#include "coupling/reduction/methods/craig_bampton.h"
+
+#include "coupling/integration/system/second_order_system.h"
+#include "coupling/reduction/estimates/mode_selection.h"
+#include "coupling/reduction/methods/reduction_space.h"
+#include "coupling/reduction/shapes/fixed_interface_modes.h"
+#include "coupling/reduction/shapes/interface_statics.h"
+#include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
+
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr int most_rounds = 4; // of finding modes that were missing
+
+/// Of modes that end below the highest frequency of interest.
+void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
+{
+  const int    m       = space.basis.m();
+  const double highest = m > 0 ? space.basis.omega0(m - 1) / two_pi : 0.;
+  if (options.frequency <= highest || space.basis.T.cols() == space.basis.T.rows())
+    return;
+  space.notes.push_back(
+      "reduction: " +
+      (m == 0 ? std::string("no fixed-interface modes are kept")
+              : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has " + rounded(highest) +
+                    " Hz") +
+      ", but frequency = " + rounded(options.frequency) +
+      " Hz: near and above the highest the model does not hold, and its error there is not known; ask for "
+      "more modes, or leave modes out, so that the tolerance chooses their number");
+}
+
+/// The error of a number of modes that was given, where the modes reach beyond the frequency of interest.
+void state_receptance(ReductionSpace &space, const InterfaceStatics &statics, const fem::FrameMatrices &frame,
+                      const ReductionOptions &options)
+{
+  const ReductionBasis &basis  = space.basis;
+  const int             m      = basis.m();
+  const double          within = two_pi * options.frequency;
+  if (!(within > 0.) || basis.n1() == 0 || m == 0 || within >= basis.omega0(m - 1))
+    return;
+  const InterfaceReceptance receptance(basis, space.star, statics.response, space.refined, frame.modal_damping_ratio,
+                                       within);
+  const std::string statement = receptance_statement(receptance, basis, frame.interfaces, {m}, options.frequency);
+  if (has_inner_dampers(basis, frame.B))
+    space.notes.push_back(statement +
+                          "; dampers inside the frame are left out of this: leave modes out, and shapes for them join");
+  else
+    space.statements.push_back(statement);
+}
+
+/// With as many modes as the tolerance asks for.
+ReductionSpace chosen(FixedInterfaceModes &fixed, InterfaceStatics &statics, const fem::FrameMatrices &frame,
+                      const ReductionOptions &options)
+{
+  ReductionSpace space{std::move(statics.basis)};
+  auto           selection = select_modes(space.basis, fixed, statics, frame, options);
+  space.refined            = std::move(selection.refined);
+  space.attachment         = std::move(selection.shapes);
+  space.notes              = std::move(selection.notes);
+  if (!selection.statement.empty())
+    space.statements.push_back(selection.statement);
+  statics.begin("reduced matrices");
+  space.star = reduced_matrices(space.basis, frame.B, frame.C);
+  return space;
+}
+
+/// With options.n_modes modes.
+ReductionSpace counted(FixedInterfaceModes &fixed, InterfaceStatics &statics, const fem::FrameMatrices &frame,
+                       const ReductionOptions &options)
+{
+  ReductionSpace space{std::move(statics.basis)};
+  statics.begin("fixed-interface modes");
+  fixed.find(options.n_modes);
+  fixed.finish();
+  space.basis.set_modes(fixed.found().V.leftCols(options.n_modes), fixed.found().omega.head(options.n_modes));
+  statics.begin("reduced matrices");
+  space.star    = reduced_matrices(space.basis, frame.B, frame.C);
+  space.refined = refined_modes(space.basis, space.star, statics.response, frame);
+  state_receptance(space, statics, frame, options);
+  warn_of_few_modes(space, options);
+  return space;
+}
+
+} // namespace
+
+ReductionSpace CraigBampton::basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                                   InterfaceStatics &statics)
+{
+  FixedInterfaceModes fixed(statics.held, frame, statics.basis.q1);
+  for (int round = 0; round < most_rounds; ++round)
+  {
+    ReductionSpace space = (options.n_modes < 0 ? chosen : counted)(fixed, statics, frame, options);
+    statics.begin("count of the modes");
+    if (!fixed.confirm())
+    {
+      statics.basis = std::move(space.basis);
+      continue;
+    }
+    if (!fixed.statement().empty())
+      space.statements.push_back(fixed.statement());
+    space.limit = highest_of_interest(options, space.refined);
+    return space;
+  }
+  throw ConvergenceFailure(
+      "reduction: in " + std::to_string(most_rounds) +
+      " rounds some fixed-interface modes were missing each time; ask for another number of modes");
+}
+
+} // namespace gestell::coupling

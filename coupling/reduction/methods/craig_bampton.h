@@ -1,0 +1,33 @@
+#pragma once
+
+#include "coupling/reduction/methods/reduction_entry.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * Fixed-interface reduction of a linear frame (Craig-Bampton, after Kaltofen 5.5.3/14-23).
+ *
+ *     q = [ q1 ]  =  T p,     T = [     E          0  ]
+ *         [ q2 ]                  [ -C22^-1 C21   V22 ]
+ *
+ * q1, the coordinates of all interfaces, stays physical, so mechanisms attach to it unchanged; deflection under static
+ * interface loads is exact for any number of modes.  One Cholesky factor of C22 serves all steps.
+ *
+ * Automatic number of modes (options.n_modes < 0): see select_modes().  That none is missing is proved by inertia, see
+ * SturmCheckedModes.
+ *
+ * Source: Craig & Bampton, AIAA Journal 6(7), 1968, 1313-1319; docs/theory/reduction.md.
+ */
+struct CraigBampton
+{
+  static ReductionEntry entry()
+  {
+    return {"craig-bampton",
+            "static shapes of the interface and modes with the interface held",
+            {"tolerance", "modes", "frequency", "inside", "eigensolver", "inertia_relief"}};
+  }
+  static BasisFunction basis;
+};
+
+} // namespace gestell::coupling

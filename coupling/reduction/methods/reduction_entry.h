@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gestell::fem
+{
+struct FrameMatrices;
+}
+
+namespace gestell::coupling
+{
+
+struct InterfaceStatics;
+struct ReductionOptions;
+struct ReductionSpace;
+
+/// A way to reduce a frame, as scenes name it.
+struct ReductionEntry
+{
+  std::string              name;  ///< reduction.method = "condensation"
+  std::string              title; ///< one clause
+  std::vector<std::string> keys;  ///< of [reduction] that it takes beside `method`
+
+  bool takes(const std::string &key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
+};
+
+/// T with its known structure.  Statics are consumed: their basis becomes that of the space, their factor is released.
+using BasisFunction = ReductionSpace(const fem::FrameMatrices &frame, const ReductionOptions &options,
+                                     InterfaceStatics &statics);
+
+} // namespace gestell::coupling

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "coupling/reduction/estimates/refined_modes.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * The columns of T that a method has chosen, and what it knows of the modes of the frame as supported, interface free.
+ *
+ * Their structure is what lets all reductions share one projection: E and zeros on the rows of q1, constraint modes
+ * orthogonal in C to all others, the others orthonormal in M and orthogonal in C (ReductionBasis).
+ */
+struct ReductionSpace
+{
+  ReductionBasis  basis;        ///< constraint modes, and fixed-interface modes or none
+  Eigen::MatrixXd attachment{}; ///< shapes [n x k], zero on q1, to join them: append_attachment_modes()
+  ReducedMatrices star{};       ///< of `basis` alone, where the method has made them
+
+  RefinedModes                   refined{};        ///< better than the model has them; n_rigid at least
+  std::optional<Eigen::VectorXd> exact{};          ///< in place of it frequencies that the model has exactly [rad/s]
+  double                         limit = INFINITY; ///< [rad/s] up to which the model is meant to hold
+
+  std::vector<std::string> statements{}, notes{};
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,138 @@
+#include "coupling/reduction/projection.h"
+
+#include "fem/assembly/rigid_body_modes.h"
+#include "fem/assembly/rigid_motions.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
+
+/// Interfaces with their coordinates counted in p.
+std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, const std::vector<int> &q1)
+{
+  for (auto &interface : interfaces)
+    for (int &i : interface.coordinate)
+      if (i >= 0)
+        i = int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin());
+  return interfaces;
+}
+
+/// One column at a time: the stresses of the whole basis in double precision would be the largest thing in memory.
+void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const MatrixXd &T, const MatrixXd &remainder)
+{
+  if (stress.empty())
+    return;
+  reduced.point     = stress.point;
+  reduced.triangles = stress.triangles;
+  reduced.rigid     = stress.rigid;
+  reduced.beside    = stress.beside;
+  const auto add    = [&](fem::StressOf which, Eigen::MatrixXf &to)
+  {
+    to.setZero(fem::stress_components * Eigen::Index(stress.point.size()), T.cols() + 3);
+    for (Eigen::Index j = 0; j < T.cols(); ++j)
+      to.col(j) = fem::stresses(stress, T.col(j), which).cast<float>();
+    for (Eigen::Index j = 0; j < remainder.cols(); ++j)
+      to.col(T.cols() + j) = fem::stresses(stress, remainder.col(j), which).cast<float>();
+  };
+  add(fem::StressOf::mean, reduced.mean);
+  add(fem::StressOf::deviation, reduced.deviation);
+}
+
+/// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
+void damp(MatrixXd &B, const RefinedModes &refined, const fem::ModalRatios &zeta)
+{
+  const auto n = B.rows(), p = std::min<Eigen::Index>(refined.omega.size(), n);
+  const auto P = refined.P.topLeftCorner(n, p);
+  B += P * zeta.modal_dampers(refined.omega.head(p)).asDiagonal() * P.transpose();
+}
+
+void project_outputs(ReducedFrame &reduced, const fem::FrameMatrices &frame, const MatrixXd &T, const MatrixXd &beyond)
+{
+  for (const auto &output : frame.outputs)
+  {
+    auto row = output;
+    row.on_q = T.transpose() * output.on_q;
+    row.on_v = T.transpose() * output.on_v;
+    if (beyond.cols() > 0)
+      row.under_acceleration += beyond.transpose() * output.on_q;
+    reduced.outputs.push_back(row);
+  }
+}
+
+void project_picture(ReducedFrame &reduced, const fem::Picture &picture, const MatrixXd &T)
+{
+  reduced.points    = picture.points;
+  reduced.triangles = picture.triangles;
+  if (picture.displacement.rows() > 0)
+    reduced.displacement = (picture.displacement * T).cast<float>();
+}
+
+/// Takes out of C* what rounding left along the rigid motions [R_1; 0] of the frame: C* <- (E - Q Q^T) C* (E - Q Q^T).
+/// Without it a machine that floats would swing or drift on it.
+void free_rigid_motions(MatrixXd &C, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  const MatrixXd R1 = fem::free_displacements(frame)(q1, Eigen::all);
+  const auto     n1 = R1.rows(), k = R1.cols();
+  if (k == 0 || k > n1)
+    return;
+  MatrixXd Q    = MatrixXd::Zero(C.rows(), k);
+  Q.topRows(n1) = Eigen::HouseholderQR<MatrixXd>(R1).householderQ() * MatrixXd::Identity(n1, k);
+  C             = (C - Q * (Q.transpose() * C)).eval();
+  C             = (C - (C * Q) * Q.transpose()).eval();
+  C             = (0.5 * (C + C.transpose())).eval();
+  if (k < n1)
+    return;
+  C.topRows(n1).setZero(); // every motion of the interface is rigid
+  C.leftCols(n1).setZero();
+}
+
+} // namespace
+
+ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basis, ReducedMatrices star,
+                     const RefinedModes &damped, const MatrixXd &load, const MatrixXd &beyond)
+{
+  ReducedFrame reduced;
+  reduced.M = std::move(star.M);
+  reduced.B = std::move(star.B);
+  reduced.C = std::move(star.C);
+  if (frame.modal_damping_ratio.any())
+    damp(reduced.B, damped, frame.modal_damping_ratio);
+  reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
+  if (load.cols() > 0)
+    reduced.translations_load = basis.T.transpose() * load;
+  reduced.interfaces  = renumbered(frame.interfaces, basis.q1);
+  reduced.n_interface = basis.n1();
+  reduced.omega0      = basis.omega0;
+  project_outputs(reduced, frame, basis.T, beyond);
+  project_picture(reduced, frame.picture, basis.T);
+  add_stress(reduced.stress, frame.stress, basis.T, beyond);
+  reduced.facts   = frame.facts;
+  reduced.n_full  = int(frame.M.rows());
+  reduced.n_cells = frame.n_cells;
+  reduced.mass    = frame.mass;
+  return reduced;
+}
+
+void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+{
+  VectorXd &frequencies = reduced.frequencies_hz;
+  if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
+    return;
+  reduced.facts.free_motions = fem::free_motions(frame, {});
+  free_rigid_motions(reduced.C, frame, q1);
+  frequencies.head(std::min(frequencies.size(), Eigen::Index(reduced.facts.free_motions.size()))).setZero();
+}
+
+} // namespace gestell::coupling

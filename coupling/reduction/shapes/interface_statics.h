@@ -1,0 +1,34 @@
+#pragma once
+
+#include "coupling/frame/reduction_options.h"
+#include "coupling/reduction/shapes/fixed_interface_frame.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+#include "coupling/reduction/shapes/residual_flexibility.h"
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/// T without modes.
+ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame);
+
+/// What every reduction starts from: the factor of C22, the static shapes of the interface, and deflections that do not
+/// depend on modes.
+struct InterfaceStatics
+{
+  /// The frame must outlive it.
+  /// @throws std::invalid_argument if a motion is free while the interface is held.
+  InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress);
+
+  void begin(const char *phase, double share = -1.) const; ///< tells progress
+
+  Progress            progress;
+  FixedInterfaceFrame held;
+  ReductionBasis      basis;    ///< constraint modes only
+  Eigen::MatrixXd     load;     ///< [n x 3] of a unit acceleration in x, y, z, or [n x 0]
+  ResidualFlexibility response; ///< to the inertia of constraint modes, and to the load
+  Eigen::MatrixXd     relief;   ///< shapes [n x 6, 3 or 0], see inertia_relief_shapes()
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,67 @@
+#include "apps/scene/scene.h"
+#include "coupling/reduction/reductions.h"
+#include "tests/support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace
+{
+
+using namespace gestell;
+using coupling::Reductions;
+
+std::string reduced_by(const std::string &method, const std::string &lines = "")
+{
+  return test::small_scene("[run]", "[reduction]\nmethod = \"" + method + "\"\n" + lines + "[run]");
+}
+
+apps::ReductionRequest read(const std::string &text)
+{
+  const test::SceneFolder folder;
+  return apps::read_scene(folder.write("scene.toml", text)).reduction;
+}
+
+TEST(ReductionMethods, OfTheTableAreThoseOfScenes)
+{
+  for (const auto &entry : Reductions::entries())
+  {
+    const auto request = read(reduced_by(entry.name));
+    EXPECT_EQ(request.method, entry.name);
+    EXPECT_EQ(request.options.method, request.reduces() ? entry.name : "craig-bampton") << "of the companion";
+  }
+  EXPECT_NE(test::complaint(reduced_by("guyan")).find("craig-bampton"), std::string::npos);
+}
+
+TEST(ReductionMethods, TakeTheirOwnKeysAndRefuseThoseOfOthers)
+{
+  const std::map<std::string, std::string> values = {{"tolerance", "0.02"},         {"modes", "1"},
+                                                     {"frequency", "20"},           {"inside", "\"fixed-interface\""},
+                                                     {"eigensolver", "\"lobpcg\""}, {"inertia_relief", "true"}};
+  for (const auto &method : Reductions::entries())
+  {
+    for (const std::string &key : method.keys)
+      EXPECT_TRUE(values.count(key)) << key;
+    for (const auto &[key, value] : values)
+    {
+      const std::string message = test::complaint(reduced_by(method.name, key + " = " + value + "\n"));
+      if (method.takes(key))
+        EXPECT_EQ(message, "") << method.name;
+      else
+      {
+        EXPECT_NE(message.find(key), std::string::npos) << message;
+        EXPECT_NE(message.find("method = \"" + method.name + "\""), std::string::npos) << message;
+      }
+    }
+  }
+}
+
+TEST(ReductionMethods, InsideFreeInterfaceIsTheMethodOfThatName)
+{
+  const auto inside = read(reduced_by("craig-bampton", "inside = \"free-interface\"\n"));
+  EXPECT_EQ(inside.options.method, read(reduced_by("free-interface")).options.method);
+  EXPECT_TRUE(inside.reduces());
+}
+
+} // namespace

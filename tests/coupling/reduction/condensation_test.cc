@@ -1,0 +1,161 @@
+// Static condensation (Guyan): the static shapes of the interface alone.
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/reduction/reduce_frame.h"
+#include "fem/values/two_pi.h"
+#include "tests/support/lattice.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+
+namespace gestell::test
+{
+namespace
+{
+
+using coupling::dense_modes;
+using coupling::ReductionOptions;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ReductionOptions condensed(double frequency = 0.)
+{
+  ReductionOptions options;
+  options.method    = "condensation";
+  options.frequency = frequency;
+  return options;
+}
+
+std::vector<int> inside_of(const fem::FrameMatrices &frame)
+{
+  const auto       q1 = frame.interface_coordinates();
+  std::vector<int> q2;
+  for (int i = 0; i < int(frame.M.rows()); ++i)
+    if (!std::binary_search(q1.begin(), q1.end(), i))
+      q2.push_back(i);
+  return q2;
+}
+
+bool tells(const std::vector<std::string> &texts, const std::string &part)
+{
+  return std::any_of(texts.begin(), texts.end(), [&](const std::string &t) { return t.find(part) != t.npos; });
+}
+
+TEST(Condensation, StiffnessIsTheSchurComplementOfTheInterface)
+{
+  const auto     frame = frame_of(Lattice());
+  const auto     q1 = frame.interface_coordinates(), q2 = inside_of(frame);
+  const MatrixXd C     = frame.C;
+  const MatrixXd exact = C(q1, q1) - C(q1, q2) * MatrixXd(C(q2, q2)).llt().solve(C(q2, q1));
+  const auto     found = coupling::reduce_frame(frame, condensed());
+
+  ASSERT_EQ(found.C.rows(), int(q1.size())); // nothing but the interface
+  EXPECT_EQ(found.omega0.size(), 0);
+  EXPECT_LT((found.C - exact).norm(), 1e-11 * exact.norm()); // condition of C22 some 1e3, times eps
+}
+
+TEST(Condensation, StaticReceptanceOfTheInterfaceIsThatOfTheFrame)
+{
+  const auto     frame   = frame_of(Lattice());
+  const auto     q1      = frame.interface_coordinates();
+  const MatrixXd exact   = MatrixXd(frame.C).inverse()(q1, q1);
+  const auto     reduced = coupling::reduce_frame(frame, condensed());
+  EXPECT_LT((reduced.C.inverse() - exact).norm(), 1e-10 * exact.norm());
+}
+
+TEST(Condensation, InertiaAndDampersFollowTheStaticShapes)
+{
+  const auto     frame = frame_of(Lattice());
+  const auto     model = coupling::reduce_with_basis(frame, condensed());
+  const MatrixXd T     = model.basis.T;
+  EXPECT_LT((model.frame.M - T.transpose() * frame.M * T).norm(), 1e-12 * model.frame.M.norm());
+  EXPECT_LT((model.frame.B - T.transpose() * frame.B * T).norm(), 1e-12 * model.frame.B.norm());
+}
+
+TEST(Condensation, FrequenciesComeFromAbove)
+{
+  const auto     frame   = frame_of(Lattice());
+  const VectorXd exact   = dense_modes(frame.C, frame.M).omega;
+  const auto     reduced = coupling::reduce_frame(frame, condensed());
+  const VectorXd found   = dense_modes(reduced.C, reduced.M).omega;
+  for (int j = 0; j < found.size(); ++j)
+    EXPECT_GE(found(j), exact(j) * (1. - 1e-10)) << j;                // min-max principle; 1e-10 for rounding
+  EXPECT_GT(found(found.size() - 1), 1.01 * exact(found.size() - 1)); // it is no exact model
+}
+
+TEST(Condensation, IsCraigBamptonWithoutModes)
+{
+  for (const double foundation : {3e6, 0.}) // held, and afloat
+  {
+    Lattice lattice;
+    lattice.foundation        = foundation;
+    lattice.damper            = foundation > 0. ? lattice.damper : 0.;
+    fem::FrameMatrices frame  = frame_of(lattice);
+    frame.modal_damping_ratio = 0.02;
+    for (const bool relief : {false, true})
+    {
+      ReductionOptions alone = condensed(), without_modes;
+      without_modes.n_modes  = 0;
+      alone.inertia_relief = without_modes.inertia_relief = relief;
+      const auto a = coupling::reduce_frame(frame, alone), b = coupling::reduce_frame(frame, without_modes);
+      EXPECT_EQ(a.M, b.M);
+      EXPECT_EQ(a.B, b.B);
+      EXPECT_EQ(a.C, b.C);
+      EXPECT_EQ(a.frequencies_hz, b.frequencies_hz);
+      EXPECT_EQ(a.translations_load, b.translations_load);
+      EXPECT_EQ(a.static_residual, b.static_residual);
+      EXPECT_EQ(a.omega0.size() > 0, relief);
+    }
+  }
+}
+
+TEST(Condensation, TellsModesOfTheInsideThatItLeavesOut)
+{
+  const auto     frame = frame_of(Lattice());
+  const auto     q2    = inside_of(frame);
+  const MatrixXd C = frame.C, M = frame.M;
+  const VectorXd held    = dense_modes(C(q2, q2), M(q2, q2)).omega / two_pi;
+  const auto     between = coupling::reduce_frame(frame, condensed(0.5 * (held(2) + held(3))));
+  EXPECT_TRUE(tells(between.notes, "the frame has 3 modes below")) << between.notes.size();
+  EXPECT_TRUE(tells(between.notes, "craig-bampton"));
+  EXPECT_NEAR(between.frequency_limit_hz, 0.5 * (held(2) + held(3)), 1e-12 * held(3));
+}
+
+TEST(Condensation, TellsHowFarItsFrequenciesHold)
+{
+  Lattice lattice;
+  lattice.foundation       = 3e5; // so soft that the lowest modes are those of a rigid block on it
+  const auto     frame     = frame_of(lattice);
+  const VectorXd exact     = dense_modes(frame.C, frame.M).omega / two_pi;
+  const auto     automatic = coupling::reduce_frame(frame, condensed());
+  const double   limit     = automatic.frequency_limit_hz;
+  ASSERT_GT(limit, 0.);
+  EXPECT_TRUE(tells(automatic.statements, "lie within 1 % above those of the frame"));
+  for (int j = 0; j < automatic.frequencies_hz.size() && exact(j) <= limit; ++j)
+    EXPECT_LE(automatic.frequencies_hz(j), 1.011 * exact(j)); // 1 %, and a tenth of it for the estimate
+  const auto beyond = coupling::reduce_frame(frame, condensed(3. * limit));
+  EXPECT_TRUE(tells(beyond.notes, "too high"));
+  EXPECT_FALSE(tells(beyond.statements, "lie within"));
+}
+
+TEST(Condensation, OfAFrameWithoutInterfacesIsRefused)
+{
+  auto frame = frame_of(Lattice());
+  frame.interfaces.clear();
+  try
+  {
+    coupling::reduce_frame(frame, condensed());
+    FAIL() << "taken";
+  }
+  catch (const std::invalid_argument &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("frame.interface"), std::string::npos) << error.what();
+  }
+}
+
+} // namespace
+} // namespace gestell::test
