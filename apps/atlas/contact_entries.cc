@@ -4,6 +4,7 @@
 #include "apps/atlas/trials.h"
 #include "apps/output/charts/log_chart.h"
 #include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/propagation/force_rule.h"
 #include "fem/values/number_text.h"
 #include "mechanism/elements/clearance.h"
 
@@ -16,7 +17,6 @@ namespace
 {
 
 using coupling::ForceRule;
-using coupling::Method;
 using coupling::MethodOptions;
 
 struct NamedMethod
@@ -35,32 +35,32 @@ NamedMethod bdf(int order)
 NamedMethod generalised_alpha(double rho_inf)
 {
   MethodOptions o;
-  o.method  = Method::generalised_alpha;
-  o.rho_inf = rho_inf;
+  o.method = "generalised-alpha";
+  o.set("rho_inf", rho_inf);
   return {"generalised alpha " + short_text(rho_inf), o};
 }
 
 NamedMethod exact(ForceRule force, int order, const std::string &name)
 {
   MethodOptions o;
-  o.method = Method::exact;
-  o.force  = force;
-  o.order  = order;
+  o.method = "exact";
+  o.set("force", force_rule_name(force));
+  o.order = order;
   return {"exact, " + name, o};
 }
 
 NamedMethod average_acceleration()
 {
   MethodOptions o;
-  o.method = Method::newmark;
+  o.method = "newmark";
   return {"average acceleration", o};
 }
 
 NamedMethod hht(double alpha)
 {
   MethodOptions o;
-  o.method = Method::hht;
-  o.alpha  = alpha;
+  o.method = "hht";
+  o.set("alpha", alpha);
   return {"HHT " + short_text(alpha), o};
 }
 
@@ -104,6 +104,36 @@ std::vector<double> flight_energy(const NamedMethod &method, double omega_contac
   return energy;
 }
 
+LogChart energy_chart()
+{
+  LogChart chart{"Kinetic energy in flight, ω_c h = 3",
+                 "step",
+                 "relative to the start",
+                 1.,
+                 double(flight_steps),
+                 1e-2,
+                 1e3,
+                 true,
+                 std::numeric_limits<double>::quiet_NaN(),
+                 {{"", {}}},
+                 {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 300.;
+  return chart;
+}
+
+LogCurve energy_curve(const std::string &name, const std::vector<double> &energy, int colour)
+{
+  LogCurve curve{name, {}, {}, colour, false};
+  for (std::size_t k = 0; k < energy.size(); k += 1 + k / 60)
+  {
+    curve.x.push_back(double(k));
+    curve.y.push_back(energy[k]);
+  }
+  return curve;
+}
+
 } // namespace
 
 AtlasEntry hard_contact()
@@ -120,7 +150,7 @@ AtlasEntry hard_contact()
       "along the way does exactly the work that the contact stores, p (u_1 - u_0) = V_0 - V_1, with every stiffness; "
       "over a kink as exactly as the mean is taken, in 128 pieces. Largest kinetic energy in flight over 4000 steps, "
       "relative to the start, and the one at "
-      "the end (the motion is chaotic: only the sizes tell something):",
+      "the end (the motion is chaotic: only orders of magnitude mean anything):",
       {},
       {},
       {}};
@@ -131,20 +161,7 @@ AtlasEntry hard_contact()
   entry.table = {{"method", "events"}};
   for (const double x : omega_h)
     entry.table[0].push_back("ω_c h = " + short_text(x));
-  LogChart chart{"Kinetic energy in flight, ω_c h = 3",
-                 "step",
-                 "relative to the start",
-                 1.,
-                 double(flight_steps),
-                 1e-2,
-                 1e3,
-                 true,
-                 std::numeric_limits<double>::quiet_NaN(),
-                 {{"", {}}},
-                 {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 300.;
+  LogChart chart = energy_chart();
   for (std::size_t m = 0; m < methods.size(); ++m)
     for (const bool locate : {false, true})
     {
@@ -157,20 +174,12 @@ AtlasEntry hard_contact()
         largest                          = std::max(largest, most);
         row.push_back(short_text(most, 1) + " / " + short_text(energy.back(), 1));
         // Over a kink each of the 128 pieces misses its mean by up to 128^-2, some hundred times in the run.
-        if (methods[m].options.method == Method::exact)
+        if (methods[m].options.method == "exact")
           entry.comparisons.push_back({"exact, average force, events " + std::string(locate ? "located" : "gone over") +
                                            ", energy at omega_c h = " + short_text(x),
                                        1., energy.back(), locate ? 1e-9 : 0.02});
         if (x == 3. && !locate)
-        {
-          LogCurve curve{methods[m].name, {}, {}, static_cast<int>(m), false};
-          for (std::size_t k = 0; k < energy.size(); k += 1 + k / 60)
-          {
-            curve.x.push_back(double(k));
-            curve.y.push_back(energy[k]);
-          }
-          chart.panels[0].curves.push_back(curve);
-        }
+          chart.panels[0].curves.push_back(energy_curve(methods[m].name, energy, static_cast<int>(m)));
       }
       if (m < 3 && !locate) // 1: it grew
         entry.comparisons.push_back({methods[m].name + " gains energy (1: yes)", 1., largest > 1.05 ? 1. : 0., 0.});
@@ -230,6 +239,49 @@ double slope(const std::vector<double> &step, const std::vector<double> &error)
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
+LogChart error_chart(const std::string &title)
+{
+  LogChart chart{
+      title,      "step in s", "error in m", 1e-4, 1e-2, 1e-14, 1e-2, true, std::numeric_limits<double>::quiet_NaN(),
+      {{"", {}}}, {}};
+  chart.columns      = 1;
+  chart.panel_width  = 620.;
+  chart.panel_height = 320.;
+  return chart;
+}
+
+/// Where and what a method is compared with.
+struct PlayTrial
+{
+  std::vector<double>          ends{0.4, 0.55, 0.7, 0.8, 0.95, 1.05, 1.2, 1.35, 1.5};
+  std::vector<Eigen::Vector2d> truth{};
+
+  PlayTrial()
+  {
+    for (const double end : ends)
+      truth.push_back(state_at(exact(ForceRule::collocation, 8, "").options, 2e-4, true, end));
+  }
+
+  /// Root mean square over the ends.
+  double error(const MethodOptions &method, double step, bool locate) const
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      sum += (state_at(method, step, locate, ends[k]) - truth[k]).squaredNorm();
+    return std::sqrt(sum / double(ends.size()));
+  }
+};
+
+/// Slope where the error is above 5e-15 m; below rounding speaks: 1e3 steps of a motion of 1e-3 m.
+double seen_slope(const std::vector<double> &h, const std::vector<double> &error)
+{
+  std::vector<double> h_seen, seen;
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (error[i] > 5e-15)
+      h_seen.push_back(h[i]), seen.push_back(error[i]);
+  return slope(h_seen, seen);
+}
+
 } // namespace
 
 AtlasEntry order_at_play()
@@ -245,19 +297,11 @@ AtlasEntry order_at_play()
       {},
       {{"method", "order without events", "order with events", "error at the smallest step"}},
       {}};
-  const std::vector<double>      ends  = {0.4, 0.55, 0.7, 0.8, 0.95, 1.05, 1.2, 1.35, 1.5};
   const std::vector<NamedMethod> cases = {bdf(2), bdf(4), exact(ForceRule::collocation, 4, "collocation 4"),
                                           exact(ForceRule::collocation, 6, "collocation 6")};
   const std::vector<double>      steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4}; // twice as long for order 6
-  std::vector<Eigen::Vector2d>   truth;
-  for (const double end : ends)
-    truth.push_back(state_at(exact(ForceRule::collocation, 8, "").options, 2e-4, true, end));
-  LogChart chart{
-      entry.title, "step in s", "error in m", 1e-4, 1e-2, 1e-14, 1e-2, true, std::numeric_limits<double>::quiet_NaN(),
-      {{"", {}}},  {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 320.;
+  const PlayTrial                trial;
+  LogChart                       chart = error_chart(entry.title);
   for (std::size_t m = 0; m < cases.size(); ++m)
   {
     std::vector<std::string> row{cases[m].name};
@@ -270,20 +314,12 @@ AtlasEntry order_at_play()
       for (const double base_step : steps)
       {
         const double step = longer * base_step;
-        double       sum  = 0.;
-        for (std::size_t k = 0; k < ends.size(); ++k)
-          sum += (state_at(cases[m].options, step, locate, ends[k]) - truth[k]).squaredNorm();
         h.push_back(step);
-        error.push_back(std::sqrt(sum / double(ends.size())));
+        error.push_back(trial.error(cases[m].options, step, locate));
       }
       chart.panels[0].curves.push_back(
           {cases[m].name + (locate ? ", events" : ""), h, error, static_cast<int>(m), !locate});
-      // Below 5e-15 m rounding speaks: 1e3 steps of a motion of 1e-3 m.
-      std::vector<double> h_seen, seen;
-      for (std::size_t i = 0; i < error.size(); ++i)
-        if (error[i] > 5e-15)
-          h_seen.push_back(h[i]), seen.push_back(error[i]);
-      const double order = slope(h_seen, seen);
+      const double order = seen_slope(h, error);
       // Without events the constant jumps with the place of the contact in its step: half an order over a factor of 16.
       // With them what remains is the approach to the asymptotic range, longer for order 6.
       entry.comparisons.push_back({cases[m].name + (locate ? ", order with events" : ", order without events"),

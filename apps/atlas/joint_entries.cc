@@ -1,7 +1,7 @@
 // Ideal joints: held by their accelerations they drift open, and of index 3 the first multiplier is half of itself.
 
 #include "apps/atlas/atlas.h"
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/machine/machine.h"

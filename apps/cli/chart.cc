@@ -189,7 +189,7 @@ public:
       if (!method.peer)
         point.settings = scene_settings(method, setting, events);
       if (point.failure.empty() && reference_.size() == 0)
-        point.failure = "no reference to tell its error";
+        point.failure = "no reference to measure its error against";
       else if (point.failure.empty())
       {
         point.error    = scaled_error(result.values, reference_);

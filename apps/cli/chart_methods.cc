@@ -10,8 +10,8 @@ namespace gestell::apps
 namespace
 {
 
-using coupling::ForceRule;
-using coupling::Method;
+using coupling::ChartSetting;
+using coupling::IntegrationMethod;
 using coupling::MethodOptions;
 using peers::PeerKind;
 using peers::PeerSolver;
@@ -19,20 +19,15 @@ using peers::PeerSolver;
 /// Beyond this size a dense Jacobian takes minutes and shows nothing new.
 constexpr int largest_dense = 120;
 
-enum class Control
-{
-  step,
-  tolerance
-};
-
-ChartMethod own(const std::string &key, const std::string &family, Control control, const MethodOptions &options)
+ChartMethod own(const IntegrationMethod &kind, const ChartSetting &setting)
 {
   ChartMethod method;
-  method.key        = key;
-  method.controlled = control == Control::tolerance;
-  method.name       = coupling::method_name(options) + (method.controlled ? ", controlled" : "");
-  method.family     = family;
-  method.own        = options;
+  method.key        = setting.key;
+  method.controlled = setting.controlled;
+  method.name       = kind.label(setting.options) + (method.controlled ? ", controlled" : "");
+  method.family     = kind.family();
+  method.own        = setting.options;
+  method.on_request = setting.on_request;
   return method;
 }
 
@@ -52,19 +47,11 @@ ChartMethod peer(const std::string &key, const std::string &family, PeerKind kin
   return method;
 }
 
-MethodOptions of(Method method, int order = 2, ForceRule force = ForceRule::collocation)
-{
-  MethodOptions options;
-  options.method = method;
-  options.order  = order;
-  options.force  = force;
-  return options;
-}
-
 void add_peers(std::vector<ChartMethod> &methods)
 {
   methods.push_back(peer("cvode-2", "CVODE", PeerKind::cvode_bdf, 2));
   methods.push_back(peer("cvode-3", "CVODE", PeerKind::cvode_bdf, 3));
+  methods.back().on_request = true;
   methods.push_back(peer("cvode-5", "CVODE", PeerKind::cvode_bdf, 5));
   methods.push_back(peer("cvode-adams", "CVODE", PeerKind::cvode_adams, 12));
   methods.push_back(peer("cvode-5-dense", "CVODE", PeerKind::cvode_bdf, 5, PeerSolver::dense));
@@ -75,6 +62,7 @@ void add_peers(std::vector<ChartMethod> &methods)
   methods.push_back(peer("arkode-4", "ARKODE", PeerKind::explicit_rk, 4));
   methods.push_back(peer("arkode-5", "ARKODE", PeerKind::explicit_rk, 5));
   methods.push_back(peer("arkode-6", "ARKODE", PeerKind::explicit_rk, 6));
+  methods.back().on_request = true;
   methods.push_back(peer("arkode-8", "ARKODE", PeerKind::explicit_rk, 8));
   if (!peers::petsc_available())
     return;
@@ -82,6 +70,11 @@ void add_peers(std::vector<ChartMethod> &methods)
   methods.push_back(peer("petsc-bdf-5", "PETSc", PeerKind::petsc_bdf, 5));
   methods.push_back(peer("petsc-alpha2", "PETSc", PeerKind::petsc_alpha, 2));
   methods.back().controlled = false;
+}
+
+std::string quoted(const std::string &text)
+{
+  return '"' + text + '"';
 }
 
 bool matches(const std::string &key, const std::string &wanted)
@@ -96,23 +89,9 @@ bool matches(const std::string &key, const std::string &wanted)
 std::vector<ChartMethod> chart_methods()
 {
   std::vector<ChartMethod> methods;
-  for (const int order : {1, 2, 3, 4, 5, 6})
-    methods.push_back(own("bdf-" + std::to_string(order), "BDF", Control::step, of(Method::bdf, order)));
-  for (const int order : {2, 5})
-    methods.push_back(
-        own("bdf-" + std::to_string(order) + "-controlled", "BDF", Control::tolerance, of(Method::bdf, order)));
-  methods.push_back(own("newmark", "Newmark", Control::step, of(Method::newmark)));
-  methods.push_back(own("hht", "Newmark", Control::step, of(Method::hht)));
-  methods.push_back(own("generalised-alpha", "Newmark", Control::step, of(Method::generalised_alpha)));
-  methods.push_back(own("wilson", "Newmark", Control::step, of(Method::wilson)));
-  methods.push_back(own("central-difference", "Newmark", Control::step, of(Method::central_difference)));
-  methods.push_back(own("exact-average", "exact", Control::step, of(Method::exact, 2, ForceRule::average)));
-  methods.push_back(own("exact-linear", "exact", Control::step, of(Method::exact, 2, ForceRule::linear)));
-  for (const int order : {2, 4, 6, 8})
-    methods.push_back(own("exact-" + std::to_string(order), "exact", Control::step, of(Method::exact, order)));
-  for (const int order : {2, 4, 6, 8})
-    methods.push_back(
-        own("exact-" + std::to_string(order) + "-controlled", "exact", Control::tolerance, of(Method::exact, order)));
+  for (const IntegrationMethod *kind : coupling::integration_methods())
+    for (const ChartSetting &setting : kind->chart_settings())
+      methods.push_back(own(*kind, setting));
   if (peers::peers_available())
     add_peers(methods);
   return methods;
@@ -141,11 +120,8 @@ std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, Pe
       wanted = wanted || matches(method.key, key);
     if (keys.empty())
     {
-      // First order, what is unstable at every useful step, and peers that are never best, only when asked for.
-      const bool odd = !method.peer && method.own.method == Method::bdf && !method.controlled && method.own.order != 2;
       const bool dense = method.peer && method.peer->solver == PeerSolver::dense && n_coordinates > largest_dense;
-      wanted           = !odd && !dense && method.key != "cvode-3" && method.key != "arkode-6" &&
-               !(method.peer && with_peers == PeerChoice::without);
+      wanted           = !method.on_request && !dense && !(method.peer && with_peers == PeerChoice::without);
     }
     if (wanted)
       chosen.push_back(method);
@@ -169,45 +145,17 @@ bool locates_events(const ChartMethod &method)
 
 std::string scene_settings(const ChartMethod &method, double value, bool events)
 {
-  const MethodOptions &o = method.own;
-  std::string          text;
-  const auto           line = [&text](const std::string &key, const std::string &entry)
+  const MethodOptions     &o    = method.own;
+  const IntegrationMethod &kind = coupling::method_of(o);
+  std::string              text;
+  const auto               line = [&text](const std::string &key, const std::string &entry)
   { text += key + std::string(key.size() < 9 ? 9 - key.size() : 0, ' ') + " = " + entry + "\n"; };
-  switch (o.method)
-  {
-  case Method::bdf:
-    line("method", "\"bdf\"");
+  line("method", quoted(kind.name()));
+  for (const coupling::MethodParameter &parameter : kind.parameters())
+    line(parameter.name, parameter.choices.empty() ? exact_text(kind.number(o, parameter.name))
+                                                   : quoted(kind.choice(o, parameter.name)));
+  if (kind.default_order(o) > 0)
     line("order", std::to_string(o.order));
-    break;
-  case Method::newmark:
-    line("method", "\"newmark\"");
-    line("beta", exact_text(o.beta));
-    line("gamma", exact_text(o.gamma));
-    break;
-  case Method::wilson:
-    line("method", "\"wilson\"");
-    line("theta", exact_text(o.theta));
-    break;
-  case Method::hht:
-    line("method", "\"hht\"");
-    line("alpha", exact_text(o.alpha));
-    break;
-  case Method::generalised_alpha:
-    line("method", "\"generalised-alpha\"");
-    line("rho_inf", exact_text(o.rho_inf));
-    break;
-  case Method::central_difference:
-    line("method", "\"central-difference\"");
-    break;
-  case Method::exact:
-    line("method", "\"exact\"");
-    line("force", o.force == ForceRule::average  ? "\"average\""
-                  : o.force == ForceRule::linear ? "\"linear\""
-                                                 : "\"collocation\"");
-    if (o.force == ForceRule::collocation)
-      line("order", std::to_string(o.order));
-    break;
-  }
   line(method.controlled ? "tolerance" : "step", exact_text(value));
   line("events", events ? "true" : "false");
   return text;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/peers/peer.h"
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 
 #include <optional>
 #include <string>
@@ -18,7 +18,8 @@ struct ChartMethod
   std::string                       family;
   bool                              controlled = false; ///< by a tolerance, else by a fixed step
   coupling::MethodOptions           own;
-  std::optional<peers::PeerOptions> peer; ///< set: a general-purpose library
+  std::optional<peers::PeerOptions> peer;               ///< set: a general-purpose library
+  bool                              on_request = false; ///< shown only when it is named
 };
 
 /// All of them; peers last, none if this build has no library to compare with.

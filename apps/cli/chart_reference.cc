@@ -15,7 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-using coupling::Method;
 using coupling::MethodOptions;
 
 /// Runs of a reference are worth this many times the limit of a run in the chart.
@@ -28,7 +27,7 @@ std::string number(double x)
   return text;
 }
 
-MethodOptions controlled(const WorkProblem &problem, Method method, int order, double tolerance)
+MethodOptions controlled(const WorkProblem &problem, const std::string &method, int order, double tolerance)
 {
   MethodOptions options;
   options.method    = method;
@@ -147,8 +146,8 @@ const std::vector<double> &ReferenceFile::column(const std::string &name) const
 
 Reference own_reference(const WorkProblem &problem, std::vector<std::string> &notes)
 {
-  const auto exact = [&](int order, double tolerance) { return controlled(problem, Method::exact, order, tolerance); };
-  const auto bdf   = [&](double tolerance) { return controlled(problem, Method::bdf, 5, tolerance); };
+  const auto      exact = [&](int order, double tolerance) { return controlled(problem, "exact", order, tolerance); };
+  const auto      bdf   = [&](double tolerance) { return controlled(problem, "bdf", 5, tolerance); };
   const Candidate candidates[] = {
       {exact(8, 1e-12), {exact(8, 1e-11), exact(6, 1e-12)}, "exact, collocation 8, tolerance 1e-12, events located"},
       {exact(8, 1e-10), {exact(8, 1e-9), exact(6, 1e-10)}, "exact, collocation 8, tolerance 1e-10, events located"},

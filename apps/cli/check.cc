@@ -68,7 +68,7 @@ int check(const CommonOptions &options)
   if (!geometry.empty())
     std::cout << "frame: " << geometry << '\n';
   if (!scene.joints.empty() && !places_known(scene))
-    std::cout << "joints: closed when the frame is made; its file tells where interfaces without 'position' are\n";
+    std::cout << "joints: closed when the frame is made; interfaces without 'position' are placed by its file\n";
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';

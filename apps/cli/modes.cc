@@ -182,7 +182,7 @@ Command modes_command()
                      "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
            .with("--along"),
        CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().with("--along"),
-       CommandOption{"--band", &own->modes.band, "how near an order comes to be told (default \"5 %\")"}.with(
+       CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
            "--along"),
        CommandOption{"--converge", &own->mesh.converge,
                      "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "

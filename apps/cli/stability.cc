@@ -43,7 +43,7 @@ MethodVerdict verdict(const coupling::LinearSpectrum &spectrum, const MappedMeth
   const coupling::StabilityGuard guard(spectrum, options);
   const auto                    &modes = guard.modes();
   MethodVerdict                  result;
-  result.method = options.method == coupling::Method::exact ? "exact, " + method.name : method.name;
+  result.method = options.method == "exact" ? "exact, " + method.name : method.name;
   for (const auto &mode : modes)
     if (mode.unstable)
     {
@@ -54,7 +54,7 @@ MethodVerdict verdict(const coupling::LinearSpectrum &spectrum, const MappedMeth
         result.worst_hz = mode.mode.omega / (2. * M_PI);
       }
     }
-  result.only_closed = result.growing > 0 && options.method == coupling::Method::exact;
+  result.only_closed = result.growing > 0 && options.method == "exact";
   if (result.growing > 0)
     result.step_that_works = guard.largest_stable_step();
   const auto closed = std::find_if(modes.begin(), modes.end(),

@@ -2,7 +2,7 @@
 
 #include "apps/peers/peer.h"
 #include "coupling/equilibrium/steady_start.h"
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 #include "coupling/machine/machine.h"
 
 #include <atomic>

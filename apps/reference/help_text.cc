@@ -54,7 +54,7 @@ std::string table_text(const DeclaredTable &table)
 
 std::string list_of_tables()
 {
-  std::string text = "Tables of a scene; gestell help TABLE tells their keys.\n\n";
+  std::string text = "Tables of a scene; gestell help TABLE lists their keys.\n\n";
   for (const DeclaredTable &table : declared_tables())
     text += padded(table.path) + plain(table.does) + "\n";
   return text;

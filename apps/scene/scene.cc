@@ -57,11 +57,11 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     if (request.options.n_modes < 0)
       throw table.error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
   }
+  request.options.frequency = table.value_or("frequency", 0.);
   if (request.reduces())
     request.options.method = request.method;
   if (table.choice("inside") == "free-interface")
     request.options.method = "free-interface";
-  request.options.frequency      = table.value_or("frequency", 0.);
   request.options.eigensolver    = table.choice("eigensolver");
   request.options.inertia_relief = table.truth("inertia_relief");
   return request;

@@ -49,21 +49,12 @@ const std::vector<Key> &scene_keys()
 namespace
 {
 
-std::vector<std::string> names_of(const std::vector<coupling::ReductionEntry> &entries)
+std::vector<std::string> reduction_names()
 {
   std::vector<std::string> names;
-  for (const auto &entry : entries)
+  for (const auto &entry : coupling::Reductions::entries())
     names.push_back(entry.name);
   return names;
-}
-
-/// "`"craig-bampton"`: static shapes of the interface and modes with the interface held; ..."
-std::string titles_of(const std::vector<coupling::ReductionEntry> &entries)
-{
-  std::string text;
-  for (const auto &entry : entries)
-    text += (text.empty() ? "`\"" : "; `\"") + entry.name + "\"`: " + entry.title;
-  return text;
 }
 
 } // namespace
@@ -71,10 +62,14 @@ std::string titles_of(const std::vector<coupling::ReductionEntry> &entries)
 const std::vector<Key> &reduction_keys()
 {
   static const std::vector<Key> keys = {
-      key::choice("method", names_of(coupling::Reductions::entries()), true,
-                  titles_of(coupling::Reductions::entries()) +
-                      ". A key that the method does not take is refused. Without `[reduction]` a frame given by "
-                      "matrices keeps every coordinate"),
+      key::choice("method", reduction_names(), true,
+                  "static shapes of the interface with modes of the inside: `\"craig-bampton\"` with the interface "
+                  "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
+                  "exactly. `\"condensation\"`: these static shapes alone, by Guyan, exact in statics; modes that the "
+                  "frame has with its interface held are missing, and "
+                  "[told](../theory/reduction.md#static-condensation) where they lie below `frequency`. `\"none\"` "
+                  "keeps every coordinate: for tests and small matrices; so does a frame given by matrices without "
+                  "`[reduction]`. A key that the method does not take is refused"),
       key::number(
           "tolerance", kind::number,
           "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "
@@ -86,15 +81,15 @@ const std::vector<Key> &reduction_keys()
           "others may be worse by itself, and the worst is told beside it. What cannot be reached a note tells")
           .as_share()
           .by_default(ReductionRequest().options.tolerance),
-      key::plain("modes", Key::Form::whole,
-                 "fixed number of modes instead; a `tolerance` beside it is not used. A note tells the error up to "
-                 "`frequency`, or that the modes kept end below it. Of `\"free-interface\"` without it: all up to 1.5 "
-                 "times `frequency`, or the twelfth elastic one")
+      key::plain(
+          "modes", Key::Form::whole,
+          "fixed number of modes instead; a `tolerance` beside it is not used. Of `\"free-interface\"` without it: "
+          "all up to 1.5 times `frequency`, or the twelfth elastic one. A note tells the error up to "
+          "`frequency`, or that the modes kept end below it")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,
-                  "highest frequency of interest; of `\"condensation\"` without it as far as frequencies stay within "
-                  "`tolerance`, and modes that it leaves out below are "
-                  "[told](../theory/reduction.md#static-condensation)")
+                  "highest frequency of interest; of `\"condensation\"` without it: as far as frequencies stay within "
+                  "`tolerance`")
           .above_zero()
           .by_default("automatic"),
       key::choice("inside", {"fixed-interface", "free-interface"}, true,

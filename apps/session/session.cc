@@ -28,7 +28,7 @@ std::string settings_text(const coupling::RunOptions &run)
     text << "fixed step " << method.step << " s";
   text << ", from " << run.begin << " s to " << run.end << " s; "
        << (run.events ? "events located, the integration restarts at each of them"
-                      : "events are gone over and told afterwards");
+                      : "events are stepped over and reported afterwards");
   return text.str();
 }
 

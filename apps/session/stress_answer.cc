@@ -131,7 +131,7 @@ StressResult stress_answer(const Scene &scene, const ReducedFrame &frame, const 
     if (!kept || kept->q.size() == 0)
     {
       warnings.push_back("the stress " + (instant.label.empty() ? "at " + short_text(kept->t) + " s" : instant.label) +
-                         " is not told: the run ended before");
+                         " is missing: the run ended before");
       continue;
     }
     const auto same = std::find_if(result.instants.begin(), result.instants.end(),

@@ -1,7 +1,8 @@
 #include "coupling/algebra/dense_modes.h"
 
+#include "coupling/integration/system/dense_solvers.h"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +60,9 @@ enum class Stiffness
 
 Stiffness stiffness_of(const MatrixXd &C)
 {
-  const VectorXd                                d = unit_diagonal(C);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
-  const VectorXd                               &values = scaled.eigenvalues();
+  const VectorXd             d = unit_diagonal(C);
+  const SymmetricEigenSolver scaled(d.asDiagonal() * C * d.asDiagonal(), WithVectors::no);
+  const VectorXd            &values = scaled.eigenvalues();
   return values.minCoeff() > rigid                                   ? Stiffness::regular
          : values.minCoeff() < -rigid * values.cwiseAbs().maxCoeff() ? Stiffness::unstable
                                                                      : Stiffness::singular;
@@ -85,8 +86,8 @@ public:
   {
     if (definite())
       return;
-    int                                           weakest;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(scaled_);
+    int                        weakest;
+    const SymmetricEigenSolver modes(scaled_);
     modes.eigenvectors().col(0).cwiseAbs().maxCoeff(&weakest);
     throw std::invalid_argument("dense_modes: a motion of coordinate " + std::to_string(weakest) +
                                 " has neither stiffness nor mass; give it one of them or leave the coordinate out");
@@ -99,7 +100,7 @@ public:
     L_.matrixL().solveInPlace(H);
     H = H.transpose().eval();
     L_.matrixL().solveInPlace(H);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(H);
+    const SymmetricEigenSolver solver(H);
     V = solver.eigenvectors();
     L_.matrixU().solveInPlace(V);
     V = d_.asDiagonal() * V;

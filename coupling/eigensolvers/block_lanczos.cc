@@ -1,8 +1,7 @@
 #include "coupling/eigensolvers/block_lanczos.h"
 
+#include "coupling/integration/system/dense_solvers.h"
 #include "coupling/integration/system/second_order_system.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +61,8 @@ struct EigenPairs
 /// Of a symmetric matrix; the same on all processes, which decide by it.
 EigenPairs eigen(const MatrixXd &A, const InverseStiffness &among)
 {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(A);
-  MatrixXd                                      both(A.rows(), A.rows() + 1);
+  const SymmetricEigenSolver solved(A);
+  MatrixXd                   both(A.rows(), A.rows() + 1);
   both << solved.eigenvalues(), solved.eigenvectors();
   among.share(both);
   return {both.col(0), both.rightCols(A.rows())};

@@ -136,7 +136,7 @@ Inertia SturmCheckedModes::count_in_gap(double &omega)
       return best;
   }
   throw ConvergenceFailure(kind_ + ": the number below " + rounded(omega / two_pi) +
-                           " Hz cannot be told, for rounding in the factor grows " + rounded(best.growth) + "-fold, " +
+                           " Hz cannot be counted, for rounding in the factor grows " + rounded(best.growth) + "-fold, " +
                            rounded(least) + " times as much as the gap there is wide; ask for another number of modes");
 }
 
@@ -148,12 +148,12 @@ bool SturmCheckedModes::confirm()
   const auto inertia = count_in_gap(omega);
   if (inertia.negative < gap_.below)
     throw ConvergenceFailure(kind_ + ": " + std::to_string(gap_.below) + " are found below " + rounded(omega / two_pi) +
-                             " Hz, but the inertia of the stiffness tells of " + std::to_string(inertia.negative) +
+                             " Hz, but the inertia of the stiffness gives " + std::to_string(inertia.negative) +
                              " only; M and C must be symmetric");
   if (inertia.negative == gap_.below)
   {
     if (statement_.empty())
-      statement_ = "modes: the inertia of C - omega^2 M at " + rounded(omega / two_pi) + " Hz tells of " +
+      statement_ = "modes: the inertia of C - omega^2 M at " + rounded(omega / two_pi) + " Hz gives " +
                    std::to_string(gap_.below) + " " + kind_ + " below it, and as many are found";
     return true;
   }

@@ -1,6 +1,6 @@
 #include "coupling/equilibrium/static_balance.h"
 
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/QR>
 

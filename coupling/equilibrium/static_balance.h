@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/equilibrium/steady_motion.h"
-#include "coupling/machine/assembly.h"
+#include "coupling/machine/configuration/assembly.h"
 
 #include <string>
 #include <vector>

@@ -2,10 +2,10 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/equilibrium/static_balance.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -248,7 +248,7 @@ private:
     lu.compute(scaled);
     if (lu.isInvertible())
       return scale.asDiagonal() * lu.solve(forces);
-    const VectorXd x = scaled.completeOrthogonalDecomposition().solve(forces);
+    const VectorXd x = LeastSquaresSolver(scaled).solve(forces);
     if ((scaled * x - forces).norm() <= balanced * forces.norm())
       return scale.asDiagonal() * x;
     if (balance_.holds())
@@ -387,7 +387,7 @@ private:
       residual.head(n_) += M_ * (q_ - before) / (h * h);
       const VectorXd scale  = scale_of(saddle);
       const MatrixXd scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
-      const VectorXd delta = scale.asDiagonal() * scaled.partialPivLu().solve(VectorXd(scale.asDiagonal() * -residual));
+      const VectorXd delta  = scale.asDiagonal() * lu_solution(scaled, VectorXd(scale.asDiagonal() * -residual));
       if (!delta.allFinite())
         break;
       q_ += delta.head(n_);

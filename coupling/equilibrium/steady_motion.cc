@@ -1,7 +1,8 @@
 #include "coupling/equilibrium/steady_motion.h"
 
-#include "coupling/machine/dense_matrices.h"
-#include "coupling/machine/loop_closure.h"
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/loop_closure.h"
 
 #include <Eigen/QR>
 
@@ -42,14 +43,10 @@ public:
   {
     if (demands.A.rows() == 0 || Z_.cols() == 0)
       return 0;
-    const MatrixXd                                   A = demands.A * Z_;
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr;
-    qr.setThreshold(dependent);
-    qr.compute(A);
-    X_ += Z_ * qr.solve(demands.b - demands.A * X_);
-    const Eigen::Index n = Z_.cols(), r = qr.rank();
-    Z_ = Z_ * (qr.colsPermutation() * MatrixXd(qr.matrixZ().transpose()).rightCols(n - r));
-    return r;
+    const LeastSquaresSolver solver(demands.A * Z_, dependent);
+    X_ += Z_ * solver.solve(demands.b - demands.A * X_);
+    Z_ = Z_ * solver.null_space();
+    return solver.rank();
   }
 
   const MatrixXd &motions() const { return X_; }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/machine/assembly.h"
+#include "coupling/machine/configuration/assembly.h"
 
 namespace gestell::coupling
 {

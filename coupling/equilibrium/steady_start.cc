@@ -2,10 +2,11 @@
 
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/equilibrium/steady_motion.h"
+#include "coupling/integration/system/dense_solvers.h"
 
-#include "coupling/machine/assembly.h"
-#include "coupling/machine/dense_matrices.h"
-#include "coupling/machine/loop_closure.h"
+#include "coupling/machine/configuration/assembly.h"
+#include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/loop_closure.h"
 
 #include <Eigen/QR>
 
@@ -133,13 +134,11 @@ public:
   /// that moves most in the motion the last matrix leaves free; -1 if there is none.
   int free_coordinate() const
   {
-    const Eigen::Index rank = solver_.rank(), n = static_cast<Eigen::Index>(unknown_.size());
-    if (rank == n)
+    const Eigen::MatrixXd free = solver_.null_space();
+    if (free.cols() == 0)
       return -1;
-    // A x = 0 for x = P Z^T e_n: the last column of the orthogonal factor.
-    Eigen::VectorXd motion = solver_.matrixZ().transpose() * Eigen::VectorXd::Unit(n, n - 1);
-    motion                 = scale_.asDiagonal() * Eigen::VectorXd(solver_.colsPermutation() * motion);
-    const double half      = 0.5 * motion.cwiseAbs().maxCoeff();
+    const Eigen::VectorXd motion = scale_.asDiagonal() * free.rightCols<1>();
+    const double          half   = 0.5 * motion.cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < unknown_.size(); ++i)
       if (std::abs(motion[static_cast<Eigen::Index>(i)]) >= half)
         return unknown_[i];
@@ -159,9 +158,8 @@ private:
       row_scale_[static_cast<Eigen::Index>(i)] =
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
-    solver_.setThreshold(singular);
-    matrix_ = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    solver_.compute(matrix_);
+    matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
+    solver_                    = LeastSquaresSolver(matrix_, singular);
   }
 
   Machine         &machine_;
@@ -174,7 +172,7 @@ private:
   double           size_of_forces_ = 0.;
   bool             held_           = true;
 
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
+  LeastSquaresSolver solver_;
 };
 
 [[noreturn]] void refuse(const Machine &machine, const Equilibrium &equilibrium, double unbalanced)

@@ -1,6 +1,6 @@
 #include "coupling/frame/stress_search.h"
 
-#include <Eigen/Eigenvalues>
+#include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
 #include <cassert>
@@ -54,20 +54,20 @@ VectorXd largest_of(const MatrixXd &states)
 /// so that together they are a basis of all.
 Components principal_components(const MatrixXd &gram, const MatrixXd &states)
 {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> norm(gram);
-  const VectorXd                                root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  const double                                  top    = root.size() > 0 ? root.maxCoeff() : 0.;
-  Index                                         hidden = 0; // ascending
+  const SymmetricEigenSolver norm(gram);
+  const VectorXd             root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
+  const double               top    = root.size() > 0 ? root.maxCoeff() : 0.;
+  Index                      hidden = 0; // ascending
   while (hidden < root.size() && root[hidden] <= std::sqrt(noise) * top)
     ++hidden;
-  const Index    n      = root.size() - hidden;
-  const auto     modes  = norm.eigenvectors();
-  const MatrixXd X      = modes.rightCols(n);
-  const MatrixXd whole  = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
-  const MatrixXd beside = modes.leftCols(hidden).transpose() * states;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(whole * whole.transpose());
-  const MatrixXd                               &U = principal.eigenvectors();
-  Components                                    result{MatrixXd(root.size(), root.size()), VectorXd(root.size())};
+  const Index                n      = root.size() - hidden;
+  const auto                 modes  = norm.eigenvectors();
+  const MatrixXd             X      = modes.rightCols(n);
+  const MatrixXd             whole  = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
+  const MatrixXd             beside = modes.leftCols(hidden).transpose() * states;
+  const SymmetricEigenSolver principal(whole * whole.transpose());
+  const MatrixXd            &U = principal.eigenvectors();
+  Components                 result{MatrixXd(root.size(), root.size()), VectorXd(root.size())};
   result.basis << X * root.tail(n).cwiseInverse().asDiagonal() * U, modes.leftCols(hidden);
   result.largest << (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff(), beside.cwiseAbs().rowwise().maxCoeff();
   return result;

@@ -26,7 +26,7 @@ namespace
       break;
     }
   }
-  throw std::invalid_argument("this machine has no acceleration that a signal could tell: " + massless +
+  throw std::invalid_argument("this machine has no acceleration that a signal could show: " + massless +
                               " has no mass; give it some, or leave accelerations out of output.signals");
 }
 

@@ -128,14 +128,20 @@ void sum_of_products(const MatrixXd &A, const VectorXd &x, const MatrixXd &B, co
 class CondensedSolver final : public LinearSolver
 {
 public:
-  /// @param A_LN, M_LN  their first columns, up to the last one in either that is not zero [n_L x k]
-  CondensedSolver(const MatrixXd &A_NN, const MatrixXd &A_LN, const VectorXd &A_LL, const MatrixXd &M_NN,
-                  const MatrixXd &M_LN, const ModalRange &L, const std::vector<int> &N)
-      : L_(L), N_(N), inverse_LL_(A_LL.cwiseInverse()), M_LN_(M_LN), k_(A_LN.cols())
+  /// A_LN, M_LN: their first columns, up to the last one in either that is not zero [n_L x k].
+  struct Matrices
   {
-    const MatrixXd G    = inverse_LL_.asDiagonal() * A_LN;
-    MatrixXd       A    = A_NN;
-    MatrixXd       of_h = M_NN;
+    MatrixXd A_NN, A_LN;
+    VectorXd A_LL;
+    MatrixXd M_NN, M_LN;
+  };
+  CondensedSolver(const Matrices &matrices, const ModalRange &L, const std::vector<int> &N)
+      : L_(L), N_(N), inverse_LL_(matrices.A_LL.cwiseInverse()), M_LN_(matrices.M_LN), k_(matrices.A_LN.cols())
+  {
+    const auto &[A_NN, A_LN, A_LL, M_NN, M_LN] = matrices;
+    const MatrixXd G                           = inverse_LL_.asDiagonal() * A_LN;
+    MatrixXd       A                           = A_NN;
+    MatrixXd       of_h                        = M_NN;
     A.topLeftCorner(k_, k_) -= A_LN.transpose() * G;
     of_h.topLeftCorner(k_, k_) -= G.transpose() * M_LN;
     A_red_inverse_ = inverse(A, N);
@@ -357,7 +363,7 @@ std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, doubl
   for (Eigen::Index i = 0; i < L_.n; ++i)
     if (diagonal(i) == 0.)
       refuse_singular(L_.first + int(i));
-  return std::make_unique<CondensedSolver>(NN, LN, diagonal, mass_.NN, M_LN, L_, N_);
+  return std::make_unique<CondensedSolver>(CondensedSolver::Matrices{NN, LN, diagonal, mass_.NN, M_LN}, L_, N_);
 }
 
 std::vector<SpectrumLine> DenseBase::spectrum() const

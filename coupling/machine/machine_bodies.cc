@@ -319,7 +319,7 @@ void Machine::add_point_mass(const std::string &name, const std::string &marker_
   for (const Body &body : parts_->bodies)
     if (body.name == marker_name && body.kind == BodyKind::planar && offset != Vector3{})
       throw std::invalid_argument("point mass \"" + name + "\": an offset on \"" + marker_name +
-                                  "\" would turn with it, which a constant mass matrix cannot tell; give the body this "
+                                  "\" would turn with it, which a constant mass matrix cannot describe; give the body this "
                                   "mass and inertia, or declare a body of its own with a rigid joint");
   parts_->add_mass(mass, parts_->moved_point(at, offset));
   for (int d = 0; d < 3; ++d)

@@ -37,146 +37,196 @@ double MachineParts::Load::at(double t) const
   return f;
 }
 
-std::map<std::string, Signal> MachineParts::signals() const
+namespace
 {
-  std::map<std::string, Signal> signals;
-  const auto                    add_motion =
-      [&](const std::string &path, const std::string &rate_path, const std::string &unit, const Measure &u)
+
+/// Collects all signals of a machine, by path.
+class SignalList
+{
+public:
+  explicit SignalList(const MachineParts &parts) : parts_(parts) {}
+
+  std::map<std::string, Signal> all()
   {
-    signals[path]      = {path, unit, u, {}, -1, -1, 1., 0.};
-    signals[rate_path] = {rate_path, unit + "/s", {}, u, -1, -1, 1., 0.};
-  };
-  const auto add_acceleration = [&](const std::string &path, const std::string &unit, const Measure &u)
+    add_interfaces();
+    for (const Body &body : parts_.bodies)
+      add_body(body);
+    add_frame_outputs();
+    for (const MachineParts::LinearElement &element : parts_.linear)
+      add_linear(element);
+    for (std::size_t i = 0; i < parts_.loads.size(); ++i)
+      add_load(i);
+    add_measures();
+    for (std::size_t e = 0; e < parts_.elements.size(); ++e)
+      add_element(e);
+    signals_["t"]      = {"t", "s", {}, {}};
+    signals_["t"].on_t = 1.;
+    return std::move(signals_);
+  }
+
+private:
+  void add_motion(const std::string &path, const std::string &rate_path, const std::string &unit, const Measure &u)
   {
-    Signal &signal = signals[path];
+    signals_[path]      = {path, unit, u, {}, -1, -1, 1., 0.};
+    signals_[rate_path] = {rate_path, unit + "/s", {}, u, -1, -1, 1., 0.};
+  }
+
+  void add_acceleration(const std::string &path, const std::string &unit, const Measure &u)
+  {
+    Signal &signal = signals_[path];
     signal.name    = path;
     signal.unit    = unit + "/s^2";
     signal.on_a    = u;
-  };
+  }
 
-  for (const auto &[name, marker] : markers)
-    if (name.rfind("frame.", 0) == 0)
-      for (int i = 0; i < 6; ++i)
-      {
-        const Measure    &u    = i < 3 ? marker.translation[i] : marker.rotation[i - 3];
-        const std::string path = name + "." + motions[i];
-        add_motion(path, path + "_rate", motion_units[i], u);
-        add_acceleration(path + "_acceleration", motion_units[i], u);
-      }
-
-  for (const Body &body : bodies)
-    if (body.kind == BodyKind::rotor)
-    {
-      add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate, 1.}});
-      add_acceleration(body.name + ".acceleration", "rad", {{body.coordinate, 1.}});
-    }
-    else if (body.kind != BodyKind::slider)
-    {
-      for (int d = 0; d < 3; ++d)
-        if (const Measure &u = body.marker.translation[d]; !u.empty())
+  void add_interfaces()
+  {
+    for (const auto &[name, marker] : parts_.markers)
+      if (name.rfind("frame.", 0) == 0)
+        for (int i = 0; i < 6; ++i)
         {
-          const std::string axis(1, "xyz"[d]), position = body.name + "." + axis;
-          add_motion(body.name + ".u" + axis, body.name + ".v" + axis, "m", u);
-          add_acceleration(body.name + ".a" + axis, "m", u);
-          signals[position]        = signals[body.name + ".u" + axis];
-          signals[position].name   = position;
-          signals[position].offset = body.centre[d];
+          const Measure    &u    = i < 3 ? marker.translation[i] : marker.rotation[i - 3];
+          const std::string path = name + "." + motions[i];
+          add_motion(path, path + "_rate", motion_units[i], u);
+          add_acceleration(path + "_acceleration", motion_units[i], u);
         }
-      if (body.kind == BodyKind::planar)
-      {
-        add_motion(body.name + ".angle", body.name + ".speed", "rad", {{body.coordinate + 2, 1.}});
-        add_acceleration(body.name + ".acceleration", "rad", {{body.coordinate + 2, 1.}});
-      }
-    }
-    else
+  }
+
+  void add_body(const Body &body)
+  {
+    if (body.kind == BodyKind::rotor)
+      add_angle(body.name, body.coordinate);
+    else if (body.kind == BodyKind::slider)
     {
       add_motion(body.name + ".displacement", body.name + ".velocity", "m", {{body.coordinate, 1.}});
       add_acceleration(body.name + ".acceleration", "m", {{body.coordinate, 1.}});
     }
+    else
+    {
+      add_translations(body);
+      if (body.kind == BodyKind::planar)
+        add_angle(body.name, body.coordinate + 2);
+    }
+  }
 
-  if (reduced || full)
+  void add_angle(const std::string &body, int coordinate)
   {
-    const Eigen::Map<const Eigen::Vector3d> g(gravity.data());
-    for (const fem::FrameOutput &output : reduced ? reduced->outputs : full->outputs)
+    add_motion(body + ".angle", body + ".speed", "rad", {{coordinate, 1.}});
+    add_acceleration(body + ".acceleration", "rad", {{coordinate, 1.}});
+  }
+
+  void add_translations(const Body &body)
+  {
+    for (int d = 0; d < 3; ++d)
+      if (const Measure &u = body.marker.translation[d]; !u.empty())
+      {
+        const std::string axis(1, "xyz"[d]), position = body.name + "." + axis;
+        add_motion(body.name + ".u" + axis, body.name + ".v" + axis, "m", u);
+        add_acceleration(body.name + ".a" + axis, "m", u);
+        signals_[position]        = signals_[body.name + ".u" + axis];
+        signals_[position].name   = position;
+        signals_[position].offset = body.centre[d];
+      }
+  }
+
+  void add_frame_outputs()
+  {
+    if (!parts_.reduced && !parts_.full)
+      return;
+    const Eigen::Map<const Eigen::Vector3d> g(parts_.gravity.data());
+    for (const fem::FrameOutput &output : parts_.reduced ? parts_.reduced->outputs : parts_.full->outputs)
     {
       const std::string path = "frame." + output.name;
-      signals[path]          = {path, output.unit, measure_of_row(output.on_q),     measure_of_row(output.on_v), -1,
+      signals_[path]         = {path, output.unit, measure_of_row(output.on_q),     measure_of_row(output.on_v), -1,
                                 -1,   1.,          output.under_acceleration.dot(g)};
     }
   }
 
-  for (const auto &element : linear)
+  void add_linear(const MachineParts::LinearElement &element)
   {
-    add_motion(element.name + ".displacement", element.name + ".rate", element.unit == "N m" ? "rad" : "m", element.u);
-    signals[element.name + ".force"] = {
-        element.name + ".force", element.unit, element.stiffness * element.u, element.damping * element.u, -1, -1, 1.,
-        element.offset};
-    if (element.unit == "N m")
-      signals[element.name + ".torque"] = signals[element.name + ".force"];
+    const bool        turns = element.unit == "N m";
+    const std::string force = element.name + ".force";
+    add_motion(element.name + ".displacement", element.name + ".rate", turns ? "rad" : "m", element.u);
+    signals_[force] = {force, element.unit,  element.stiffness * element.u, element.damping * element.u, -1, -1,
+                       1.,    element.offset};
+    if (turns)
+      signals_[element.name + ".torque"] = signals_[force];
   }
 
-  for (std::size_t i = 0; i < loads.size(); ++i)
+  void add_load(std::size_t i)
   {
-    const Load &load  = loads[i];
-    Signal     &force = signals[load.name + ".force"];
-    force.name        = load.name + ".force";
-    force.unit        = load.unit;
-    force.load        = static_cast<int>(i);
+    const MachineParts::Load &load  = parts_.loads[i];
+    Signal                   &force = signals_[load.name + ".force"];
+    force.name                      = load.name + ".force";
+    force.unit                      = load.unit;
+    force.load                      = static_cast<int>(i);
     if (load.unit == "N m")
-      signals[load.name + ".torque"] = force;
+      signals_[load.name + ".torque"] = force;
   }
 
-  const auto add_measure = [&](int i, int derivative, const std::string &path, double offset)
+  void add_measures()
   {
-    Signal signal;
+    std::vector<char> of_place(parts_.measures.size(), 0);
+    for (const MachineParts::NamedPlace &place : parts_.places)
+      for (int d = 0; d < 3; ++d)
+      {
+        const std::string axis(1, "xyz"[d]);
+        const int         i = place.first_measure + d;
+        of_place[i]         = 1;
+        add_measure(i, 0, place.name + "." + axis);
+        add_measure(i, 0, place.name + ".u" + axis).offset = -place.start[d];
+        add_measure(i, 1, place.name + ".v" + axis);
+        add_measure(i, 2, place.name + ".a" + axis);
+      }
+    for (std::size_t i = 0; i < parts_.measures.size(); ++i)
+      if (!of_place[i])
+      {
+        add_measure(int(i), 0, parts_.measures[i].name + ".value");
+        add_measure(int(i), 1, parts_.measures[i].name + ".rate");
+        add_measure(int(i), 2, parts_.measures[i].name + ".acceleration");
+      }
+  }
+
+  Signal &add_measure(int i, int derivative, const std::string &path)
+  {
+    const NamedMeasure &measure = parts_.measures[i];
+    Signal              signal;
     signal.name     = path;
-    signal.unit     = measures[i].unit + (derivative == 0 ? "" : derivative == 1 ? "/s" : "/s^2");
+    signal.unit     = measure.unit + (derivative == 0 ? "" : derivative == 1 ? "/s" : "/s^2");
     signal.measure  = i;
     signal.quantity = derivative;
-    signal.offset   = offset;
-    for (const Measure &u : measures[i].measures) // so that whoever reads the signal provides their motion
+    for (const Measure &u : measure.measures) // so that whoever reads the signal provides their motion
       for (const auto &[coordinate, weight] : u)
         signal.on_q.emplace_back(coordinate, 0.);
-    signals[path] = signal;
-  };
-  std::vector<char> of_place(measures.size(), 0);
-  for (const NamedPlace &place : places)
-    for (int d = 0; d < 3; ++d)
-    {
-      const std::string axis(1, "xyz"[d]);
-      const int         i = place.first_measure + d;
-      of_place[i]         = 1;
-      add_measure(i, 0, place.name + "." + axis, 0.);
-      add_measure(i, 0, place.name + ".u" + axis, -place.start[d]);
-      add_measure(i, 1, place.name + ".v" + axis, 0.);
-      add_measure(i, 2, place.name + ".a" + axis, 0.);
-    }
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    if (!of_place[i])
-    {
-      add_measure(int(i), 0, measures[i].name + ".value", 0.);
-      add_measure(int(i), 1, measures[i].name + ".rate", 0.);
-      add_measure(int(i), 2, measures[i].name + ".acceleration", 0.);
-    }
+    return signals_[path] = signal;
+  }
 
-  for (std::size_t e = 0; e < elements.size(); ++e)
+  void add_element(std::size_t e)
   {
-    const auto quantities = elements[e].element->quantities();
-    const bool turns      = elements[e].kind == MeasureKind::angle;
+    const ElementPlacement &placement  = parts_.elements[e];
+    const auto              quantities = placement.element->quantities();
+    const bool              turns      = placement.kind == MeasureKind::angle;
     for (std::size_t i = 0; i < quantities.size(); ++i)
     {
-      const std::string path = elements[e].name + "." + quantities[i].name;
+      const std::string path = placement.name + "." + quantities[i].name;
       const std::string unit = turns ? torsional(quantities[i].unit) : quantities[i].unit;
-      signals[path]          = {path, unit, {}, {}, static_cast<int>(e), static_cast<int>(i), 1., 0.};
+      signals_[path]         = {path, unit, {}, {}, static_cast<int>(e), static_cast<int>(i), 1., 0.};
     }
     if (turns)
       for (const auto &[name, alias] : {std::pair{".force", ".torque"}, std::pair{".displacement", ".angle"}})
-        if (const auto found = signals.find(elements[e].name + name); found != signals.end())
-          signals[elements[e].name + alias] = found->second;
+        if (const auto found = signals_.find(placement.name + name); found != signals_.end())
+          signals_[placement.name + alias] = found->second;
   }
-  signals["t"]      = {"t", "s", {}, {}};
-  signals["t"].on_t = 1.;
-  return signals;
+
+  const MachineParts           &parts_;
+  std::map<std::string, Signal> signals_;
+};
+
+} // namespace
+
+std::map<std::string, Signal> MachineParts::signals() const
+{
+  return SignalList(*this).all();
 }
 
 std::vector<std::string> Machine::signal_paths() const

@@ -1,6 +1,6 @@
 #include "coupling/modes/damped_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
 #include <array>
@@ -115,7 +115,7 @@ void add_joined(const DenseModes &modes, const Eigen::MatrixXd &B, const std::ve
     for (Eigen::Index b = 0; b < p; ++b)
       A(p + a, p + b) = -B(joined[a], joined[b]);
   }
-  const Eigen::VectorXcd s     = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+  const Eigen::VectorXcd s     = GeneralEigenSolver(A, WithVectors::no).eigenvalues();
   const double           noise = 1e-13 * double(p) * A.norm(); // of eigenvalues of a matrix of that norm
   for (const Complex &value : s)
     if (value.imag() > std::max(noise, 1e-9 * std::abs(value))) // two that meet part by the root of rounding

@@ -1,6 +1,6 @@
 #include "coupling/modes/linear_spectrum.h"
 
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/modes/modes.h"
 
 #include <algorithm>

@@ -2,10 +2,9 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/integration/step/consistent_start.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "fem/values/two_pi.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,7 @@ namespace
 constexpr double rounding_of_ratio = 1e-12;
 
 /// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.
-Eigen::EigenSolver<Eigen::MatrixXd> solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
+GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
 {
   if (!state.allFinite()) // the solver would leave its arrays
   {
@@ -31,7 +30,7 @@ Eigen::EigenSolver<Eigen::MatrixXd> solve_state(const Eigen::MatrixXd &state, co
                "check its unit, or leave it out";
     throw std::invalid_argument(message.str());
   }
-  return Eigen::EigenSolver<Eigen::MatrixXd>(state);
+  return GeneralEigenSolver(state);
 }
 
 /// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes:
@@ -72,12 +71,17 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   }
 }
 
-/// @param loads     M R [n x 3], the load of a unit acceleration; the effective mass of a mode v is (v . load)^2.
-/// @param n_rigid   see dense_modes()
-std::vector<Mode> modes_of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
-                           const Eigen::MatrixXd &loads, int n_modes, bool damped = true,
-                           std::optional<int> n_rigid = {})
+/// Matrices [n x n] and loads M R [n x 3] of a unit acceleration; the effective mass of a mode v is (v . load)^2.
+struct ModalProblem
 {
+  Eigen::MatrixXd    M, B, C, loads;
+  bool               damped = true;
+  std::optional<int> n_rigid{}; ///< see dense_modes()
+};
+
+std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
+{
+  const auto &[M, B, C, loads, damped, n_rigid] = problem;
   if (M.rows() == 0) // everything is held
     return {};
   const DenseModes  modes = n_rigid ? dense_modes(C, M, cancelled_by_reduction, n_rigid) : dense_modes(C, M);
@@ -120,7 +124,7 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
   if (!frame)
     return {};
   std::vector<Mode> modes =
-      modes_of(frame->M, frame->B, frame->C, frame->translations_load, n_modes, true, frame->n_rigid());
+      modes_of({frame->M, frame->B, frame->C, frame->translations_load, true, frame->n_rigid()}, n_modes);
   for (std::size_t j = 0; j < modes.size(); ++j)
     modes[j].refined_hz = refined_hz(*frame, Eigen::Index(j));
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
@@ -189,8 +193,9 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
                                    int n_modes)
 {
   const auto [M, B, K, Z] = linearised(machine, q, linearisation);
-  std::vector<Mode> modes = modes_of(Z.transpose() * M * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
-                                     Z.transpose() * machine.translation_loads(), n_modes, linearisation.damping);
+  std::vector<Mode> modes = modes_of({Z.transpose() * M * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
+                                      Z.transpose() * machine.translation_loads(), linearisation.damping},
+                                     n_modes);
   for (Mode &mode : modes)
     mode.shape = Z * mode.shape;
   return modes;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <complex>
 #include <limits>

@@ -1,8 +1,8 @@
 #include "coupling/modes/modes_along.h"
 
 #include "coupling/equilibrium/static_equilibrium.h"
-#include "coupling/machine/assembly.h"
-#include "coupling/machine/loop_closure.h"
+#include "coupling/machine/configuration/assembly.h"
+#include "coupling/machine/configuration/loop_closure.h"
 
 #include <algorithm>
 #include <cmath>

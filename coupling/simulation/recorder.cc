@@ -32,10 +32,8 @@ std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
     return "; take a smaller tolerance";
   if (verdict == EnergyGuard::Verdict::no_motion)
     return "; take a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
-  return method.method == Method::bdf && method.order < 4
-             ? "; take a smaller step. Where bodies spin or swing many times, order = 4 with 60 steps or more per turn "
-               "loses far less"
-             : "; take a smaller step";
+  const std::string advice = method_of(method).energy_advice(method);
+  return "; take a smaller step" + (advice.empty() ? "" : ". " + advice);
 }
 
 /// The balance must not err more than the integrator.
@@ -43,9 +41,7 @@ PowerRule power_rule(const MethodOptions &method, const Sampling &sampling)
 {
   // Of a sine four points integrate the square to 1e-5 of it over half a period.
   constexpr double samples = 8.;
-  const bool       high_order =
-      method.tolerance > 0. || (method.method == Method::exact && method.force == ForceRule::collocation);
-  return {high_order, samples * sampling.shortest};
+  return {method_of(method).takes_long_steps(method), samples * sampling.shortest};
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "coupling/simulation/simulation.h"
 
 #include "coupling/integration/events/event_driver.h"
-#include "coupling/machine/constraint_rank.h"
+#include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
 #include "coupling/simulation/checks/fast_forces.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
@@ -130,7 +130,7 @@ Sampling sampling(const Machine &machine, const MethodOptions &method)
 {
   Sampling sampling;
   sampling.inside = controlled(method);
-  if (method.method != Method::exact)
+  if (!method_of(method).carries_base())
     return sampling;
   for (const SpectrumLine &mode : machine.linear().spectrum())
     if (mode.omega > 0.)
@@ -326,6 +326,105 @@ void try_start(Machine &machine, const InitialState &initial, const RunOptions &
   event_driver(machine, *integrator, options).begin(options.begin, initial.q, initial.v);
 }
 
+namespace
+{
+
+/// A run under way: the integrator, what drives it over events, what looks on.
+class Run
+{
+public:
+  Run(Machine &machine, const InitialState &initial, const RunOptions &options, const MethodOptions &method,
+      const std::vector<Signal> &signals, RunResult &result)
+      : machine_(machine), options_(options), method_(method), result_(result),
+        integrator_(make_integrator(machine, method)), driver_(event_driver(machine, *integrator_, options)),
+        recorder_(machine, *integrator_, options, signals, sampling(machine, method), result)
+  {
+    driver_.begin(options.begin, initial.q, initial.v);
+    cylinders_   = std::make_unique<HydraulicLimits>(machine, *integrator_);
+    stiffness_   = std::make_unique<StiffnessCheck>(machine, initial, method);
+    fast_forces_ = std::make_unique<FastForces>(machine, *integrator_);
+    driver_.on_step([this] { look_at_step(); });
+    driver_.on_event(
+        [this](const Event &event)
+        {
+          recorder_.jump(event.name);
+          fast_forces_->jump();
+        });
+    recorder_.begin();
+    cylinders_->begin();
+    fast_forces_->begin();
+  }
+
+  void integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop);
+  void finish(const InitialState &initial);
+
+private:
+  void look_at_step()
+  {
+    recorder_.step();
+    cylinders_->step();
+    if (!options_.force_unstable)
+      stiffness_->step(integrator_->local());
+    fast_forces_->step();
+  }
+
+  Machine                         &machine_;
+  const RunOptions                &options_;
+  const MethodOptions             &method_;
+  RunResult                       &result_;
+  std::unique_ptr<TimeIntegrator>  integrator_;
+  EventDriver                      driver_;
+  Recorder                         recorder_;
+  std::unique_ptr<HydraulicLimits> cylinders_;
+  std::unique_ptr<StiffnessCheck>  stiffness_;
+  std::unique_ptr<FastForces>      fast_forces_;
+};
+
+/// A step that cannot be made ends the run, with its reason in the result.
+void Run::integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop)
+{
+  const long   progress_every = machine_.size() > 1000 ? 4 : 1024;
+  CrawlWatch   crawl(options_);
+  const double finish = options_.end - 1e-12 * (options_.end - options_.begin); // what rounding may leave
+  try
+  {
+    for (long k = 1; integrator_->time() < finish; ++k)
+    {
+      driver_.advance();
+      if (stop && stop->load(std::memory_order_relaxed))
+      {
+        result_.interrupted = true;
+        break;
+      }
+      if (progress && k % progress_every == 0)
+        progress(integrator_->time());
+      if (k % CrawlWatch::window == 0 && controlled(method_))
+        crawl.look(integrator_->time());
+    }
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    result_.failure = failure.what() + advice(machine_, method_, integrator_->instant());
+  }
+}
+
+void Run::finish(const InitialState &initial)
+{
+  recorder_.finish();
+  result_.events = driver_.events();
+  warn_of_switches(machine_, options_.begin, result_);
+  take_work(integrator_->work(), driver_, options_, result_);
+  const Eigen::VectorXd   &v        = integrator_->instant().v;
+  std::vector<std::string> warnings = cylinders_->warnings();
+  if (std::string warning = fast_forces_->warning(); !warning.empty())
+    warnings.push_back(std::move(warning));
+  for (const std::string &warning : tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v))
+    warnings.push_back(warning);
+  result_.warnings.insert(result_.warnings.end(), warnings.begin(), warnings.end());
+}
+
+} // namespace
+
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop)
@@ -343,76 +442,19 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   if (!initial.settled)
     warn_of_closed_contacts(machine, initial, result);
   warn_of_friction(machine, options, result);
-
-  const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, method);
-  EventDriver                           driver     = event_driver(machine, *integrator, options);
-  Recorder recorder(machine, *integrator, options, signals, sampling(machine, method), result);
+  std::unique_ptr<Run> run;
   try
   {
-    driver.begin(options.begin, initial.q, initial.v);
+    run = std::make_unique<Run>(machine, initial, options, method, signals, result);
   }
   catch (const ConvergenceFailure &failure)
   {
     fail_at_start(failure, result);
     return result;
   }
-  HydraulicLimits cylinders(machine, *integrator);
-  StiffnessCheck  stiffness(machine, initial, method);
-  FastForces      fast_forces(machine, *integrator);
-  driver.on_step(
-      [&]
-      {
-        recorder.step();
-        cylinders.step();
-        if (!options.force_unstable)
-          stiffness.step(integrator->local());
-        fast_forces.step();
-      });
-  driver.on_event(
-      [&](const Event &event)
-      {
-        recorder.jump(event.name);
-        fast_forces.jump();
-      });
-  recorder.begin();
-  cylinders.begin();
-  fast_forces.begin();
-
-  const long   progress_every = machine.size() > 1000 ? 4 : 1024;
-  CrawlWatch   crawl(options);
-  const double finish = options.end - 1e-12 * (options.end - options.begin); // what rounding may leave
-  try
-  {
-    for (long k = 1; integrator->time() < finish; ++k)
-    {
-      driver.advance();
-      if (stop && stop->load(std::memory_order_relaxed))
-      {
-        result.interrupted = true;
-        break;
-      }
-      if (progress && k % progress_every == 0)
-        progress(integrator->time());
-      if (k % CrawlWatch::window == 0 && controlled(method))
-        crawl.look(integrator->time());
-    }
-  }
-  catch (const ConvergenceFailure &failure)
-  {
-    result.failure = failure.what() + advice(machine, method, integrator->instant());
-  }
-  recorder.finish();
-  result.events = driver.events();
-  warn_of_switches(machine, options.begin, result);
-  take_work(integrator->work(), driver, options, result);
+  run->integrate(progress, stop);
+  run->finish(initial);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
-  for (const std::string &warning : cylinders.warnings())
-    result.warnings.push_back(warning);
-  if (std::string warning = fast_forces.warning(); !warning.empty())
-    result.warnings.push_back(std::move(warning));
-  const Eigen::VectorXd &v = integrator->instant().v;
-  for (const std::string &warning : tilting_rotors(machine, v.norm() > initial.v.norm() ? v : initial.v))
-    result.warnings.push_back(warning);
   return result;
 }
 

@@ -6,16 +6,16 @@
 namespace gestell::fem
 {
 
-Constraints::Constraints(int n_nodes) : held(3 * n_nodes, 0), tie_of(3 * n_nodes, -1) {}
+MultipointConstraints::MultipointConstraints(int n_nodes) : held(3 * n_nodes, 0), tie_of(3 * n_nodes, -1) {}
 
-void Constraints::tie(int displacement, Combination combination)
+void MultipointConstraints::tie(int displacement, Combination combination)
 {
   assert(tie_of[displacement] < 0 && !held[displacement]);
   tie_of[displacement] = static_cast<int>(ties.size());
   ties.push_back(std::move(combination));
 }
 
-Kinematics::Kinematics(const Constraints &constraints)
+AffineConstraints::AffineConstraints(const MultipointConstraints &constraints)
     : column_(constraints.held.size(), -1), new_column_(constraints.measures.size(), -1), tied_row_(constraints.tie_of),
       tied_(constraints.ties.size())
 {
@@ -33,8 +33,9 @@ Kinematics::Kinematics(const Constraints &constraints)
     new_column_[k] = n_coordinates_++;
 
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t row = 0; row < constraints.ties.size(); ++row)
-    for (const auto &[value, weight] : constraints.ties[row])
+  const std::vector<Combination>      ties = closed_ties(constraints.held, constraints.tie_of, constraints.ties);
+  for (std::size_t row = 0; row < ties.size(); ++row)
+    for (const auto &[value, weight] : ties[row])
     {
       assert(coordinate(value) >= 0);
       entries.emplace_back(row, coordinate(value), weight);
@@ -43,7 +44,7 @@ Kinematics::Kinematics(const Constraints &constraints)
   G_t_.setFromTriplets(entries.begin(), entries.end());
 }
 
-Kinematics::Kinematics(const Lists &lists)
+AffineConstraints::AffineConstraints(const Lists &lists)
     : column_(lists.column), tied_row_(lists.tied_row), tied_(lists.tied), n_free_(lists.n_free),
       n_coordinates_(lists.n_coordinates)
 {
@@ -55,7 +56,7 @@ Kinematics::Kinematics(const Lists &lists)
   G_t_.setFromTriplets(entries.begin(), entries.end());
 }
 
-Kinematics::Lists Kinematics::of_nodes(const std::vector<int> &nodes) const
+AffineConstraints::Lists AffineConstraints::of_nodes(const std::vector<int> &nodes) const
 {
   Lists            lists;
   std::vector<int> number(n_coordinates_, -1); // among those of the lists
@@ -95,13 +96,13 @@ Kinematics::Lists Kinematics::of_nodes(const std::vector<int> &nodes) const
   return lists;
 }
 
-int Kinematics::coordinate(int value) const
+int AffineConstraints::coordinate(int value) const
 {
   const int n = n_displacements();
   return value < n ? column_[value] : new_column_[value - n];
 }
 
-Combination Kinematics::row(int displacement) const
+Combination AffineConstraints::row(int displacement) const
 {
   if (column_[displacement] >= 0)
     return {{column_[displacement], 1.}};
@@ -112,7 +113,7 @@ Combination Kinematics::row(int displacement) const
   return result;
 }
 
-Eigen::VectorXd Kinematics::expand(const Eigen::VectorXd &q) const
+Eigen::VectorXd AffineConstraints::expand(const Eigen::VectorXd &q) const
 {
   const Eigen::VectorXd tied = G_t_ * q;
   Eigen::VectorXd       u    = Eigen::VectorXd::Zero(n_displacements());
@@ -124,7 +125,7 @@ Eigen::VectorXd Kinematics::expand(const Eigen::VectorXd &q) const
   return u;
 }
 
-Eigen::VectorXd Kinematics::gather(const Eigen::VectorXd &f) const
+Eigen::VectorXd AffineConstraints::gather(const Eigen::VectorXd &f) const
 {
   Eigen::VectorXd tied = Eigen::VectorXd::Zero(G_t_.rows());
   Eigen::VectorXd free = Eigen::VectorXd::Zero(n_coordinates_);
@@ -153,8 +154,8 @@ void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, in
 
 } // namespace
 
-Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix                 &A,
-                                                     const Eigen::SparseMatrix<double> &beside) const
+Eigen::SparseMatrix<double> AffineConstraints::project_free(const BlockMatrix                 &A,
+                                                            const Eigen::SparseMatrix<double> &beside) const
 {
   // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
   const BlockMatrix::Rows rows         = A.rows();
@@ -208,7 +209,7 @@ Eigen::SparseMatrix<double> Kinematics::project_free(const BlockMatrix          
   return sum;
 }
 
-Eigen::SparseMatrix<double> Kinematics::project(const BlockMatrix &A) const
+Eigen::SparseMatrix<double> AffineConstraints::project(const BlockMatrix &A) const
 {
   assert(3 * A.n_nodes() == n_displacements());
   if (tied_.empty())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/assembly/block_matrix.h"
+#include "fem/assembly/constraint_closure.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -13,22 +14,19 @@
 namespace gestell::fem
 {
 
-/// Linear combination  sum weight * value(index).
-using Combination = std::vector<std::pair<int, double>>;
-
 /**
  * Nodal displacements u [3 n_nodes] that follow from others.
  *
  * Values are numbered: first the displacements themselves, 3 node + direction; then new coordinates from 3 n_nodes on.
  */
-struct Constraints
+struct MultipointConstraints
 {
-  explicit Constraints(int n_nodes);
+  explicit MultipointConstraints(int n_nodes);
 
   std::vector<char>          held;     ///< [3 n_nodes] displacement is zero
   std::map<int, std::string> holder;   ///< name of the support that holds a node, for messages
   std::vector<int>           tie_of;   ///< [3 n_nodes] index into ties, or -1
-  std::vector<Combination>   ties;     ///< tied displacement as a combination of values that are neither tied nor held
+  std::vector<Combination>   ties;     ///< tied displacement as a combination of other values, see closed_ties()
   std::vector<Combination>   measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
   int                        n_interface_coordinates = 0; ///< the first of the new coordinates; they end up last in q
 
@@ -43,10 +41,10 @@ struct Constraints
  * surfaces; then six coordinates for every interface, or three.  G has a one in most rows, so only the others are
  * stored.
  */
-class Kinematics
+class AffineConstraints
 {
 public:
-  explicit Kinematics(const Constraints &constraints);
+  explicit AffineConstraints(const MultipointConstraints &constraints);
 
   /// The same of some nodes alone, as plain lists that can be sent: free coordinates first, in the order of the nodes;
   /// ties in the order of the whole, so that project() sums them alike.
@@ -58,14 +56,14 @@ public:
     std::vector<double> tie_weight;
     std::vector<int>    coordinates; ///< [n_coordinates] what they are in the whole
   };
-  explicit Kinematics(const Lists &lists);
+  explicit AffineConstraints(const Lists &lists);
   /// @param nodes ascending.
   Lists of_nodes(const std::vector<int> &nodes) const;
 
   int n_coordinates() const { return n_coordinates_; }
   int n_displacements() const { return static_cast<int>(column_.size()); }
 
-  /// Index in q of a value as numbered in Constraints, or -1 if it is held or tied.
+  /// Index in q of a value as numbered in MultipointConstraints, or -1 if it is held or tied.
   int coordinate(int value) const;
   /// Row of G as pairs (coordinate, weight).
   Combination row(int displacement) const;

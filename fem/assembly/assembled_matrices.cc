@@ -8,7 +8,7 @@
 namespace gestell::fem
 {
 
-AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics)
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine)
 {
   const Eigen::Vector3d middle = middle_of_nodes(mesh);
   AssembledMatrices     sums;
@@ -18,11 +18,11 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
     std::iota(nodes.begin(), nodes.end(), 0);
     const BlockMatrix C = assemble_stiffness(mesh, materials);
     sums.rigid_energy   = rigid_energies(mesh, C, middle, nodes).share();
-    sums.C              = kinematics.project(C);
+    sums.C              = affine.project(C);
   }
   const BlockMatrix M      = assemble_mass(mesh, materials);
   const NodalMasses masses = nodal_masses(mesh, M, middle);
-  sums.M                   = kinematics.project(M);
+  sums.M                   = affine.project(M);
   sums.whole               = mass_integrals(mesh, masses, middle);
   sums.nodal_mass          = masses.mass;
   return sums;

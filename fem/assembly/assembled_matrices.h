@@ -17,6 +17,6 @@ struct AssembledMatrices
   MassProperties  whole;
 };
 
-AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics);
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine);
 
 } // namespace gestell::fem

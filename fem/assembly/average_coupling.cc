@@ -198,7 +198,7 @@ std::vector<Combination> inner_coordinates(const std::vector<Group> &groups, con
 
 } // namespace
 
-void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints)
+void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints)
 {
   const Rows6              W            = averaging(coupled, mesh);
   const std::vector<Group> groups       = make_groups(coupled, mesh, W);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/assembly/quadratic_mesh.h"
+#include "fem/assembly/node_lists.h"
 
 #include <petscmat.h>
 

@@ -117,7 +117,7 @@ double share_above(const Plane &plane, const QuadraticMesh &mesh, int cell)
 } // namespace
 
 FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
-                      const Kinematics &kinematics, double rayleigh_stiffness)
+                      const AffineConstraints &affine, double rayleigh_stiffness)
 {
   const Plane               plane  = plane_of(cut);
   const std::vector<double> height = heights(plane, mesh);
@@ -151,7 +151,7 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
   }
   if (!divides)
     refuse(cut, height);
-  const Eigen::VectorXd on_q = kinematics.gather(row);
+  const Eigen::VectorXd on_q = affine.gather(row);
   return {"cut." + cut.name, "N", on_q, rayleigh_stiffness * on_q, mass * plane.normal};
 }
 

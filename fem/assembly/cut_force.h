@@ -27,6 +27,6 @@ namespace gestell::fem
  * @throws std::invalid_argument for a normal of no length and for a plane that does not divide the frame.
  */
 FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
-                      const Kinematics &kinematics, double rayleigh_stiffness);
+                      const AffineConstraints &affine, double rayleigh_stiffness);
 
 } // namespace gestell::fem

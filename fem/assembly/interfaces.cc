@@ -34,7 +34,7 @@ void require_plane(const CoupledPatch &coupled, const QuadraticMesh &mesh)
 }
 
 void require_apart(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
-                   const Constraints &constraints)
+                   const MultipointConstraints &constraints)
 {
   std::vector<int> owner(mesh.n_nodes(), -1);
   for (std::size_t k = 0; k < interfaces.size(); ++k)
@@ -64,7 +64,7 @@ void require_apart(const std::vector<CoupledPatch> &interfaces, const QuadraticM
 
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
                                          const std::vector<InterfaceSpecification> &interfaces,
-                                         Constraints                               &constraints)
+                                         MultipointConstraints                     &constraints)
 {
   std::vector<CoupledPatch> result;
   for (const InterfaceSpecification &interface : interfaces)
@@ -93,7 +93,7 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
   return result;
 }
 
-void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints)
+void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints)
 {
   for (const int node : coupled.patch.nodes)
   {
@@ -104,7 +104,8 @@ void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first
   }
 }
 
-void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh, Constraints &constraints)
+void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
+                    MultipointConstraints &constraints)
 {
   require_apart(interfaces, mesh, constraints);
   int first = constraints.first_new();

@@ -50,17 +50,18 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
 /// mistaken?
 std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance);
 
-/// Finds surfaces and positions; sets Constraints::n_interface_coordinates and their places among the new values.
+/// Finds surfaces and positions; sets MultipointConstraints::n_interface_coordinates and their places among the new
+/// values.
 std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &quadratic,
                                          const std::vector<InterfaceSpecification> &interfaces,
-                                         Constraints                               &constraints);
+                                         MultipointConstraints                     &constraints);
 
 /**
  * Rigid coupling (RBE2): every node at x of the patch moves as  u = u0 + theta x (x - x0).
  *
  * @param first value number of the node's ux; ux uy uz rx ry rz follow.
  */
-void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints);
+void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints);
 
 /**
  * Averaging coupling (RBE3): the node takes the rigid motion p = (u0, theta) that fits the surface best,
@@ -75,7 +76,7 @@ void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first
  * each with six inner coordinates  m_g = W_pg^-1 W_g u_g  (p: six pivots of the group) in place of u_pg; the average
  * becomes p = sum_g W_pg m_g, which eliminates six of the m_g.  Nothing is approximated.
  */
-void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, Constraints &constraints);
+void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints);
 
 /**
  * Ties all interfaces.
@@ -83,6 +84,7 @@ void tie_average(const CoupledPatch &coupled, const QuadraticMesh &mesh, int fir
  * @throws std::invalid_argument where two interfaces, or an interface and a clamped support, share nodes, and for
  *         surfaces whose points lie on one line.
  */
-void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh, Constraints &constraints);
+void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
+                    MultipointConstraints &constraints);
 
 } // namespace gestell::fem

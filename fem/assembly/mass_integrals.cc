@@ -48,14 +48,14 @@ MassProperties mass_integrals(const QuadraticMesh &mesh, const NodalMasses &mass
   return whole;
 }
 
-Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinematics &kinematics)
+Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const AffineConstraints &affine)
 {
-  Eigen::MatrixXd result(kinematics.n_coordinates(), 3);
+  Eigen::MatrixXd result(affine.n_coordinates(), 3);
   for (int d = 0; d < 3; ++d)
   {
     Eigen::VectorXd load                       = Eigen::VectorXd::Zero(3 * nodal_mass.size());
     load(Eigen::seqN(d, nodal_mass.size(), 3)) = nodal_mass;
-    result.col(d)                              = kinematics.gather(load);
+    result.col(d)                              = affine.gather(load);
   }
   return result;
 }

@@ -27,7 +27,7 @@ NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const 
 MassProperties mass_integrals(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin);
 
 /// Load of a unit acceleration field in x, y, z [n x 3].
-Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Kinematics &kinematics);
+Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const AffineConstraints &affine);
 
 /// Mass and material of every solid.
 std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,

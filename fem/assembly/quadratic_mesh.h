@@ -1,27 +1,15 @@
 #pragma once
 
+#include "fem/assembly/node_lists.h"
 #include "fem/values/mesh.h"
+
+#include <Eigen/Core>
 
 #include <array>
 #include <vector>
 
 namespace gestell::fem
 {
-
-/// Cells with the same number of nodes.
-struct NodeLists
-{
-  const int  *nodes; ///< cell after cell
-  std::size_t n_cells;
-  int         n_nodes; ///< of a cell
-
-  NodeLists(const int *nodes_of_cells, std::size_t count, int n) : nodes(nodes_of_cells), n_cells(count), n_nodes(n) {}
-  template <std::size_t n>
-  NodeLists(const std::vector<std::array<int, n>> &cells)
-      : nodes(cells.empty() ? nullptr : cells[0].data()), n_cells(cells.size()), n_nodes(int(n))
-  {
-  }
-};
 
 /**
  * Nodes of quadratic cells (10 of a tetrahedron, 27 of a hexahedron, 18 of a prism): corners of a mesh, middles of its
@@ -66,6 +54,17 @@ struct QuadraticMesh
   }
   std::vector<NodeLists> lists() const { return {cells, hexahedra, prisms}; }
 };
+
+/// Nodes of a cell as columns [3 x n_nodes].
+inline Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const QuadraticMesh &mesh, int cell)
+{
+  const int                                          n     = mesh.n_nodes_of(cell);
+  const int                                         *nodes = mesh.nodes(cell);
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> X(3, n);
+  for (int a = 0; a < n; ++a)
+    X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[nodes[a]].data());
+  return X;
+}
 
 /**
  * The nodes as deal.II's DoFHandler numbers them on the cells of a mesh: FE_SimplexP(2), FE_Q(2), FE_WedgeP(2), several

@@ -191,20 +191,20 @@ CellMatrices cell_matrices(const Eigen::Matrix3Xd &X, const std::vector<Point> &
 class ExtendedFrame
 {
 public:
-  ExtendedFrame(const QuadraticMesh &mesh, const Kinematics &kinematics)
-      : mesh_(mesh), functions_(mesh), lists_(lists_of(mesh, kinematics))
+  ExtendedFrame(const QuadraticMesh &mesh, const AffineConstraints &affine)
+      : mesh_(mesh), functions_(mesh), lists_(lists_of(mesh, affine))
   {
     n_free_ = lists_.n_free;
     for (int &column : lists_.tie_column)
       column = shifted(column);
-    place_.assign(kinematics.n_coordinates(), -1);
+    place_.assign(affine.n_coordinates(), -1);
     for (std::size_t k = 0; k < lists_.coordinates.size(); ++k)
       place_[lists_.coordinates[k]] = int(k);
     int n = int(lists_.coordinates.size());
     for (int &place : place_) // of coordinates that move no node
       place = shifted(place < 0 ? n++ : place);
     n_added_ = 0;
-    extend(kinematics);
+    extend(affine);
     for (int &column : lists_.tie_column)
       column = column < 0 ? -1 - column + n_added_ : column;
     for (int &place : place_)
@@ -248,23 +248,23 @@ public:
   }
 
 private:
-  static Kinematics::Lists lists_of(const QuadraticMesh &mesh, const Kinematics &kinematics)
+  static AffineConstraints::Lists lists_of(const QuadraticMesh &mesh, const AffineConstraints &affine)
   {
     std::vector<int> nodes(mesh.n_nodes());
     std::iota(nodes.begin(), nodes.end(), 0);
-    return kinematics.of_nodes(nodes);
+    return affine.of_nodes(nodes);
   }
   /// Marks what moves up to make room for the functions, whose number is not known yet.
   int shifted(int coordinate) const { return coordinate < n_free_ ? coordinate : -1 - coordinate; }
 
-  void extend(const Kinematics &kinematics)
+  void extend(const AffineConstraints &affine)
   {
     for (int k = 0; k < functions_.size(); ++k)
       for (int d = 0; d < 3; ++d)
       {
         const auto &with = functions_.vanish_with(k);
         const bool  held =
-            std::all_of(with.begin(), with.end(), [&](int node) { return kinematics.coordinate(3 * node + d) < 0; });
+            std::all_of(with.begin(), with.end(), [&](int node) { return affine.coordinate(3 * node + d) < 0; });
         lists_.column.push_back(held ? -1 : n_free_ + n_added_++);
         lists_.tied_row.push_back(-1);
       }
@@ -290,7 +290,7 @@ private:
   }
 
   /// The cells' matrix is not needed any more.
-  SparseMatrix projected(BlockMatrix cells) const { return Kinematics(lists_).project(cells); }
+  SparseMatrix projected(BlockMatrix cells) const { return AffineConstraints(lists_).project(cells); }
 
   /// The numbers of column i of A at their places.
   void replace(const SparseMatrix &A, Eigen::Index i, SparseMatrix &sum, SparseMatrix &beyond) const
@@ -321,11 +321,11 @@ private:
       }
   }
 
-  const QuadraticMesh &mesh_;
-  CubicFunctions       functions_;
-  Kinematics::Lists    lists_;
-  std::vector<int>     place_;
-  int                  n_free_ = 0, n_added_ = 0;
+  const QuadraticMesh     &mesh_;
+  CubicFunctions           functions_;
+  AffineConstraints::Lists lists_;
+  std::vector<int>         place_;
+  int                      n_free_ = 0, n_added_ = 0;
 };
 
 } // namespace
@@ -365,10 +365,10 @@ double raised_coordinates(const QuadraticMesh &mesh, double n)
   return n + 3. * (3.5 * count(mesh.cells) + 16. * count(mesh.hexahedra) + 9.5 * count(mesh.prisms));
 }
 
-RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
+RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
                          const SparseMatrix &C, const SparseMatrix &M)
 {
-  return ExtendedFrame(mesh, kinematics).frame(materials, C, M);
+  return ExtendedFrame(mesh, affine).frame(materials, C, M);
 }
 
 } // namespace gestell::fem

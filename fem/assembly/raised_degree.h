@@ -60,7 +60,7 @@ struct RaisedFrame
  *
  * @param C, M  of the frame.
  */
-RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const Kinematics &kinematics,
+RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
                          const SparseMatrix &C, const SparseMatrix &M);
 
 /// Coordinates it will have about, of a frame with n: tetrahedra share 3.5 functions each, hexahedra 16 and

@@ -183,14 +183,4 @@ const ReferenceCell &reference_cell(CellKind kind)
   return kind == CellKind::tetrahedron ? four : kind == CellKind::hexahedron ? eight : six;
 }
 
-Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const QuadraticMesh &mesh, int cell)
-{
-  const int                                          n     = mesh.n_nodes_of(cell);
-  const int                                         *nodes = mesh.nodes(cell);
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> X(3, n);
-  for (int a = 0; a < n; ++a)
-    X.col(a) = Eigen::Map<const Eigen::Vector3d>(mesh.points[nodes[a]].data());
-  return X;
-}
-
 } // namespace gestell::fem

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/assembly/quadratic_mesh.h"
+#include "fem/values/cell_shape.h"
 
 #include <Eigen/Core>
 
@@ -34,8 +34,5 @@ struct ReferenceCell
   Eigen::MatrixXd to_corners;
 };
 const ReferenceCell &reference_cell(CellKind kind);
-
-/// Nodes of a cell as columns [3 x n_nodes].
-Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const QuadraticMesh &mesh, int cell);
 
 } // namespace gestell::fem

@@ -11,18 +11,19 @@ Eigen::MatrixXd rigid_displacements(const QuadraticMesh &mesh, const Eigen::Vect
   return u;
 }
 
-Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0, const Constraints &constraints,
-                                  const Kinematics &kinematics, const std::vector<Interface> &interfaces)
+Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0,
+                                  const MultipointConstraints &constraints, const AffineConstraints &affine,
+                                  const std::vector<Interface> &interfaces)
 {
   const Eigen::MatrixXd u = rigid_displacements(mesh, x0);
-  Eigen::MatrixXd       q = Eigen::MatrixXd::Zero(kinematics.n_coordinates(), 6);
+  Eigen::MatrixXd       q = Eigen::MatrixXd::Zero(affine.n_coordinates(), 6);
   for (int i = 0; i < u.rows(); ++i)
-    if (const int coordinate = kinematics.coordinate(i); coordinate >= 0)
+    if (const int coordinate = affine.coordinate(i); coordinate >= 0)
       q.row(coordinate) = u.row(i);
 
   for (std::size_t k = 0; k < constraints.measures.size(); ++k)
     for (const auto &[displacement, weight] : constraints.measures[k])
-      q.row(kinematics.coordinate(constraints.first_new() + static_cast<int>(k))) += weight * u.row(displacement);
+      q.row(affine.coordinate(constraints.first_new() + static_cast<int>(k))) += weight * u.row(displacement);
 
   for (const Interface &interface : interfaces)
   {

@@ -29,8 +29,9 @@ Eigen::Matrix<double, 3, 6> rigid_motions_of_point(const Point3 &x, const Centre
 Eigen::MatrixXd rigid_displacements(const QuadraticMesh &mesh, const Eigen::Vector3d &x0);
 
 /// The same in the coordinates of the frame [n x 6]; interfaces move with their positions.
-Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0, const Constraints &constraints,
-                                  const Kinematics &kinematics, const std::vector<Interface> &interfaces);
+Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0,
+                                  const MultipointConstraints &constraints, const AffineConstraints &affine,
+                                  const std::vector<Interface> &interfaces);
 
 /**
  * Rigid motions the frame can make without elastic energy while some coordinates are held, in words:

@@ -109,7 +109,7 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
   return result;
 }
 
-void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints)
+void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &constraints)
 {
   for (const auto &[support, patch] : supports)
     if (support.kind == SupportKind::clamped)
@@ -154,10 +154,10 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
 }
 
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics, const Eigen::VectorXd &nodal_mass,
+                                        const AffineConstraints &affine, const Eigen::VectorXd &nodal_mass,
                                         double rayleigh_stiffness)
 {
-  const int                n = kinematics.n_displacements();
+  const int                n = affine.n_displacements();
   std::vector<char>        counted_before(n, 0);
   std::vector<FrameOutput> outputs;
   for (const SupportedPatch &supported : supports)
@@ -167,8 +167,8 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
       FrameOutput output{"support." + support.name + "." + "xyz"[d], "N", {}, {}, Eigen::Vector3d::Zero()};
       if (support.kind == SupportKind::foundation)
       {
-        output.on_q = kinematics.gather(foundation_row(supported, d, &Support::stiffness, n));
-        output.on_v = kinematics.gather(foundation_row(supported, d, &Support::damping, n));
+        output.on_q = affine.gather(foundation_row(supported, d, &Support::stiffness, n));
+        output.on_v = affine.gather(foundation_row(supported, d, &Support::damping, n));
       }
       else
       {
@@ -179,7 +179,7 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
             counted[3 * node + d] = counted_before[3 * node + d] = 1;
             output.under_acceleration[d] -= nodal_mass[node];
           }
-        output.on_q = kinematics.gather(clamped_row(counted, C));
+        output.on_q = affine.gather(clamped_row(counted, C));
         output.on_v = rayleigh_stiffness * output.on_q;
       }
       outputs.push_back(std::move(output));

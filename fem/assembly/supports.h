@@ -27,7 +27,7 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
                                           const std::vector<Support> &supports);
 
 /// Holds the displacements of clamped supports.
-void hold(const std::vector<SupportedPatch> &supports, Constraints &constraints);
+void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &constraints);
 
 /**
  * Adds elastic foundations:  sum_d (k_d / A) a_d a_d^T int N N^T dA,  k_d the total stiffness [N/m] along the axis a_d.
@@ -53,7 +53,7 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
  * @param rayleigh_stiffness  beta [s] of all cells.
  */
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const Kinematics &kinematics, const Eigen::VectorXd &nodal_mass,
+                                        const AffineConstraints &affine, const Eigen::VectorXd &nodal_mass,
                                         double rayleigh_stiffness);
 
 } // namespace gestell::fem

@@ -5,15 +5,55 @@
 #include <gmsh.h>
 
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gestell::fem
 {
 
+namespace
+{
+
+/// gmsh's types of the same cells without and with middle nodes, and the nodes of the second.
+struct Degrees
+{
+  int         linear, quadratic;
+  std::size_t n_corners, n_nodes;
+};
+constexpr Degrees both[] = {{4, 11, 4, 10}, {5, 17, 8, 20}, {6, 18, 6, 15}};
+
+/// gmsh finds but one of both degrees of a kind of cells in a volume: there the corners of the quadratic ones are
+/// taken.
+void make_degrees_equal(InpMesh &mesh)
+{
+  std::set<std::pair<std::string, int>> there;
+  for (const auto &elements : mesh.elements)
+    there.emplace(elements.solid, elements.gmsh_type);
+  for (auto &elements : mesh.elements)
+    for (const auto &[linear, quadratic, n_corners, n_nodes] : both)
+    {
+      if (elements.gmsh_type != quadratic || there.count({elements.solid, linear}) == 0)
+        continue;
+      elements.gmsh_type = linear;
+      std::vector<std::size_t> corners;
+      for (std::size_t i = 0; i < elements.nodes.size(); i += n_nodes)
+        corners.insert(corners.end(), &elements.nodes[i], &elements.nodes[i] + n_corners);
+      elements.nodes = std::move(corners);
+      mesh.notes.push_back("the solid \"" + elements.solid +
+                           "\" has cells with and without middle nodes: all are taken with straight edges");
+      break;
+    }
+}
+
+} // namespace
+
 MeshGroups load_inp(CadModel &model, const CadSource &source)
 {
-  const InpMesh mesh = read_inp(source);
-  model.notes        = mesh.notes;
+  InpMesh mesh = read_inp(source);
+  make_degrees_equal(mesh);
+  model.notes = mesh.notes;
   if (mesh.elements.empty())
     return {};
   std::map<std::string, int> volume;

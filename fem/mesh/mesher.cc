@@ -193,7 +193,7 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   if (!refined.empty())
     set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
   report("meshing surfaces");
-  mesh_surfaces(result.model, result.selection, specification, options, session, field, script_has_sizes);
+  mesh_surfaces(result.model, result.selection, specification, session, {options, field, script_has_sizes});
   report("meshing volumes");
   mesh_volumes(result.model, specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});

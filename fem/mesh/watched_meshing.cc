@@ -59,10 +59,10 @@ void require_cells(double n, const std::string &what, const MeshOptions &options
 }
 
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
-                   const MeshOptions &options, const GmshSession &session, const std::optional<SizeField> &refined,
-                   bool script_has_sizes)
+                   const GmshSession &session, const SurfaceSizes &sizes)
 {
-  const std::string head = head_of(specification) + ": gmsh cannot mesh its surfaces: ";
+  const auto &[options, refined, script_has_sizes] = sizes;
+  const std::string head                           = head_of(specification) + ": gmsh cannot mesh its surfaces: ";
   session.run([] { gmsh::model::mesh::generate(2); }, head, remedy);
   const WantedSize wanted(model, options, selection, refined);
   const double     excess = excess_of_triangles(wanted, model.unit);

@@ -20,13 +20,18 @@ std::string head_of(const FrameSpecification &specification);
 /// @throws std::invalid_argument for more than mesh.max_cells
 void require_cells(double n, const std::string &what, const MeshOptions &options);
 
+/// Where the sizes of the surfaces' triangles come from.
+struct SurfaceSizes
+{
+  MeshOptions              options;
+  std::optional<SizeField> refined;                  ///< of a refinement
+  bool                     script_has_sizes = false; ///< a script has drawn sizes of its own
+};
+
 /// Meshes the surfaces; again with sizes that grow from short edges where those make far more triangles than wanted.
-/// @param refined           sizes of a refinement
-/// @param script_has_sizes  whether a script has drawn sizes of its own
 /// @throws std::invalid_argument where gmsh cannot, or if the triangles tell of too many cells
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
-                   const MeshOptions &options, const GmshSession &session, const std::optional<SizeField> &refined,
-                   bool script_has_sizes);
+                   const GmshSession &session, const SurfaceSizes &sizes);
 
 /// What meshes the volumes of gmsh's model on the mesh of their surfaces.
 using VolumeMesher = std::function<void()>;

@@ -35,8 +35,8 @@ double diagonal(const Mesh &mesh)
   return box.diagonal().norm();
 }
 
-std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled, const Constraints &constraints,
-                                       const Kinematics &kinematics)
+std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
+                                       const MultipointConstraints &constraints, const AffineConstraints &affine)
 {
   std::vector<Interface> result;
   int                    value = constraints.first_new();
@@ -46,7 +46,7 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
     interface.name     = patch.specification.name;
     interface.position = {patch.position[0], patch.position[1], patch.position[2]};
     for (int i = 0; i < patch.n_coordinates(); ++i)
-      interface.coordinate[i] = kinematics.coordinate(value++);
+      interface.coordinate[i] = affine.coordinate(value++);
     result.push_back(std::move(interface));
   }
   return result;
@@ -68,14 +68,14 @@ struct Ingredients
   const QuadraticMesh               &mesh;
   const CellMaterials               &materials;
   const std::vector<SupportedPatch> &supports;
-  const Kinematics                  &kinematics;
+  const AffineConstraints           &affine;
   const std::vector<Interface>      &nodes;
 };
 
 /// Mass, centre and the load of a unit acceleration: of the cells, and with all that is attached.
 void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::VectorXd &nodal_mass, FrameMatrices &frame)
 {
-  frame.acceleration_load = acceleration_load(nodal_mass, of.kinematics);
+  frame.acceleration_load = acceleration_load(nodal_mass, of.affine);
   frame.facts.whole       = cells;
   for (const AttachedMass &mass : of.specification.masses)
   {
@@ -119,21 +119,20 @@ BlockMatrix stiffness_at_supports(const Ingredients &of)
 void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen::VectorXd &nodal_mass,
                         FrameMatrices &frame)
 {
-  for (FrameOutput &output :
-       support_forces(of.supports, C, of.kinematics, nodal_mass, of.specification.rayleigh_stiffness))
+  for (FrameOutput &output : support_forces(of.supports, C, of.affine, nodal_mass, of.specification.rayleigh_stiffness))
     frame.outputs.push_back(std::move(output));
 }
 
 /// M, B, C and what is read off them.
 void add_matrices(const Ingredients &of, FrameMatrices &frame)
 {
-  const auto &[specification, mesh, materials, supports, kinematics, nodes] = of;
-  const auto foundations                                                    = [&](Vector3 Support::*totals)
-  { return of.kinematics.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
+  const auto &[specification, mesh, materials, supports, affine, nodes] = of;
+  const auto foundations                                                = [&](Vector3 Support::*totals)
+  { return of.affine.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
-  const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, kinematics.n_coordinates());
+  const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, affine.n_coordinates());
 
-  AssembledMatrices sums   = sum_cells(mesh, materials, kinematics);
+  AssembledMatrices sums   = sum_cells(mesh, materials, affine);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
@@ -148,8 +147,8 @@ void add_matrices(const Ingredients &of, FrameMatrices &frame)
   add(frame.M, M_beside);
 }
 
-Constraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
-                      const std::vector<CoupledPatch> &coupled, Constraints constraints)
+MultipointConstraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
+                                const std::vector<CoupledPatch> &coupled, MultipointConstraints constraints)
 {
   hold(supports, constraints);
   tie_interfaces(coupled, mesh, constraints);
@@ -194,10 +193,10 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = quadratic_mesh(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
-  Constraints                       constraints(quadratic.n_nodes());
+  MultipointConstraints             constraints(quadratic.n_nodes());
   const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);
   constraints                             = constrain(quadratic, supports, coupled, std::move(constraints));
-  const Kinematics kinematics(constraints);
+  const AffineConstraints affine(constraints);
 
   FrameMatrices frame;
   frame.n_cells                      = mesh.n_cells();
@@ -205,7 +204,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   frame.statements                   = mesh.statements;
   frame.modal_damping_ratio          = specification.modal_damping_ratio;
   frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
-  const std::vector<Interface> nodes = make_interfaces(coupled, constraints, kinematics);
+  const std::vector<Interface> nodes = make_interfaces(coupled, constraints, affine);
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
   for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
@@ -214,18 +213,18 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (std::string &note : rayleigh_at_large(specification))
     frame.notes.push_back(std::move(note));
   for (const CutSpecification &cut : specification.cuts)
-    frame.outputs.push_back(cut_force(cut, quadratic, materials, kinematics, specification.rayleigh_stiffness));
+    frame.outputs.push_back(cut_force(cut, quadratic, materials, affine, specification.rayleigh_stiffness));
 
-  add_matrices({specification, quadratic, materials, supports, kinematics, nodes}, frame);
+  add_matrices({specification, quadratic, materials, supports, affine, nodes}, frame);
 
-  frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, kinematics, nodes);
+  frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, affine, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
-  frame.picture       = skin_picture(quadratic, kinematics);
+  frame.picture       = skin_picture(quadratic, affine);
   if (specification.stress)
     frame.stress = skin_stress(
-        quadratic, [&](int cell) -> const Material & { return materials[cell]; }, kinematics,
+        quadratic, [&](int cell) -> const Material & { return materials[cell]; }, affine,
         rigid_nodes(supports, coupled));
-  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, kinematics)};
+  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, affine)};
 }
 
 } // namespace gestell::fem

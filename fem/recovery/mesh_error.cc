@@ -50,8 +50,8 @@ std::vector<std::vector<int>> cells_alike(const CellMaterials &materials, int n_
 
 } // namespace
 
-MeshError::MeshError(QuadraticMesh mesh, CellMaterials materials, Kinematics kinematics)
-    : mesh_(std::move(mesh)), materials_(std::move(materials)), kinematics_(std::move(kinematics))
+MeshError::MeshError(QuadraticMesh mesh, CellMaterials materials, AffineConstraints affine)
+    : mesh_(std::move(mesh)), materials_(std::move(materials)), affine_(std::move(affine))
 {
 }
 
@@ -64,7 +64,7 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
     const int   fields = std::min<int>(fields_once, static_cast<int>(q.cols()) - first);
     NodalFields u(3 * fields, mesh_.n_nodes());
     for (int field = 0; field < fields; ++field)
-      u.middleRows<3>(3 * field) = kinematics_.expand(q.col(first + field)).reshaped(3, mesh_.n_nodes());
+      u.middleRows<3>(3 * field) = affine_.expand(q.col(first + field)).reshaped(3, mesh_.n_nodes());
     for (const auto &cells : alike)
     {
       const Material &material = materials_[cells.front()];

@@ -31,7 +31,7 @@ namespace gestell::fem
 class MeshError
 {
 public:
-  MeshError(QuadraticMesh mesh, CellMaterials materials, Kinematics kinematics);
+  MeshError(QuadraticMesh mesh, CellMaterials materials, AffineConstraints affine);
 
   /**
    * @param q  fields in the coordinates of the frame [n x k].
@@ -42,15 +42,15 @@ public:
   /// The frame in elements of degree three on the same mesh.
   RaisedFrame raised(const FrameMatrices &frame) const
   {
-    return raise_degree(mesh_, materials_, kinematics_, frame.C, frame.M);
+    return raise_degree(mesh_, materials_, affine_, frame.C, frame.M);
   }
 
   const QuadraticMesh &mesh() const { return mesh_; }
 
 private:
-  QuadraticMesh mesh_;
-  CellMaterials materials_;
-  Kinematics    kinematics_;
+  QuadraticMesh     mesh_;
+  CellMaterials     materials_;
+  AffineConstraints affine_;
 };
 
 /// The frequency of the mesh over the true one, less one: omega_h / sqrt(omega_h^2 - eta^2) - 1, for

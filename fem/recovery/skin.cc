@@ -3,7 +3,7 @@
 namespace gestell::fem
 {
 
-Picture skin_picture(const QuadraticMesh &mesh, const Kinematics &kinematics)
+Picture skin_picture(const QuadraticMesh &mesh, const AffineConstraints &affine)
 {
   Picture          picture;
   std::vector<int> point_of(mesh.n_nodes(), -1), nodes;
@@ -27,9 +27,9 @@ Picture skin_picture(const QuadraticMesh &mesh, const Kinematics &kinematics)
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t point = 0; point < nodes.size(); ++point)
     for (int d = 0; d < 3; ++d)
-      for (const auto &[coordinate, weight] : kinematics.row(3 * nodes[point] + d))
+      for (const auto &[coordinate, weight] : affine.row(3 * nodes[point] + d))
         entries.emplace_back(3 * point + d, coordinate, weight);
-  picture.displacement.resize(3 * nodes.size(), kinematics.n_coordinates());
+  picture.displacement.resize(3 * nodes.size(), affine.n_coordinates());
   picture.displacement.setFromTriplets(entries.begin(), entries.end());
   return picture;
 }

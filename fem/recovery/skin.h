@@ -8,6 +8,6 @@ namespace gestell::fem
 {
 
 /// Skin of the frame with its corners as points; tied corners move through their interfaces, held ones rest.
-Picture skin_picture(const QuadraticMesh &mesh, const Kinematics &kinematics);
+Picture skin_picture(const QuadraticMesh &mesh, const AffineConstraints &affine);
 
 } // namespace gestell::fem

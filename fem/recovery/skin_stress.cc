@@ -129,7 +129,7 @@ public:
       add(cell);
   }
 
-  StressRecovery recovery(const Kinematics &kinematics, const RigidNodes &rigid)
+  StressRecovery recovery(const AffineConstraints &affine, const RigidNodes &rigid)
   {
     const auto n_points = static_cast<Eigen::Index>(result_.point.size());
     for (auto &entry : mean_)
@@ -142,9 +142,9 @@ public:
     std::vector<Eigen::Triplet<double>> rows;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       for (int d = 0; d < 3; ++d)
-        for (const auto &[coordinate, weight] : kinematics.row(3 * nodes_[i] + d))
+        for (const auto &[coordinate, weight] : affine.row(3 * nodes_[i] + d))
           rows.emplace_back(3 * i + d, coordinate, weight);
-    result_.u.resize(result_.mean.cols(), kinematics.n_coordinates());
+    result_.u.resize(result_.mean.cols(), affine.n_coordinates());
     result_.u.setFromTriplets(rows.begin(), rows.end());
     mark(rigid);
     return std::move(result_);
@@ -262,9 +262,9 @@ private:
 } // namespace
 
 StressRecovery skin_stress(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of,
-                           const Kinematics &kinematics, const RigidNodes &rigid)
+                           const AffineConstraints &affine, const RigidNodes &rigid)
 {
-  return Gatherer(mesh, material_of).recovery(kinematics, rigid);
+  return Gatherer(mesh, material_of).recovery(affine, rigid);
 }
 
 } // namespace gestell::fem

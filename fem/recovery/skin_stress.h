@@ -30,6 +30,6 @@ using RigidNodes = std::vector<std::pair<std::string, std::vector<int>>>;
  * @param material_of  of a cell.
  */
 StressRecovery skin_stress(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of,
-                           const Kinematics &kinematics, const RigidNodes &rigid);
+                           const AffineConstraints &affine, const RigidNodes &rigid);
 
 } // namespace gestell::fem

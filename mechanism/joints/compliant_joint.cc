@@ -37,10 +37,11 @@ void CompliantJoint::see(const double *u, const double *v, Seen &seen) const
   for (int i = 0; i < n_equations(); ++i)
   {
     const Equation &equation = equations_[i];
-    const auto value = equation.demand.measure.evaluate(first_, second_, x_1, x_2, u, v, seen.G + Eigen::Index(i) * k);
-    seen.s[i]        = value.s - equation.demand.offset;
-    seen.rate[i]     = value.rate;
-    seen.lambda[i]   = -equation.stiffness * seen.s[i] - equation.damping * value.rate;
+    const auto      value =
+        equation.demand.measure.evaluate({first_, second_, x_1, x_2}, u, v, seen.G + Eigen::Index(i) * k);
+    seen.s[i]      = value.s - equation.demand.offset;
+    seen.rate[i]   = value.rate;
+    seen.lambda[i] = -equation.stiffness * seen.s[i] - equation.damping * value.rate;
   }
 }
 

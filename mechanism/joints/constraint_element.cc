@@ -54,7 +54,7 @@ bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &m
   {
     std::ostringstream message;
     message << "the order \"" << order.name << "\" makes the speed of the prescribed motion jump from " << before
-            << " to " << behind << ", a blow that an ideal joint cannot tell; order \"set\" with an acceleration first";
+            << " to " << behind << ", an impact that an ideal joint cannot carry; order \"set\" with an acceleration first";
     throw std::domain_error(message.str());
   }
   return true;

@@ -40,7 +40,7 @@ void IdealJoint::constraint(const LocalMotion &motion, const double *history, do
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
-    const auto      s        = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, nullptr, G + i, n_c).s;
+    const auto      s        = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, nullptr, G + i, n_c).s;
     g[i]                     = s - equation.offset - (equation.driven ? f : 0.);
   }
 }
@@ -55,7 +55,7 @@ void IdealJoint::constraint_rates(const LocalMotion &motion, const double *histo
   for (int i = 0; i < n_constraints(); ++i)
   {
     const Equation &equation = equations_[i];
-    bias[i]                  = equation.measure.evaluate(first_, second_, x_1, x_2, motion.u, motion.v, G).bias;
+    bias[i]                  = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, motion.v, G).bias;
     rate[i]                  = 0.;
     if (!equation.driven)
       continue;

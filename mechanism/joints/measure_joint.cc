@@ -21,7 +21,7 @@ void refuse_jump(const std::string &kink, const std::string &what, double before
   std::ostringstream message;
   message
       << what << " jumps from " << before << " to " << behind << " (" << kink
-      << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+      << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: an "
          "element on a measure of type \"position function\", instead of the joint";
   throw std::domain_error(message.str());
 }

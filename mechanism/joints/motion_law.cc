@@ -137,7 +137,7 @@ void BrakedMotion::check_order(const SwitchCommand &order) const
   if (std::isfinite(order.rate) || std::isfinite(order.rate_of_rate))
     throw std::invalid_argument(
         "braked motion: the order \"" + order.name +
-        "\" takes neither an acceleration nor a jerk, since the key 'brake' of the motion tells "
+        "\" takes neither an acceleration nor a jerk, since the key 'brake' of the motion gives "
         "how it brakes; leave them out, or that key");
 }
 

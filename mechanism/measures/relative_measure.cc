@@ -1,6 +1,7 @@
 #include "mechanism/measures/relative_measure.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace gestell::mechanism
 {
@@ -11,15 +12,6 @@ namespace
 using MovedVector = Placement::MovedVector;
 using Gradient    = Eigen::Map<Eigen::RowVectorXd, 0, Eigen::InnerStride<>>;
 
-/// gradient_1 -= w . J_1, gradient_2 += w . J_2: of w . (x_2 - x_1), w held.
-void add_difference(const Vector3d &w, const MovedVector &x_1, const MovedVector &x_2, Gradient &of_1, Gradient &of_2)
-{
-  for (Eigen::Index i = 0; i < of_1.size(); ++i)
-    of_1[i] -= w.dot(x_1.J.col(i));
-  for (Eigen::Index i = 0; i < of_2.size(); ++i)
-    of_2[i] += w.dot(x_2.J.col(i));
-}
-
 void add_turn(const Vector3d &w, const MovedVector &a, Gradient &gradient)
 {
   for (Eigen::Index i = 0; i < gradient.size(); ++i)
@@ -28,122 +20,177 @@ void add_turn(const Vector3d &w, const MovedVector &a, Gradient &gradient)
 
 } // namespace
 
-RelativeMeasure::Value RelativeMeasure::evaluate(const Placement &first, const Placement &second,
-                                                 const MovedVector &x_1, const MovedVector &x_2, const double *u,
-                                                 const double *v, double *gradient, Eigen::Index stride) const
+/// Motion of both places, and the gradients with respect to their measures.
+struct RelativeMeasure::Pair
 {
-  const int     k_1 = first.n_measures(), k_2 = second.n_measures();
-  const double *v_2 = v ? v + k_1 : nullptr;
-  Gradient      of_1(gradient, k_1, Eigen::InnerStride<>(stride)),
-      of_2(gradient + stride * k_1, k_2, Eigen::InnerStride<>(stride));
-  of_1.setZero();
-  of_2.setZero();
-  const Vector3d d      = x_2.value - x_1.value;
-  const Vector3d d_rate = v ? Vector3d(x_2.rate - x_1.rate) : Vector3d::Zero();
-  const Vector3d d_bias = v ? Vector3d(x_2.bias - x_1.bias) : Vector3d::Zero();
+  Pair(const Places &places, const double *u, const double *v, double *gradient, Eigen::Index stride)
+      : first(places.first), second(places.second), x_1(places.x_1), x_2(places.x_2), u_1(u),
+        u_2(u + first.n_measures()), v_1(v), v_2(v ? v + first.n_measures() : nullptr),
+        of_1(gradient, first.n_measures(), Eigen::InnerStride<>(stride)),
+        of_2(gradient + stride * first.n_measures(), second.n_measures(), Eigen::InnerStride<>(stride)),
+        d(x_2.value - x_1.value)
+  {
+    of_1.setZero();
+    of_2.setZero();
+    if (v)
+    {
+      d_rate = x_2.rate - x_1.rate;
+      d_bias = x_2.bias - x_1.bias;
+    }
+  }
+
+  /// of_1 -= w . J_1, of_2 += w . J_2: of w . (x_2 - x_1), w held.
+  void add_difference(const Vector3d &w)
+  {
+    for (Eigen::Index i = 0; i < of_1.size(); ++i)
+      of_1[i] -= w.dot(x_1.J.col(i));
+    for (Eigen::Index i = 0; i < of_2.size(); ++i)
+      of_2[i] += w.dot(x_2.J.col(i));
+  }
+  void direction_1(const Vector3d &e, MovedVector &moved) const { first.direction(e, u_1, v_1, moved); }
+  void direction_2(const Vector3d &e, MovedVector &moved) const { second.direction(e, u_2, v_2, moved); }
+
+  const Placement   &first, &second;
+  const MovedVector &x_1, &x_2;
+  const double      *u_1, *u_2, *v_1, *v_2; ///< v: null if rates are not wanted
+  Gradient           of_1, of_2;
+  Vector3d           d, d_rate = Vector3d::Zero(), d_bias = Vector3d::Zero();
+};
+
+RelativeMeasure::Value RelativeMeasure::evaluate(const Places &places, const double *u, const double *v,
+                                                 double *gradient, Eigen::Index stride) const
+{
+  Pair pair(places, u, v, gradient, stride);
   switch (form)
   {
   case Form::along:
-  {
-    if (carrier == Carrier::space)
-    {
-      add_difference(a, x_1, x_2, of_1, of_2);
-      return {a.dot(d), a.dot(d_rate), a.dot(d_bias)};
-    }
-    const bool  on_first = carrier == Carrier::first;
-    MovedVector e;
-    (on_first ? first : second).direction(a, on_first ? u : u + k_1, on_first ? v : v_2, e);
-    add_difference(e.value, x_1, x_2, of_1, of_2);
-    add_turn(d, e, on_first ? of_1 : of_2);
-    if (!v)
-      return {e.value.dot(d), 0., 0.};
-    return {e.value.dot(d), e.value.dot(d_rate) + e.rate.dot(d),
-            e.value.dot(d_bias) + 2. * e.rate.dot(d_rate) + e.bias.dot(d)};
-  }
+    return along(pair);
   case Form::square:
-  {
-    MovedVector e, f;
-    first.direction(a, u, v, e);
-    second.direction(b, u + k_1, v_2, f);
-    add_turn(f.value, e, of_1);
-    add_turn(e.value, f, of_2);
-    if (!v)
-      return {e.value.dot(f.value), 0., 0.};
-    return {e.value.dot(f.value), e.rate.dot(f.value) + e.value.dot(f.rate),
-            e.bias.dot(f.value) + 2. * e.rate.dot(f.rate) + e.value.dot(f.bias)};
-  }
+    return square(pair);
   case Form::distance:
-  {
-    const double   length = d.norm();
-    const Vector3d e      = length > 0. ? Vector3d(d / length) : Vector3d::UnitX();
-    const double   rate   = e.dot(d_rate);
-    add_difference(e, x_1, x_2, of_1, of_2);
-    return {length, rate, e.dot(d_bias) + (length > 0. ? (d_rate.squaredNorm() - rate * rate) / length : 0.)};
-  }
+    return distance(pair);
   case Form::inclination:
-  {
-    const double x = a.dot(d), y = b.dot(d), r2 = x * x + y * y;
-    if (!(r2 > 0.))
-      return {0., 0., 0.};
-    const Vector3d w    = (x * b - y * a) / r2;
-    const double   rate = w.dot(d_rate), stretch = (x * a.dot(d_rate) + y * b.dot(d_rate)) / r2;
-    add_difference(w, x_1, x_2, of_1, of_2);
-    return {std::atan2(y, x), rate, w.dot(d_bias) - 2. * stretch * rate};
-  }
+    return inclination(pair);
   case Form::angle:
-  {
-    MovedVector e, f, moved;
-    first.direction(a, u, v, e);
-    first.direction(b, u, v, f);
-    second.direction(a, u + k_1, v_2, moved);
-    const double x = e.value.dot(moved.value), y = f.value.dot(moved.value), r2 = x * x + y * y;
-    if (!(r2 > 0.)) // body 2 has tilted by a right angle: it has no angle about this axis
-      return {0., 0., 0.};
-    const Vector3d of_moved = (x * f.value - y * e.value) / r2;
-    add_turn(of_moved, moved, of_2);
-    add_turn(Vector3d(x / r2 * moved.value), f, of_1);
-    add_turn(Vector3d(-y / r2 * moved.value), e, of_1);
-    if (!v)
-      return {std::atan2(y, x), 0., 0.};
-    const Vector3d across = (x * f.bias - y * e.bias) / r2;
-    const double   x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
-                 y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
-    return {std::atan2(y, x), rate,
-            of_moved.dot(moved.bias) + across.dot(moved.value) +
-                2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
-                2. * (x * x_rate + y * y_rate) / r2 * rate};
-  }
+    return angle(pair);
   case Form::spin:
-  {
-    Value sum{0., 0., 0.};
-    for (int i = 0; i < 3; ++i)
-      for (const bool of_second : {false, true})
-      {
-        MovedVector e;
-        (of_second ? second : first).direction(Vector3d::Unit(i), of_second ? u + k_1 : u, of_second ? v + k_1 : v, e);
-        const Vector3d w = (of_second ? 0.5 : -0.5) * a.cross(e.value);
-        add_turn(w, e, of_second ? of_2 : of_1);
-        sum.rate += w.dot(e.rate);
-        sum.bias += w.dot(e.bias);
-      }
-    return sum;
-  }
+    return spin(pair);
   case Form::gear:
   case Form::ratio:
     break;
   }
-  double s = 0., rate = 0.;
-  for (int i = 0; i < k_1 + k_2; ++i)
+  return ratio(pair);
+}
+
+RelativeMeasure::Value RelativeMeasure::along(Pair &pair) const
+{
+  const auto &[d, d_rate, d_bias] = std::tie(pair.d, pair.d_rate, pair.d_bias);
+  if (carrier == Carrier::space)
   {
-    gradient[stride * i] = ratios[i];
-    s += ratios[i] * u[i];
-    rate += v ? ratios[i] * v[i] : 0.;
+    pair.add_difference(a);
+    return {a.dot(d), a.dot(d_rate), a.dot(d_bias)};
+  }
+  const bool  on_first = carrier == Carrier::first;
+  MovedVector e;
+  on_first ? pair.direction_1(a, e) : pair.direction_2(a, e);
+  pair.add_difference(e.value);
+  add_turn(d, e, on_first ? pair.of_1 : pair.of_2);
+  if (!pair.v_1)
+    return {e.value.dot(d), 0., 0.};
+  return {e.value.dot(d), e.value.dot(d_rate) + e.rate.dot(d),
+          e.value.dot(d_bias) + 2. * e.rate.dot(d_rate) + e.bias.dot(d)};
+}
+
+RelativeMeasure::Value RelativeMeasure::square(Pair &pair) const
+{
+  MovedVector e, f;
+  pair.direction_1(a, e);
+  pair.direction_2(b, f);
+  add_turn(f.value, e, pair.of_1);
+  add_turn(e.value, f, pair.of_2);
+  if (!pair.v_1)
+    return {e.value.dot(f.value), 0., 0.};
+  return {e.value.dot(f.value), e.rate.dot(f.value) + e.value.dot(f.rate),
+          e.bias.dot(f.value) + 2. * e.rate.dot(f.rate) + e.value.dot(f.bias)};
+}
+
+RelativeMeasure::Value RelativeMeasure::distance(Pair &pair) const
+{
+  const double   length = pair.d.norm();
+  const Vector3d e      = length > 0. ? Vector3d(pair.d / length) : Vector3d::UnitX();
+  const double   rate   = e.dot(pair.d_rate);
+  pair.add_difference(e);
+  return {length, rate, e.dot(pair.d_bias) + (length > 0. ? (pair.d_rate.squaredNorm() - rate * rate) / length : 0.)};
+}
+
+RelativeMeasure::Value RelativeMeasure::inclination(Pair &pair) const
+{
+  const double x = a.dot(pair.d), y = b.dot(pair.d), r2 = x * x + y * y;
+  if (!(r2 > 0.))
+    return {0., 0., 0.};
+  const Vector3d w    = (x * b - y * a) / r2;
+  const double   rate = w.dot(pair.d_rate), stretch = (x * a.dot(pair.d_rate) + y * b.dot(pair.d_rate)) / r2;
+  pair.add_difference(w);
+  return {std::atan2(y, x), rate, w.dot(pair.d_bias) - 2. * stretch * rate};
+}
+
+RelativeMeasure::Value RelativeMeasure::angle(Pair &pair) const
+{
+  MovedVector e, f, moved;
+  pair.direction_1(a, e);
+  pair.direction_1(b, f);
+  pair.direction_2(a, moved);
+  const double x = e.value.dot(moved.value), y = f.value.dot(moved.value), r2 = x * x + y * y;
+  if (!(r2 > 0.)) // body 2 has tilted by a right angle: it has no angle about this axis
+    return {0., 0., 0.};
+  const Vector3d of_moved = (x * f.value - y * e.value) / r2;
+  add_turn(of_moved, moved, pair.of_2);
+  add_turn(Vector3d(x / r2 * moved.value), f, pair.of_1);
+  add_turn(Vector3d(-y / r2 * moved.value), e, pair.of_1);
+  if (!pair.v_1)
+    return {std::atan2(y, x), 0., 0.};
+  const Vector3d across = (x * f.bias - y * e.bias) / r2;
+  const double   x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
+               y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
+  return {std::atan2(y, x), rate,
+          of_moved.dot(moved.bias) + across.dot(moved.value) +
+              2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
+              2. * (x * x_rate + y * y_rate) / r2 * rate};
+}
+
+RelativeMeasure::Value RelativeMeasure::spin(Pair &pair) const
+{
+  Value sum{0., 0., 0.};
+  for (int i = 0; i < 3; ++i)
+    for (const bool of_second : {false, true})
+    {
+      MovedVector e;
+      of_second ? pair.direction_2(Vector3d::Unit(i), e) : pair.direction_1(Vector3d::Unit(i), e);
+      const Vector3d w = (of_second ? 0.5 : -0.5) * a.cross(e.value);
+      add_turn(w, e, of_second ? pair.of_2 : pair.of_1);
+      sum.rate += w.dot(e.rate);
+      sum.bias += w.dot(e.bias);
+    }
+  return sum;
+}
+
+/// Of `ratio` and `gear`.
+RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
+{
+  const Eigen::Index k_1 = pair.of_1.size(), k_2 = pair.of_2.size();
+  double             s = 0., rate = 0.;
+  for (Eigen::Index i = 0; i < k_1 + k_2; ++i)
+  {
+    const double c                                = ratios[std::size_t(i)];
+    (i < k_1 ? pair.of_1[i] : pair.of_2[i - k_1]) = c;
+    s += c * pair.u_1[i];
+    rate += pair.v_1 ? c * pair.v_1[i] : 0.;
   }
   if (form == Form::ratio)
     return {s, rate, 0.};
   Vector3d    of_d;
-  const Value centres = mesh(d, d_rate, d_bias, s / reach, of_d);
-  add_difference(of_d, x_1, x_2, of_1, of_2);
+  const Value centres = mesh(pair.d, pair.d_rate, pair.d_bias, s / reach, of_d);
+  pair.add_difference(of_d);
   return {s + centres.s, rate + centres.rate, centres.bias};
 }
 
@@ -191,7 +238,7 @@ RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v,
   }
   else
     x_1.value = x_1.rate = x_1.bias = x_2.value = x_2.rate = x_2.bias = Vector3d::Zero();
-  return measure.evaluate(first, second, x_1, x_2, u, v, gradient);
+  return measure.evaluate({first, second, x_1, x_2}, u, v, gradient);
 }
 
 void PlacedMeasure::add_curvature(const double *u, double factor, double *matrix) const

@@ -64,14 +64,28 @@ struct RelativeMeasure
     double s, rate, bias;
   };
 
-  /// @param x_1, x_2  the places at u, v [k]
+  /// The two places with where they are at u, v [k].
+  struct Places
+  {
+    const Placement              &first, &second;
+    const Placement::MovedVector &x_1, &x_2;
+  };
+
   /// @param v         null: s and G alone are wanted, the places know no rates
   /// @param gradient  G: k numbers, each `stride` behind the one before
-  Value evaluate(const Placement &first, const Placement &second, const Placement::MovedVector &x_1,
-                 const Placement::MovedVector &x_2, const double *u, const double *v, double *gradient,
+  Value evaluate(const Places &places, const double *u, const double *v, double *gradient,
                  Eigen::Index stride = 1) const;
 
 private:
+  struct Pair;
+
+  Value along(Pair &pair) const;
+  Value square(Pair &pair) const;
+  Value distance(Pair &pair) const;
+  Value inclination(Pair &pair) const;
+  Value angle(Pair &pair) const;
+  Value spin(Pair &pair) const;
+  Value ratio(Pair &pair) const;
   /// Of `gear`: what the line of centres adds to the angles of the wheels.
   Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double turned, Vector3d &of_d) const;
 };

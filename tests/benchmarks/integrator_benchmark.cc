@@ -3,7 +3,8 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/scene.h"
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
+#include "coupling/integration/propagation/force_rule.h"
 
 #include <Eigen/LU>
 #include <benchmark/benchmark.h>
@@ -13,7 +14,6 @@ namespace
 
 using namespace gestell;
 using coupling::ForceRule;
-using coupling::Method;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -61,9 +61,9 @@ coupling::MethodOptions bdf2()
 coupling::MethodOptions exact(ForceRule force)
 {
   coupling::MethodOptions method;
-  method.method = Method::exact;
-  method.force  = force;
-  method.order  = 6;
+  method.method = "exact";
+  method.set("force", force_rule_name(force));
+  method.order = 6;
   return method;
 }
 

@@ -1,6 +1,6 @@
 // One step of N four-bars with ideal joints: how its cost grows with N, condensed and sparse.
 
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 #include "tests/support/jointed_machines.h"
 
 #include <benchmark/benchmark.h>

@@ -12,31 +12,23 @@ namespace gestell::tests
 namespace
 {
 
-using coupling::Method;
-
 constexpr int most_steps = 20000, few_steps = 2000;
 /// Energy of a stable method swings by 1/(1 - (omega h/2)^2) at most, except just below its limit.
 constexpr double growth = 100.;
 
 coupling::MethodOptions random_method(Dice &dice, bool jointed)
 {
-  static const Method free[] = {Method::bdf,
-                                Method::bdf,
-                                Method::newmark,
-                                Method::wilson,
-                                Method::hht,
-                                Method::generalised_alpha,
-                                Method::central_difference};
-  static const Method held[] = {Method::bdf, Method::bdf, Method::hht, Method::generalised_alpha};
+  static const Method free[] = {"bdf", "bdf", "newmark", "wilson", "hht", "generalised-alpha", "central-difference"};
+  static const Method held[] = {"bdf", "bdf", "hht", "generalised-alpha"};
 
   coupling::MethodOptions options;
-  options.method  = jointed ? held[dice.whole(4)] : free[dice.whole(7)];
-  options.order   = 1 + dice.whole(6);
-  options.beta    = dice.between(0., 0.4);
-  options.gamma   = dice.chance(0.6) ? 0.5 : dice.between(0.5, 0.8);
-  options.theta   = dice.between(1., 2.);
-  options.alpha   = dice.between(-1. / 3., jointed ? -0.01 : 0.);
-  options.rho_inf = dice.between(0., jointed ? 0.99 : 1.);
+  options.method = jointed ? held[dice.whole(4)] : free[dice.whole(7)];
+  options.order  = 1 + dice.whole(6);
+  options.set("beta", dice.between(0., 0.4));
+  options.set("gamma", dice.chance(0.6) ? 0.5 : dice.between(0.5, 0.8));
+  options.set("theta", dice.between(1., 2.));
+  options.set("alpha", dice.between(-1. / 3., jointed ? -0.01 : 0.));
+  options.set("rho_inf", dice.between(0., jointed ? 0.99 : 1.));
   return options;
 }
 

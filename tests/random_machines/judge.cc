@@ -98,15 +98,15 @@ public:
 
   Verdict verdict()
   {
-    const Way reference = {"bdf 1e-8", controlled(coupling::Method::bdf, 5, 1e-8)},
-              exact     = {"exact 1e-8", controlled(coupling::Method::exact, 4, 1e-8)},
-              low_order = {"bdf to order 2, 1e-7", controlled(coupling::Method::bdf, 2, 1e-7)};
+    const Way reference = {"bdf 1e-8", controlled("bdf", 5, 1e-8)},
+              exact     = {"exact 1e-8", controlled("exact", 4, 1e-8)},
+              low_order = {"bdf to order 2, 1e-7", controlled("bdf", 2, 1e-7)};
     const Motion bdf    = computed(reference, true);
-    fixed_steps(bdf, reference, "bdf 2 fixed", fixed(coupling::Method::bdf, 2));
+    fixed_steps(bdf, reference, "bdf 2 fixed", fixed("bdf", 2));
     if (machine_.bdf_only)
       compare(bdf, reference, computed(low_order, true), low_order);
     else if (machine_.jointed)
-      fixed_steps(bdf, reference, "generalised alpha fixed", fixed(coupling::Method::generalised_alpha, 2));
+      fixed_steps(bdf, reference, "generalised alpha fixed", fixed("generalised-alpha", 2));
     else
       compare(bdf, reference, computed(exact, true), exact);
     if (machine_.linear && machine_.loadless)

@@ -1,6 +1,7 @@
 #include "apps/output/charts/stability_maps.h"
 
 #include "apps/output/charts/log_chart.h"
+#include "coupling/integration/propagation/force_rule.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace
 {
 
 using coupling::ForceRule;
-using coupling::Method;
 using coupling::MethodOptions;
 using coupling::Spring;
 
@@ -30,49 +30,49 @@ MappedMethod bdf(int order)
 MappedMethod newmark(double beta, double gamma, const std::string &name)
 {
   MethodOptions o;
-  o.method = Method::newmark;
-  o.beta   = beta;
-  o.gamma  = gamma;
+  o.method = "newmark";
+  o.set("beta", beta);
+  o.set("gamma", gamma);
   return {o, Spring::base, name};
 }
 
 MappedMethod wilson(double theta)
 {
   MethodOptions o;
-  o.method = Method::wilson;
-  o.theta  = theta;
+  o.method = "wilson";
+  o.set("theta", theta);
   return {o, Spring::base, "Wilson " + short_text(theta)};
 }
 
 MappedMethod hht(double alpha)
 {
   MethodOptions o;
-  o.method = Method::hht;
-  o.alpha  = alpha;
+  o.method = "hht";
+  o.set("alpha", alpha);
   return {o, Spring::base, "HHT " + short_text(alpha)};
 }
 
 MappedMethod generalised_alpha(double rho_inf)
 {
   MethodOptions o;
-  o.method  = Method::generalised_alpha;
-  o.rho_inf = rho_inf;
+  o.method = "generalised-alpha";
+  o.set("rho_inf", rho_inf);
   return {o, Spring::base, "generalised alpha " + short_text(rho_inf)};
 }
 
 MappedMethod central_difference()
 {
   MethodOptions o;
-  o.method = Method::central_difference;
+  o.method = "central-difference";
   return {o, Spring::base, "central differences"};
 }
 
 MappedMethod exact(ForceRule force, int order, const std::string &name)
 {
   MethodOptions o;
-  o.method = Method::exact;
-  o.force  = force;
-  o.order  = order;
+  o.method = "exact";
+  o.set("force", force_rule_name(force));
+  o.order = order;
   return {o, Spring::contact, name};
 }
 

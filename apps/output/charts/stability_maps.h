@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/stability.h"
 #include "coupling/simulation/checks/stability_guard.h"
 

@@ -60,10 +60,10 @@ std::string statement(const StressResult &stress)
   const auto beside = [](const StressAt &at) { return at.beside_rigid.has_value(); };
   if (std::any_of(stress.instants.begin(), stress.instants.end(), beside))
     html +=
-        " Rows “beside” tell the elements at surfaces that are held rigid: at their rims the stress has no limit as "
-        "the mesh is refined, so that it tells the mesh more than the frame.";
+        " Rows “beside” are elements at surfaces that are held rigid: at their rims the stress has no limit as "
+        "the mesh is refined, so that it says more about the mesh than about the frame.";
   const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };
-  html += " The last column tells how much neighbouring elements disagree about the stress there.";
+  html += " The last column shows how much neighbouring elements disagree about the stress there.";
   if (std::any_of(stress.instants.begin(), stress.instants.end(), coarse))
     html += " <strong>Above some 10 % the mesh is too coarse for a value of stress: make it finer there.</strong>";
   return html + "</p>\n";

@@ -128,25 +128,17 @@ void check_level(const coupling::Machine &machine, const SwitchRequest &request,
     return;
   const Quantity unit = parse_quantity("1 " + signal.unit, [](const std::string &) { return std::nullopt; });
   if (!equal(unit.dimension, level.dimension))
-    throw std::invalid_argument("the signal \"" + request.request.signal + "\" is told in " + signal.unit +
+    throw std::invalid_argument("the signal \"" + request.request.signal + "\" is in " + signal.unit +
                                 ", but the " + what + " is " + describe(level.dimension));
   const Kind kind{what + " of a signal in " + signal.unit, "20 1/min", unit.dimension,
                   unit.counts == Counts::radians ? Counts::turns : Counts::nothing};
   value_as(level, kind, describe(level.dimension));
 }
 
-} // namespace
-
-void add_joint(coupling::Machine &machine, const JointRequest &joint)
+/// The equations that its type demands.
+void demand(const JointRequest &joint, const Pair &pair, JointEquations &equations)
 {
-  if (joint.type == JointType::measure)
-  {
-    add_measure_joint(machine, joint);
-    return;
-  }
-  const Pair     pair(machine, joint.from, joint.to);
-  const auto     axis = vector(joint.axis);
-  JointEquations equations(pair);
+  const auto axis = vector(joint.axis);
   switch (joint.type)
   {
   case JointType::revolute:
@@ -185,6 +177,20 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   case JointType::measure:
     break;
   }
+}
+
+} // namespace
+
+void add_joint(coupling::Machine &machine, const JointRequest &joint)
+{
+  if (joint.type == JointType::measure)
+  {
+    add_measure_joint(machine, joint);
+    return;
+  }
+  const Pair     pair(machine, joint.from, joint.to);
+  JointEquations equations(pair);
+  demand(joint, pair, equations);
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
   if (joint.compliance && joint.compliance->directed)

@@ -2,8 +2,8 @@
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/stand_in_frame.h"
 #include "coupling/frame/reduced_frame_file.h"
-#include "coupling/machine/assembly.h"
-#include "coupling/machine/sticking_conflict.h"
+#include "coupling/machine/configuration/assembly.h"
+#include "coupling/machine/configuration/sticking_conflict.h"
 
 #include <algorithm>
 #include <utility>

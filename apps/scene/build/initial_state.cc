@@ -2,8 +2,8 @@
 
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/equilibrium/steady_motion.h"
-#include "coupling/machine/assembly.h"
-#include "coupling/machine/loop_closure.h"
+#include "coupling/machine/configuration/assembly.h"
+#include "coupling/machine/configuration/loop_closure.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
 #include <Eigen/Core>

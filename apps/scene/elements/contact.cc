@@ -15,14 +15,20 @@ namespace
 using mechanism::Clearance;
 using mechanism::PointContact;
 
-void add_point(Scene &scene, const SceneTable &table, const std::string &name, const PlaceRequest &plane,
-               const PlaceRequest &point, const Vector3 &normal, const PointContact::Parameters &contact)
+/// The point's motion along the normal of the plane and across.
+PairRequest point_on_plane(const PlaceRequest &plane, const PlaceRequest &point, const Vector3 &normal)
 {
   const auto [e_1, e_2] = coupling::plane_across(normal);
+  return {plane, point, {normal, e_1, e_2}, {}};
+}
+
+void add_point(Scene &scene, const SceneTable &table, const std::string &name, const PairRequest &pair,
+               const PointContact::Parameters &contact)
+{
   ElementRequest element;
   element.name    = name;
   element.element = checked(table, [&] { return std::make_shared<PointContact>(contact); });
-  element.pair    = PairRequest{plane, point, {normal, e_1, e_2}, {}};
+  element.pair    = pair;
   scene.elements.push_back(element);
   scene.element_places[name] = table.place();
 }
@@ -51,7 +57,7 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
     throw table.error("needs 'through', a point of the plane in the position the scene describes");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
   contact.normal.stops = Clearance::Stops::below;
-  add_point(scene, table, table.name(), plane, point, normal, contact);
+  add_point(scene, table, table.name(), point_on_plane(plane, point, normal), contact);
 }
 
 /// A slide of some length between two parallel planes of its guide: four points, two at either end.
@@ -73,8 +79,8 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
     PlaceRequest point = slide;
     for (int d = 0; d < 3; ++d)
       (*point.at)[d] += 0.5 * end * length * axis[d];
-    add_point(scene, table, table.name() + (end < 0. ? ".rear" : ".front"), {guide.marker, point.at}, point, normal,
-              contact);
+    add_point(scene, table, table.name() + (end < 0. ? ".rear" : ".front"),
+              point_on_plane({guide.marker, point.at}, point, normal), contact);
   }
 }
 

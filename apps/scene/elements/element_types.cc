@@ -62,7 +62,7 @@ void read_elements(const SceneTable &table, const Names &names, Scene &scene)
   {
     check_thing_name(element);
     if (names.find_body(element.name()))
-      throw element.error("a body has the name '" + element.name() + "' too; signals could not tell them apart");
+      throw element.error("a body has the name '" + element.name() + "' too; their signals would have the same names");
     scene.element_places[element.name()] = element.place();
     const std::string type               = element.declared(common).choice("type");
     for (const auto &known : element_types())

@@ -149,7 +149,7 @@ void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind
   std::ostringstream text;
   text << jump->what << " jumps from " << jump->before << " to " << jump->behind << " at "
        << (turns ? at * 180. / M_PI : at) << (turns ? " deg" : "") << " (" << jump->kink
-       << "), a blow that an ideal joint cannot tell; round the course off there, or let it act through a spring: an "
+       << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: an "
           "element on a measure of type \"position function\", instead of the joint";
   throw table.error("function", text.str());
 }

@@ -31,10 +31,10 @@ void check_new_name(const SceneTable &table, const Names &names, const Scene &sc
   check_thing_name(table);
   const std::string name = table.name();
   if (names.find_body(name))
-    throw table.error("a body has the name '" + name + "' too; signals could not tell them apart");
+    throw table.error("a body has the name '" + name + "' too; their signals would have the same names");
   if (scene.element_places.count(name))
     throw table.error("the name '" + name + "' is used at " + scene.element_places.at(name) +
-                      " too; signals could not tell them apart");
+                      " too; their signals would have the same names");
 }
 
 void check_two_places(const SceneTable &table, const PlaceRequest &from, const PlaceRequest &to)
@@ -190,16 +190,21 @@ const BodyRequest &turning_body(const SceneTable &table, const std::string &key,
   return *body;
 }
 
-/// along - factor * angle, along a direction that turns with the first place.
-void join_path_and_angle(JointRequest &joint, const PlaceRequest &first, const PlaceRequest &second,
-                         const Vector3 &direction, mechanism::RelativeMeasure::Carrier carrier, double factor,
-                         const MotionMeasure &angle)
+/// Way of the second place from the first along a direction that `carrier` turns.
+MeasureRequest path(const PlaceRequest &first, const PlaceRequest &second, const Vector3 &direction,
+                    mechanism::RelativeMeasure::Carrier carrier)
 {
   MeasureRequest along;
-  along.first         = first;
-  along.second        = second;
-  along.a             = direction;
-  along.carrier       = carrier;
+  along.first   = first;
+  along.second  = second;
+  along.a       = direction;
+  along.carrier = carrier;
+  return along;
+}
+
+/// along - factor * angle = 0
+void join_path_and_angle(JointRequest &joint, const MeasureRequest &along, double factor, const MotionMeasure &angle)
+{
   joint.measure.terms = {{1., {}, std::make_shared<MeasureRequest>(along)}, {-factor, angle, nullptr}};
   joint.measure.unit  = "m";
 }
@@ -228,7 +233,7 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
   const double pitch = table.value("pitch");
   if (pitch == 0.)
     throw table.error("pitch", "is zero; give the way of one turn, negative for a left-handed thread");
-  join_path_and_angle(joint, joint.from, joint.to, axis, Carrier::first, pitch / (2. * M_PI),
+  join_path_and_angle(joint, path(joint.from, joint.to, axis, Carrier::first), pitch / (2. * M_PI),
                       difference(joint.to.marker, joint.from.marker, axis, true));
 }
 
@@ -267,9 +272,9 @@ void read_rolling(const SceneTable &table, const Names &names, JointRequest &joi
                                              : "make the wheel a planar body, or let what carries it move"));
   const auto angle = difference(joint.from.marker, joint.to.marker, wheel.axis, true);
   if (rack)
-    join_path_and_angle(joint, joint.from, joint.to, direction, Carrier::second, radius, angle);
+    join_path_and_angle(joint, path(joint.from, joint.to, direction, Carrier::second), radius, angle);
   else
-    join_path_and_angle(joint, joint.to, joint.from, direction, Carrier::first, radius, angle);
+    join_path_and_angle(joint, path(joint.to, joint.from, direction, Carrier::first), radius, angle);
 }
 
 void read_gear_mesh(const SceneTable &table, const Names &names, JointRequest &joint)
@@ -382,7 +387,7 @@ void read_places(const SceneTable &scene, Names &names, Scene &result)
   {
     check_thing_name(table);
     if (names.find_body(table.name()))
-      throw table.error("a body has the name '" + table.name() + "' too; 'from' and 'to' could not tell them apart");
+      throw table.error("a body has the name '" + table.name() + "' too; 'from' and 'to' would be ambiguous");
     const SceneTable   own = table.declared(place_keys());
     const PlaceRequest point{names.marker(own, "on"), own.vector("at")};
     names.add_place(table.name(), point);

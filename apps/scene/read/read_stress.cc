@@ -19,10 +19,10 @@ void require_stresses(const SceneTable &stress, const Scene &scene)
   switch (scene.frame.source)
   {
   case FrameSource::none:
-    throw stress.error("there is no frame whose stress could be told; leave [output.stress] out");
+    throw stress.error("there is no frame, so that there are no stresses; leave [output.stress] out");
   case FrameSource::matrices:
     throw stress.error(
-        "a frame given by matrices has no material and no elements to tell stresses of; give it by 'cad'");
+        "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:

@@ -45,7 +45,7 @@ Eigen::Matrix3d read_tensor(const SceneTable &table)
     if (rows.size() != 3 || rows[0].size() != 3)
       throw table.error("inertia", needed);
     if (table.has("principal_axes"))
-      throw table.error("principal_axes", "goes with three moments; a tensor tells its axes itself");
+      throw table.error("principal_axes", "goes with three moments; a tensor has its axes in itself");
     for (int i = 0; i < 3; ++i)
       J.row(i) = Eigen::RowVector3d(rows[i].data());
     return J;

@@ -103,7 +103,7 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   const auto *rotor = leading_body(a, b, coupling::BodyKind::rotor);
   if (!rotor || from.at || to.at || (a && b && !parallel(a->axis, b->axis)))
     throw table.error("give 'direction' (a displacement) or 'about' (an angle) between '" + from.marker + "' and '" +
-                      to.marker + "': their axes do not tell");
+                      to.marker + "': their axes do not determine it");
   return {difference(from.marker, to.marker, rotor->axis, true), true, ""};
 }
 
@@ -162,7 +162,7 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names)
                                   "measure that is an angle");
     if (table.has("to"))
       throw table.error("to", "is of no meaning: the measure '" + name +
-                                  "' tells already against what the motor turns; leave it out");
+                                  "' already says against what the motor turns; leave it out");
     return {{}, true, name};
   }
   const BodyRequest *body = names.find_body(name);

@@ -311,7 +311,7 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   base_.v = -inverse * g_;
   base_.a = inverse * (base_.v - g_rate_);
   const StepForm form{1., h_beta, h_beta * h_beta, h_beta * h_beta, 1., inverse, inverse * inverse, h_beta};
-  implicit_.solve(implicit_.condensed(form, work_), h_q_, f_, base_, to.q, local_, work_);
+  implicit_.solve(implicit_.condensed(form, work_), ImplicitStep::MassLoad{h_q_, f_}, base_, to.q, local_, work_);
 
   to.t      = t;
   to.v      = inverse * (to.q - h_q_);

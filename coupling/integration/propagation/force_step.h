@@ -1,7 +1,8 @@
 #pragma once
 
-#include "coupling/integration/method_options.h"
+#include "coupling/integration/propagation/force_rule.h"
 #include "coupling/integration/propagation/propagation_tables.h"
+#include "coupling/integration/step/implicit_step.h"
 #include "coupling/integration/system/small_lu.h"
 
 #include <memory>

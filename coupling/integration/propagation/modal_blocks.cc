@@ -1,7 +1,8 @@
 #include "coupling/integration/propagation/modal_blocks.h"
 
+#include "coupling/integration/system/dense_solvers.h"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -33,10 +34,10 @@ constexpr double critical_ratio = 1e-12; ///< distance kept from critical dampin
 /// Null space of the symmetric C [n x n_r], found with C scaled to unit diagonal.
 MatrixXd motions_without_stiffness(const MatrixXd &C)
 {
-  const auto     n = C.rows();
-  const VectorXd d = C.diagonal().unaryExpr([](double c) { return c > 0. ? 1. / std::sqrt(c) : 1.; });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(d.asDiagonal() * C * d.asDiagonal());
-  Eigen::Index                                  n_r = 0;
+  const auto                 n = C.rows();
+  const VectorXd             d = C.diagonal().unaryExpr([](double c) { return c > 0. ? 1. / std::sqrt(c) : 1.; });
+  const SymmetricEigenSolver modes(d.asDiagonal() * C * d.asDiagonal());
+  Eigen::Index               n_r = 0;
   while (n_r < n && modes.eigenvalues()[n_r] < no_stiffness * double(n))
     ++n_r;
   return d.asDiagonal() * modes.eigenvectors().leftCols(n_r);
@@ -70,11 +71,11 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
   if (cholesky.info() != Eigen::Success)
     refuse("the mass matrix is not positive definite; take the method bdf");
 
-  RealModes                                                modes;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(C, M);
-  MatrixXd                                                 R = orthonormal(motions_without_stiffness(C), M);
+  RealModes                   modes;
+  const SymmetricPencilSolver solver(C, M);
+  MatrixXd                    R = orthonormal(motions_without_stiffness(C), M);
   if (R.cols() > 1) // apart: those that B lets go and those it damps
-    R = R * Eigen::SelfAdjointEigenSolver<MatrixXd>(R.transpose() * B * R).eigenvectors();
+    R = R * SymmetricEigenSolver(R.transpose() * B * R).eigenvectors();
   modes.n_free = int(R.cols());
   modes.Phi    = solver.eigenvectors();
   modes.omega  = solver.eigenvalues().unaryExpr([](double x) { return std::sqrt(std::max(0., x)); });
@@ -144,103 +145,131 @@ void add_real_mode(const VectorXd &phi, const VectorXd &M_phi, double omega, dou
   to.from_v.row(column + 1) = -inverse * M_phi;
 }
 
-/// Modes coupled by damping, by the eigenvectors of the state matrix of  y = (Omega_s eta_s, eta'); motions without
-/// stiffness but with damping have only their velocity in y, their displacement is added as a zero eigenvalue.
-void add_coupled_modes(const MatrixXd &Phi, const MatrixXd &M_Phi, const VectorXd &omega, const MatrixXd &D,
-                       Assembly &to)
+/**
+ * Modes coupled by damping, by the eigenvectors of the state matrix of  y = (Omega_s eta_s, eta'); motions without
+ * stiffness but with damping have only their velocity in y, their displacement is added as a zero eigenvalue.
+ */
+class CoupledModes
 {
-  const auto   n   = Phi.cols();
-  Eigen::Index n_0 = 0; // without stiffness, first
-  while (n_0 < n && omega[n_0] == 0.)
-    ++n_0;
-  const auto n_s = n - n_0, size = n_s + n;
-  MatrixXd   A              = MatrixXd::Zero(size, size);
-  A.bottomRightCorner(n, n) = -D;
-  for (Eigen::Index i = 0; i < n_s; ++i)
+public:
+  CoupledModes(const VectorXd &omega, const MatrixXd &D) : omega_(omega), n_(D.rows())
   {
-    A(i, n_s + n_0 + i) = omega[n_0 + i];
-    A(n_s + n_0 + i, i) = -omega[n_0 + i];
+    while (n_0_ < n_ && omega[n_0_] == 0.)
+      ++n_0_;
+    find_eigenvectors(state_matrix(D));
+    inverse_ = X_.partialPivLu().inverse();
+    if (!inverse_.allFinite() || !(X_.norm() * inverse_.norm() < coinciding * double(X_.rows())))
+      refuse("two modes of the damped system coincide in frequency, damping and shape (critical damping across modes); "
+             "change a damper slightly, or take the method bdf");
+    find_displacements();
   }
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  if (solver.info() != Eigen::Success)
-    refuse("the eigenvalues of the damped system were not found");
 
-  // Real basis X of the state space, two columns for a complex pair; decaying eigenvalues are paired as they come.
-  MatrixXd                X(size, size);
-  std::vector<ModalBlock> blocks;
-  std::vector<double>     real;
-  std::vector<VectorXd>   real_vectors;
-  Eigen::Index            column = 0;
-  for (Eigen::Index i = 0; i < size; ++i)
+  void add(const MatrixXd &Phi, const MatrixXd &M_Phi, Assembly &to) const;
+
+private:
+  Eigen::Index n_stiff() const { return n_ - n_0_; }
+
+  MatrixXd state_matrix(const MatrixXd &D) const
   {
-    const std::complex<double> lambda = solver.eigenvalues()[i];
-    const Eigen::VectorXcd     vector = solver.eigenvectors().col(i);
-    if (lambda.imag() == 0.)
+    const auto n_s = n_stiff(), size = n_s + n_;
+    MatrixXd   A                = MatrixXd::Zero(size, size);
+    A.bottomRightCorner(n_, n_) = -D;
+    for (Eigen::Index i = 0; i < n_s; ++i)
     {
-      real.push_back(lambda.real());
-      real_vectors.push_back(vector.real() / vector.real().norm());
+      A(i, n_s + n_0_ + i) = omega_[n_0_ + i];
+      A(n_s + n_0_ + i, i) = -omega_[n_0_ + i];
     }
-    else if (lambda.imag() > 0.)
-    {
-      // state = Re(vector (x_1 + i x_2))
-      X.col(column)     = vector.real();
-      X.col(column + 1) = -vector.imag();
-      column += 2;
-      blocks.push_back({ModalBlock::oscillating, lambda.real(), lambda.imag()});
-    }
+    return A;
   }
-  for (std::size_t i = 0; i < real.size(); ++i)
-    X.col(column++) = real_vectors[i];
-  const Eigen::PartialPivLU<MatrixXd> lu(X);
-  const MatrixXd                      inverse = lu.inverse();
-  if (!inverse.allFinite() || !(X.norm() * inverse.norm() < coinciding * double(size)))
-    refuse("two modes of the damped system coincide in frequency, damping and shape (critical damping across modes); "
-           "change a damper slightly, or take the method bdf");
 
-  // Displacements without stiffness: eta_0 = integral of eta_0' = L Lambda^-1 x + x_zero.
-  MatrixXd velocity = X.bottomRows(n), displacement(n, size);
-  for (Eigen::Index i = 0; i < n_s; ++i)
-    displacement.row(n_0 + i) = X.row(i) / omega[n_0 + i];
-  for (std::size_t b = 0; b < blocks.size(); ++b)
+  /// Real basis X of the state space, two columns for a complex pair; decaying eigenvalues are paired as they come.
+  void find_eigenvectors(const MatrixXd &A)
   {
-    // columns (c_1, c_2) of eta_0 with (c_1, c_2) Lambda = (v_1, v_2)
-    const double s = blocks[b].s, w = blocks[b].w, square = s * s + w * w;
-    for (Eigen::Index i = 0; i < n_0; ++i)
+    const GeneralEigenSolver solver(A);
+    if (!solver.converged())
+      refuse("the eigenvalues of the damped system were not found");
+    std::vector<VectorXd> real_vectors;
+    Eigen::Index          column = 0;
+    X_.resize(A.rows(), A.cols());
+    for (Eigen::Index i = 0; i < A.cols(); ++i)
     {
-      const double v_1 = velocity(i, 2 * b), v_2 = velocity(i, 2 * b + 1);
-      displacement(i, 2 * b)     = (s * v_1 - w * v_2) / square;
-      displacement(i, 2 * b + 1) = (w * v_1 + s * v_2) / square;
+      const std::complex<double> lambda = solver.eigenvalues()[i];
+      const Eigen::VectorXcd     vector = solver.eigenvectors().col(i);
+      if (lambda.imag() == 0.)
+      {
+        real_.push_back(lambda.real());
+        real_vectors.push_back(vector.real() / vector.real().norm());
+      }
+      else if (lambda.imag() > 0.)
+      {
+        // state = Re(vector (x_1 + i x_2))
+        X_.col(column++) = vector.real();
+        X_.col(column++) = -vector.imag();
+        oscillating_.push_back({ModalBlock::oscillating, lambda.real(), lambda.imag()});
+      }
     }
+    for (const VectorXd &vector : real_vectors)
+      X_.col(column++) = vector;
   }
-  const auto n_complex = Eigen::Index(2 * blocks.size());
-  for (std::size_t i = 0; i < real.size(); ++i)
-    for (Eigen::Index j = 0; j < n_0; ++j)
-      displacement(j, n_complex + Eigen::Index(i)) = velocity(j, n_complex + Eigen::Index(i)) / real[i];
 
-  // All columns, the zero eigenvalues last.
-  const auto total   = size + n_0;
-  MatrixXd   all_eta = MatrixXd::Zero(n, total), all_rate = MatrixXd::Zero(n, total);
-  all_eta.leftCols(size) = displacement;
-  all_eta.topRightCorner(n_0, n_0).setIdentity();
-  all_rate.leftCols(size) = velocity;
-  MatrixXd from_eta = MatrixXd::Zero(total, n), from_rate = MatrixXd::Zero(total, n);
-  for (Eigen::Index i = 0; i < n_s; ++i)
-    from_eta.col(n_0 + i).head(size) = inverse.col(i) * omega[n_0 + i];
-  from_rate.topRows(size) = inverse.rightCols(n);
+  /// Displacements without stiffness: eta_0 = integral of eta_0' = L Lambda^-1 x + x_zero.
+  void find_displacements()
+  {
+    velocity_ = X_.bottomRows(n_);
+    displacement_.resize(n_, X_.cols());
+    for (Eigen::Index i = 0; i < n_stiff(); ++i)
+      displacement_.row(n_0_ + i) = X_.row(i) / omega_[n_0_ + i];
+    for (std::size_t b = 0; b < oscillating_.size(); ++b)
+    {
+      // columns (c_1, c_2) of eta_0 with (c_1, c_2) Lambda = (v_1, v_2)
+      const double s = oscillating_[b].s, w = oscillating_[b].w, square = s * s + w * w;
+      for (Eigen::Index i = 0; i < n_0_; ++i)
+      {
+        const double v_1 = velocity_(i, 2 * b), v_2 = velocity_(i, 2 * b + 1);
+        displacement_(i, 2 * b)     = (s * v_1 - w * v_2) / square;
+        displacement_(i, 2 * b + 1) = (w * v_1 + s * v_2) / square;
+      }
+    }
+    const auto n_complex = Eigen::Index(2 * oscillating_.size());
+    for (std::size_t i = 0; i < real_.size(); ++i)
+      for (Eigen::Index j = 0; j < n_0_; ++j)
+        displacement_(j, n_complex + Eigen::Index(i)) = velocity_(j, n_complex + Eigen::Index(i)) / real_[i];
+  }
+
+  const VectorXd         &omega_;
+  Eigen::Index            n_, n_0_ = 0; ///< n_0 without stiffness, first
+  MatrixXd                X_, inverse_, velocity_, displacement_;
+  std::vector<ModalBlock> oscillating_;
+  std::vector<double>     real_; ///< decaying eigenvalues
+};
+
+/// All columns, the zero eigenvalues last.
+void CoupledModes::add(const MatrixXd &Phi, const MatrixXd &M_Phi, Assembly &to) const
+{
+  const auto size = X_.cols(), total = size + n_0_;
+  MatrixXd   all_eta = MatrixXd::Zero(n_, total), all_rate = MatrixXd::Zero(n_, total);
+  all_eta.leftCols(size) = displacement_;
+  all_eta.topRightCorner(n_0_, n_0_).setIdentity();
+  all_rate.leftCols(size) = velocity_;
+  MatrixXd from_eta = MatrixXd::Zero(total, n_), from_rate = MatrixXd::Zero(total, n_);
+  for (Eigen::Index i = 0; i < n_stiff(); ++i)
+    from_eta.col(n_0_ + i).head(size) = inverse_.col(i) * omega_[n_0_ + i];
+  from_rate.topRows(size) = inverse_.rightCols(n_);
   // x_zero = eta_0 - (displacement of the other states)_0
-  from_eta.bottomRows(n_0)  = -displacement.topRows(n_0) * from_eta.topRows(size);
-  from_rate.bottomRows(n_0) = -displacement.topRows(n_0) * from_rate.topRows(size);
-  from_eta.bottomLeftCorner(n_0, n_0) += MatrixXd::Identity(n_0, n_0);
+  from_eta.bottomRows(n_0_)  = -displacement_.topRows(n_0_) * from_eta.topRows(size);
+  from_rate.bottomRows(n_0_) = -displacement_.topRows(n_0_) * from_rate.topRows(size);
+  from_eta.bottomLeftCorner(n_0_, n_0_) += MatrixXd::Identity(n_0_, n_0_);
 
-  real.insert(real.end(), std::size_t(n_0), 0.);
-  for (std::size_t i = 0; i + 1 < real.size(); i += 2)
-    blocks.push_back({ModalBlock::decaying, real[i], real[i + 1]});
+  std::vector<double> decaying = real_;
+  decaying.insert(decaying.end(), std::size_t(n_0_), 0.);
   to.Q.middleCols(to.used, total)      = Phi * all_eta;
   to.V.middleCols(to.used, total)      = Phi * all_rate;
   to.from_q.middleRows(to.used, total) = from_eta * M_Phi.transpose();
   to.from_v.middleRows(to.used, total) = from_rate * M_Phi.transpose();
   to.used += total;
-  to.blocks.insert(to.blocks.end(), blocks.begin(), blocks.end());
+  to.blocks.insert(to.blocks.end(), oscillating_.begin(), oscillating_.end());
+  for (std::size_t i = 0; i + 1 < decaying.size(); i += 2)
+    to.blocks.push_back({ModalBlock::decaying, decaying[i], decaying[i + 1]});
 }
 
 /// Forced motion x_p = Re((i Omega - Lambda)^-1 G F e^(i Omega t)) of one harmonic: columns for cos and sin.
@@ -342,8 +371,10 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system)
     add_real_mode(modes.Phi.col(i), M_Phi.col(i), modes.omega[i], none ? 0. : D(i, i), assembly);
   }
   if (!coupled.empty())
-    add_coupled_modes(modes.Phi(Eigen::all, coupled), M_Phi(Eigen::all, coupled), modes.omega(coupled),
-                      D(coupled, coupled), assembly);
+  {
+    const VectorXd omega = modes.omega(coupled);
+    CoupledModes(omega, D(coupled, coupled)).add(modes.Phi(Eigen::all, coupled), M_Phi(Eigen::all, coupled), assembly);
+  }
 
   ModalBlocks result;
   const auto &harmonics    = system.linear().excitation().harmonics();

@@ -116,8 +116,7 @@ double ForceBasis::value(int j, double sigma) const
 void StepTable::fill(const ModalMeasures &system, const ForceBasis &basis, double length)
 {
   const int n_p = system.n_p, n_u = int(system.put.cols()), n_basis = basis.size(), n_points = int(basis.points.size());
-  const int degree = int(basis.l.cols()) - 1;
-  h                = length;
+  h = length;
   E.resize(n_p, 4);
   in.resize(2 * n_p, n_basis * n_u);
   constant.resize(2 * n_p);
@@ -126,65 +125,59 @@ void StepTable::fill(const ModalMeasures &system, const ForceBasis &basis, doubl
   S_u.resize(n_points * n_u, n_basis * n_u);
   S_v.resize(n_points * n_u, n_basis * n_u);
   weighted_.resize(2 * n_p, n_basis * n_u + 1);
-
-  double factorial[10] = {1.};
-  for (int m = 1; m < 10; ++m)
-    factorial[m] = factorial[m - 1] * m;
   for (int i = 0; i < n_points; ++i)
   {
-    const double c = basis.points[i];
     for (int b = 0; b < n_p; ++b)
-    {
-      Block2 phi[10];
-      phi_functions(system.blocks[b], c * h, degree + 1, phi);
-      const int one = b, two = n_p + b;
-      // rows: (E^T read)
-      for (int r = 0; r < n_u; ++r)
-      {
-        const double u_1 = system.read_u(one, r), u_2 = system.read_u(two, r);
-        const double v_1 = system.read_v(one, r), v_2 = system.read_v(two, r);
-        const int    at_u = i * 2 * n_u + r, at_v = at_u + n_u;
-        rows(one, at_u) = phi[0].a11 * u_1 + phi[0].a21 * u_2;
-        rows(two, at_u) = phi[0].a12 * u_1 + phi[0].a22 * u_2;
-        rows(one, at_v) = phi[0].a11 * v_1 + phi[0].a21 * v_2;
-        rows(two, at_v) = phi[0].a12 * v_1 + phi[0].a22 * v_2;
-      }
-      for (int j = 0; j < n_basis; ++j)
-      {
-        Block2 w{0., 0., 0., 0.};
-        double power = c * h;
-        for (int m = 0; m <= degree; ++m, power *= c)
-        {
-          const double factor = basis.l(j, m) * factorial[m] * power;
-          w.a11 += factor * phi[m + 1].a11;
-          w.a12 += factor * phi[m + 1].a12;
-          w.a21 += factor * phi[m + 1].a21;
-          w.a22 += factor * phi[m + 1].a22;
-        }
-        for (int r = 0; r < n_u; ++r)
-          multiply(w, system.put(one, r), system.put(two, r), weighted_(one, j * n_u + r), weighted_(two, j * n_u + r));
-      }
-      const Block2 steady{c * h * phi[1].a11, c * h * phi[1].a12, c * h * phi[1].a21, c * h * phi[1].a22};
-      multiply(steady, system.constant[one], system.constant[two], weighted_(one, n_basis * n_u),
-               weighted_(two, n_basis * n_u));
-      if (i + 1 == n_points)
-      {
-        E(b, 0) = phi[0].a11;
-        E(b, 1) = phi[0].a12;
-        E(b, 2) = phi[0].a21;
-        E(b, 3) = phi[0].a22;
-      }
-    }
-    S_u.middleRows(i * n_u, n_u).noalias()           = system.read_u.transpose() * weighted_.leftCols(n_basis * n_u);
-    S_v.middleRows(i * n_u, n_u).noalias()           = system.read_v.transpose() * weighted_.leftCols(n_basis * n_u);
-    row_constant.segment(i * 2 * n_u, n_u).noalias() = system.read_u.transpose() * weighted_.col(n_basis * n_u);
-    row_constant.segment(i * 2 * n_u + n_u, n_u).noalias() = system.read_v.transpose() * weighted_.col(n_basis * n_u);
-    if (i + 1 == n_points)
-    {
-      in       = weighted_.leftCols(n_basis * n_u);
-      constant = weighted_.col(n_basis * n_u);
-    }
+      fill_block(system, basis, i, b);
+    const auto of_basis                                    = weighted_.leftCols(n_basis * n_u);
+    const auto steady                                      = weighted_.col(n_basis * n_u);
+    S_u.middleRows(i * n_u, n_u).noalias()                 = system.read_u.transpose() * of_basis;
+    S_v.middleRows(i * n_u, n_u).noalias()                 = system.read_v.transpose() * of_basis;
+    row_constant.segment(i * 2 * n_u, n_u).noalias()       = system.read_u.transpose() * steady;
+    row_constant.segment(i * 2 * n_u + n_u, n_u).noalias() = system.read_v.transpose() * steady;
   }
+  in       = weighted_.leftCols(n_basis * n_u);
+  constant = weighted_.col(n_basis * n_u);
+}
+
+/// Rows of block b up to point i of the basis, the last of which is the end of the step.
+void StepTable::fill_block(const ModalMeasures &system, const ForceBasis &basis, int i, int b)
+{
+  static constexpr double factorial[] = {1., 1., 2., 6., 24., 120., 720., 5040., 40320., 362880.};
+  const int               n_u = int(system.put.cols()), n_basis = basis.size(), degree = int(basis.l.cols()) - 1;
+  const int               one = b, two = system.n_p + b;
+  const double            c = basis.points[i];
+  Block2                  phi[10];
+  phi_functions(system.blocks[b], c * h, degree + 1, phi);
+  for (int r = 0; r < n_u; ++r) // rows: (E^T read)
+  {
+    const double u_1 = system.read_u(one, r), u_2 = system.read_u(two, r);
+    const double v_1 = system.read_v(one, r), v_2 = system.read_v(two, r);
+    const int    at_u = i * 2 * n_u + r, at_v = at_u + n_u;
+    rows(one, at_u) = phi[0].a11 * u_1 + phi[0].a21 * u_2;
+    rows(two, at_u) = phi[0].a12 * u_1 + phi[0].a22 * u_2;
+    rows(one, at_v) = phi[0].a11 * v_1 + phi[0].a21 * v_2;
+    rows(two, at_v) = phi[0].a12 * v_1 + phi[0].a22 * v_2;
+  }
+  for (int j = 0; j < n_basis; ++j)
+  {
+    Block2 w{0., 0., 0., 0.};
+    double power = c * h;
+    for (int m = 0; m <= degree; ++m, power *= c)
+    {
+      const double factor = basis.l(j, m) * factorial[m] * power;
+      w.a11 += factor * phi[m + 1].a11;
+      w.a12 += factor * phi[m + 1].a12;
+      w.a21 += factor * phi[m + 1].a21;
+      w.a22 += factor * phi[m + 1].a22;
+    }
+    for (int r = 0; r < n_u; ++r)
+      multiply(w, system.put(one, r), system.put(two, r), weighted_(one, j * n_u + r), weighted_(two, j * n_u + r));
+  }
+  const Block2 steady{c * h * phi[1].a11, c * h * phi[1].a12, c * h * phi[1].a21, c * h * phi[1].a22};
+  multiply(steady, system.constant[one], system.constant[two], weighted_(one, n_basis * n_u),
+           weighted_(two, n_basis * n_u));
+  E.row(b) << phi[0].a11, phi[0].a12, phi[0].a21, phi[0].a22; // that of the end remains
 }
 
 void StepTable::carry(const VectorXd &x, VectorXd &x_end) const

@@ -73,6 +73,8 @@ struct StepTable
   void carry(const Eigen::VectorXd &x, Eigen::VectorXd &x_end) const;
 
 private:
+  void fill_block(const ModalMeasures &system, const ForceBasis &basis, int point, int block);
+
   Eigen::MatrixXd weighted_; ///< [2 n_p x n_u]
 };
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "coupling/integration/stability/oscillator_step.h"
+#include "coupling/integration/method_options.h"
+#include "coupling/integration/stability/test_oscillator.h"
 
-#include <Eigen/Core>
-
-#include <limits>
 #include <vector>
 
 namespace gestell::coupling
@@ -28,24 +26,6 @@ struct StepProperties
 StepProperties step_properties(const MethodOptions &options, const TestOscillator &oscillator);
 double         spectral_radius(const MethodOptions &options, const TestOscillator &oscillator);
 
-/**
- * Weights of a motion x r^k in the balance of a one-step method that averages no forces: Newmark, central differences,
- * Wilson.  Accelerations x, and with them velocities and displacements, fulfil
- *
- *     (mass(r) M + damping(r) h B + stiffness(r) h^2 C) x = 0.
- *
- * Their sign is chosen so that all are positive for large negative r.
- * @throws std::invalid_argument for other methods
- */
-struct StepWeights
-{
-  double mass, damping, stiffness;
-};
-StepWeights step_weights(const MethodOptions &options, double r);
-
-/// Whether step_weights() knows the method.
-bool has_step_weights(const MethodOptions &options);
-
 /// omega h in (from, to), where the method grows.
 struct UnstableInterval
 {
@@ -57,8 +37,5 @@ struct UnstableInterval
 /// exact to 1e-9 relative.
 std::vector<UnstableInterval> unstable_intervals(const MethodOptions &options, double zeta,
                                                  Spring spring = Spring::base);
-
-/// Damping ratio from which on no mode grows at any step, BDF: 0, 0, 0.0692, 0.286, 0.618, 0.952 for orders 1 to 6.
-double sufficient_damping(int bdf_order);
 
 } // namespace gestell::coupling

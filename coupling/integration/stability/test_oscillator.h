@@ -19,4 +19,11 @@ struct TestOscillator
   Spring spring = Spring::base;
 };
 
+/// The first steps of a method that has no past yet.
+enum class FirstSteps
+{
+  as_integrated, ///< as the integrator begins: BDF with chains of implicit Euler steps
+  order_ramp     ///< orders 1, 2, ... p, as tables of the literature have it
+};
+
 } // namespace gestell::coupling

@@ -252,6 +252,39 @@ bool ImplicitStep::is_converged(int iteration, double size, double remaining) co
   return true;
 }
 
+/// A correction that grows again jumps between the branches of a law: it is shortened.
+double ImplicitStep::damping_of(int iteration, double size, double size_before)
+{
+  return iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
+}
+
+/// The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
+void ImplicitStep::finish(const StepForm &form, const LocalState &base, LocalState &local)
+{
+  add_tangent_times(correction_, local.p);
+  if (G_.n_rows() > 0)
+    G_.set_forces(local.lambda, local.p);
+  motion(form, base, local);
+  contraction_ = std::max(contraction_, best_contraction);
+}
+
+/// Newton's correction of the measures and multipliers; false if its matrix is singular.
+bool ImplicitStep::correct(const Condensed &condensed, const LocalState &local)
+{
+  residual_ = xi_free_ - xi_;
+  residual_.noalias() += condensed.S.lazyProduct(local.p);
+  correction_ = residual_;
+  if (!matrix_->factorise(condensed.S, tangent_, system_.forces().held()))
+  {
+    dependent_row_   = matrix_->failed_joint();
+    joints_singular_ = dependent_row_ >= 0;
+    singular_        = !joints_singular_;
+    return false;
+  }
+  matrix_->solve_in_place(condensed.S, G_, correction_, g_);
+  return correction_.allFinite() && g_.allFinite();
+}
+
 bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work)
 {
   const StepForm &form        = condensed.form;
@@ -277,19 +310,8 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     }
     if (turned)
       matrix_->set_joints(condensed.S, G_);
-    turned    = false;
-    residual_ = xi_free_ - xi_;
-    residual_.noalias() += condensed.S.lazyProduct(local.p);
-    correction_ = residual_;
-    if (!matrix_->factorise(condensed.S, tangent_, held))
-    {
-      dependent_row_   = matrix_->failed_joint();
-      joints_singular_ = dependent_row_ >= 0;
-      singular_        = !joints_singular_;
-      return false;
-    }
-    matrix_->solve_in_place(condensed.S, G_, correction_, g_);
-    if (!correction_.allFinite() || !g_.allFinite())
+    turned = false;
+    if (!correct(condensed, local))
       return false;
 
     for (const HeldMeasure &h : held) // linear in p: nothing to iterate
@@ -304,20 +326,14 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       allow_for_rounding(condensed.S, local.p, left * std::abs(form.w_u), scale_);
       allow_for_closing(system_, condensed.S, force_blocks_, tangent_, joint_rounding * left, scale_);
     }
-    const double size = size_of_correction();
-    // A correction that grows again jumps between the branches of a law: shorten it.
-    const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
+    const double size    = size_of_correction();
+    const double damping = damping_of(iteration, size, size_before);
     xi_.noalias() += damping * correction_;
     if (joints)
       local.lambda += damping * g_;
     if (damping == 1. && is_converged(iteration, size, remaining(iteration, size, size_before)))
     {
-      // The forces of the corrected measures, to second order in the correction; xi = xi_free + S p stays exact.
-      add_tangent_times(correction_, local.p);
-      if (joints)
-        G_.set_forces(local.lambda, local.p);
-      motion(form, base, local);
-      contraction_ = std::max(contraction_, best_contraction);
+      finish(form, base, local);
       return true;
     }
     if (iteration == 0 && good_predictions_)
@@ -347,9 +363,10 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
   x.noalias() += condensed.Y.lazyProduct(local.p);
 }
 
-void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &h, const Eigen::VectorXd &f,
-                         const LocalState &base, Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+void ImplicitStep::solve(const Condensed &condensed, const MassLoad &load, const LocalState &base, Eigen::VectorXd &x,
+                         LocalState &local, IntegrationWork &work)
 {
+  const auto &[h, f] = load;
   if (condensed.Y_led.size() == 0)
   {
     f_.resize(h.size());

@@ -88,9 +88,14 @@ public:
   /// @throws ConvergenceFailure
   void solve(const Condensed &condensed, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
              LocalState &local, IntegrationWork &work);
+  /// M h + f
+  struct MassLoad
+  {
+    const Eigen::VectorXd &h, &f;
+  };
   /// The same for M h + f instead of f; less work where few coordinates lead.
-  void solve(const Condensed &condensed, const Eigen::VectorXd &h, const Eigen::VectorXd &f, const LocalState &base,
-             Eigen::VectorXd &x, LocalState &local, IntegrationWork &work);
+  void solve(const Condensed &condensed, const MassLoad &load, const LocalState &base, Eigen::VectorXd &x,
+             LocalState &local, IntegrationWork &work);
 
   /// Whether the predictions that follow err as little as the formula does: Newton stops then where what is left is a
   /// small share of the first correction, which is of the size of the local error.
@@ -109,9 +114,15 @@ private:
   static constexpr int    steps_of_levers    = 16;   ///< the levers of joints are looked at once in so many
   static constexpr int    most_unseen        = 20;   ///< steps of one iteration before another one is looked at
 
-  void   find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
-                     IntegrationWork &work);
-  void   grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too);
+  void find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
+                   IntegrationWork &work);
+  void grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too);
+  static double damping_of(int iteration, double size, double size_before);
+
+  bool   correct(const Condensed &condensed, const LocalState &local);
+  void   finish(const StepForm &form, const LocalState &base, LocalState &local);
+  void   find_measures(const Eigen::VectorXd &x, const StepForm &form, const LocalState &base);
+  bool   correct_sparse(const StepForm &form, const Eigen::VectorXd &f, const Eigen::VectorXd &x, LocalState &local);
   bool   iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);
   bool   iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
                         LocalState &local, IntegrationWork &work);

@@ -20,27 +20,54 @@ bool ImplicitStep::factorise_sparse(IntegrationWork &work)
   return false;
 }
 
-bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
-                                  Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+/// W^T x, and of measures that stick what their rates make of them.
+void ImplicitStep::find_measures(const Eigen::VectorXd &x, const StepForm &form, const LocalState &base)
+{
+  xi_.noalias() = system_.forces().directions().transpose() * x;
+  for (const HeldMeasure &h : system_.forces().held())
+    xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
+}
+
+/// Newton's correction y of x, the multipliers and the forces that hold measures, which are linear and taken at once.
+bool ImplicitStep::correct_sparse(const StepForm &form, const Eigen::VectorXd &f, const Eigen::VectorXd &x,
+                                  LocalState &local)
 {
   const auto &W    = system_.forces().directions();
   const auto &held = system_.forces().held();
   const auto  n = x.size(), n_c = Eigen::Index(G_.n_rows());
-  double      size_before = 0.;
+  residual_.noalias() = form.force * local.p;
+  y_.head(n)          = f;
+  y_.head(n).noalias() += W * residual_;
+  y_.head(n).noalias() -= saddle_->A() * x;
+  y_.segment(n, n_c) = g_ / -form.w_u;
+  for (std::size_t h = 0; h < held.size(); ++h)
+    y_[n + n_c + Eigen::Index(h)] = xi_[held[h].measure] - W.col(held[h].measure).dot(x);
+  saddle_->solve_in_place(y_);
+  correction_.noalias() = W.transpose() * y_.head(n);
+  if (!y_.allFinite())
+    return false;
+  residual_ = correction_; // of the measures, for messages
+  for (std::size_t h = 0; h < held.size(); ++h)
+  {
+    local.p[held[h].measure] += y_[n + n_c + Eigen::Index(h)] / form.force;
+    correction_[held[h].measure] = 0.;
+  }
+  return true;
+}
+
+bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
+                                  Eigen::VectorXd &x, LocalState &local, IntegrationWork &work)
+{
+  const auto n = x.size(), n_c = Eigen::Index(G_.n_rows());
+  double     size_before = 0.;
   singular_ = joints_singular_ = false;
   note_form(form);
-  saddle_->hold(held);
+  saddle_->hold(system_.forces().held());
   saddle_->set_weights(form.w_M, form.w_B, form.w_C, form.force);
   y_.resize(saddle_->size());
   saddle_->forget_factor(); // that of the step before costs more iterations than it saves
 
-  const auto measures = [&]
-  {
-    xi_.noalias() = W.transpose() * x;
-    for (const HeldMeasure &h : held)
-      xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
-  };
-  measures();
+  find_measures(x, form, base);
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)
   {
     motion(form, base, local);
@@ -52,41 +79,21 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
     if (!saddle_->has_factor() && !factorise_sparse(work))
       return false;
 
-    residual_.noalias() = form.force * local.p;
-    y_.head(n)          = f;
-    y_.head(n).noalias() += W * residual_;
-    y_.head(n).noalias() -= saddle_->A() * x;
-    y_.segment(n, n_c) = g_ / -form.w_u;
-    for (std::size_t h = 0; h < held.size(); ++h)
-      y_[n + n_c + Eigen::Index(h)] = xi_[held[h].measure] - W.col(held[h].measure).dot(x);
-    saddle_->solve_in_place(y_);
     ++work.solves;
-    correction_.noalias() = W.transpose() * y_.head(n);
-    if (!y_.allFinite())
+    if (!correct_sparse(form, f, x, local))
       return false;
-    residual_ = correction_; // of the measures, for messages
-
-    for (std::size_t h = 0; h < held.size(); ++h) // linear in p: nothing to iterate
-    {
-      local.p[held[h].measure] += y_[n + n_c + Eigen::Index(h)] / form.force;
-      correction_[held[h].measure] = 0.;
-    }
     grow_scale(form, local, true);
-    const double size = size_of_correction();
-    // A correction that grows again jumps between the branches of a law: shorten it.
-    const double damping = iteration > 7 && size > 0.5 * size_before ? 0.5 : 1.;
+    const double size    = size_of_correction();
+    const double damping = damping_of(iteration, size, size_before);
     x += damping * y_.head(n);
     local.lambda += (damping / form.force) * y_.segment(n, n_c);
-    measures();
+    find_measures(x, form, base);
     if (iteration > 0 && size_before > 0.)
       contraction_ = std::clamp(size / size_before, 1e-4, 1.);
     const double remaining = contraction_ < 1. ? size * contraction_ / (1. - contraction_) : size;
     if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
     {
-      add_tangent_times(correction_, local.p); // to second order in the correction
-      G_.set_forces(local.lambda, local.p);
-      motion(form, base, local);
-      contraction_ = std::max(contraction_, best_contraction);
+      finish(form, base, local);
       return true;
     }
     if (iteration > 0 && size > good_contraction * size_before)

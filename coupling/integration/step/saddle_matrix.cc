@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -129,36 +130,70 @@ int SaddleMatrix::position(int row, int column) const
 /// Where every number of A, p' and G stands in K.
 void SaddleMatrix::analyse()
 {
-  struct Place
-  {
-    int    value, row, column;
-    double weight;
-  };
-  const Sparse      &W = system_.forces().directions();
-  std::vector<Place> base, tangent, action, motion, held;
+  const std::vector<Place> base = places_of_base(), tangent = places_of_tangent(), held = places_of_held();
+  std::vector<Place>       action, motion;
+  places_of_joints(action, motion);
+
+  const int N = n_ + n_c_ + int(held_.size());
+  Triplets  all;
+  for (const std::vector<Place> *places : {&base, &tangent, &std::as_const(action), &std::as_const(motion), &held})
+    for (const Place &place : *places)
+      all.emplace_back(place.row, place.column, 0.);
+  pattern_.resize(N, N);
+  pattern_.setFromTriplets(all.begin(), all.end());
+  pattern_.makeCompressed();
+  of_A_.clear();
+  for (const Place &place : base)
+    of_A_.push_back(position(place.row, place.column));
+  of_tangent_ = scattered(tangent);
+  of_action_  = scattered(action);
+  of_motion_  = scattered(motion);
+  of_held_    = scattered(held);
+  scale_.setOnes(N);
+  order();
+}
+
+std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_base() const
+{
+  std::vector<Place> places;
   for (int j = 0, k = 0; j < n_; ++j)
-    for_column(A_, j, [&](int i, double) { base.push_back({k++, i, j, 1.}); });
-  int first = 0;
+    for_column(A_, j, [&](int i, double) { places.push_back({k++, i, j, 1.}); });
+  return places;
+}
+
+/// W p' W^T.
+std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_tangent() const
+{
+  const Sparse      &W = system_.forces().directions();
+  std::vector<Place> places;
+  int                first = 0;
   for (const ForceBlock &block : system_.forces().blocks())
   {
-    for (int b = 0; b < block.n_measures; ++b)
-      for (int a = 0; a < block.n_measures; ++a)
+    const int k = block.n_measures;
+    for (int b = 0; b < k; ++b)
+      for (int a = 0; a < k; ++a)
         for_column(W, block.first_measure + a,
                    [&](int i, double w_i)
                    {
                      for_column(W, block.first_measure + b,
                                 [&](int j, double w_j) {
-                                  tangent.push_back({first + a + block.n_measures * b, i, j, w_i * w_j});
+                                  places.push_back({first + a + k * b, i, j, w_i * w_j});
                                 });
                    });
-    first += block.n_measures * block.n_measures;
+    first += k * k;
   }
-  first = 0;
+  return places;
+}
+
+/// action: -W G^T, motion: G W^T.
+void SaddleMatrix::places_of_joints(std::vector<Place> &action, std::vector<Place> &motion) const
+{
+  int first = 0;
   for (const ConstraintBlock &block : system_.joints().blocks())
   {
     for (int k = 0; k < block.n_measures; ++k)
       for (int r = 0; r < block.n_rows; ++r)
-        for_column(W, block.first_measure + k,
+        for_column(system_.forces().directions(), block.first_measure + k,
                    [&](int i, double w)
                    {
                      const int value = first + r + block.n_rows * k, row = n_ + block.first_row + r;
@@ -167,39 +202,28 @@ void SaddleMatrix::analyse()
                    });
     first += block.n_rows * block.n_measures;
   }
+}
+
+std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_held() const
+{
+  std::vector<Place> places;
   for (std::size_t h = 0; h < held_.size(); ++h)
-    for_column(W, held_[h],
+    for_column(system_.forces().directions(), held_[h],
                [&](int i, double w)
                {
                  const int row = n_ + n_c_ + int(h);
-                 held.push_back({0, i, row, -w});
-                 held.push_back({0, row, i, w});
+                 places.push_back({0, i, row, -w});
+                 places.push_back({0, row, i, w});
                });
+  return places;
+}
 
-  const int N = n_ + n_c_ + int(held_.size());
-  Triplets  all;
-  for (const auto *places : {&base, &tangent, &action, &motion, &held})
-    for (const Place &place : *places)
-      all.emplace_back(place.row, place.column, 0.);
-  pattern_.resize(N, N);
-  pattern_.setFromTriplets(all.begin(), all.end());
-  pattern_.makeCompressed();
-  const auto placed = [this](const std::vector<Place> &places)
-  {
-    std::vector<Scattered> scattered;
-    for (const Place &place : places)
-      scattered.push_back({place.value, position(place.row, place.column), place.weight});
-    return scattered;
-  };
-  of_A_.clear();
-  for (const Place &place : base)
-    of_A_.push_back(position(place.row, place.column));
-  of_tangent_ = placed(tangent);
-  of_action_  = placed(action);
-  of_motion_  = placed(motion);
-  of_held_    = placed(held);
-  scale_.setOnes(N);
-  order();
+std::vector<SaddleMatrix::Scattered> SaddleMatrix::scattered(const std::vector<Place> &places) const
+{
+  std::vector<Scattered> scattered;
+  for (const Place &place : places)
+    scattered.push_back({place.value, position(place.row, place.column), place.weight});
+  return scattered;
 }
 
 /// Motions, equations, motions of many equations, equations of these alone; within each set few fill-ins.

@@ -83,13 +83,25 @@ private:
     double weight;
   };
 
-  void collect_base(const SecondOrderSystem &system);
-  void analyse();
-  void order();
-  int  position(int row, int column) const;
-  void fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
-  void scale();
-  bool is_regular();
+  /// Where a number is added to K.
+  struct Place
+  {
+    int    value, row, column;
+    double weight;
+  };
+
+  void                   collect_base(const SecondOrderSystem &system);
+  void                   analyse();
+  std::vector<Place>     places_of_base() const;
+  std::vector<Place>     places_of_tangent() const;
+  void                   places_of_joints(std::vector<Place> &action, std::vector<Place> &motion) const;
+  std::vector<Place>     places_of_held() const;
+  std::vector<Scattered> scattered(const std::vector<Place> &places) const;
+  void                   order();
+  int                    position(int row, int column) const;
+  void                   fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
+  void                   scale();
+  bool                   is_regular();
 
   const SecondOrderSystem    &system_;
   int                         n_, n_c_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 namespace gestell::coupling
 {
@@ -327,21 +328,21 @@ bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &
 
 /// chi, and from it 1 / (scale chi), but not above what rounding leaves, which reaches velocities with the highest
 /// frequency that the step resolves; a motion that does not move has no error.
-void ErrorScale::invert(double h, double floor, double E, double V, double change_of_speed, double size, double rate,
-                        double &of_q, double &of_v) const
+std::pair<double, double> ErrorScale::invert(double h, const Excursion &of) const
 {
-  const bool   moves     = E > 0. && V > 0.;
-  const double chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
-  const double frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
-  const double q         = std::max(E * chi, floor * std::max(size, h * rate));
-  const double v         = std::max(V * chi, floor * std::max(size * frequency, rate));
-  of_q                   = q > 0. ? 1. / q : 0.;
-  of_v                   = v > 0. ? 1. / v : 0.;
+  const auto [E, V, change_of_speed, size, rate] = of;
+  const double floor                             = rounding / tolerance_;
+  const bool   moves                             = E > 0. && V > 0.;
+  const double chi                               = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
+  const double frequency                         = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
+  const double q                                 = std::max(E * chi, floor * std::max(size, h * rate));
+  const double v                                 = std::max(V * chi, floor * std::max(size * frequency, rate));
+  return {q > 0. ? 1. / q : 0., v > 0. ? 1. / v : 0.};
 }
 
 void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, const Vector &moved)
 {
-  const double floor = rounding / tolerance_, time = 1. / omega_1_; // zero for a system without elastic modes: no bound
+  const double time    = 1. / omega_1_; // zero for a system without elastic modes: no bound
   const auto   bounded = [&](double way, double speed) { return time > 0. ? std::min(way, speed * time) : way; };
   double       most = loads_way_, fastest = loads_speed_;
   for (int g = 0; g < n_groups_; ++g)
@@ -360,10 +361,11 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
       largest         = std::max(largest, std::abs(moved[j]) * root_mass_[j]);
     }
   for (int g = 0; g < n_groups_; ++g)
-    invert(h, floor, std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
-           std::max(scale_.v[g], group_floor * fastest), std::sqrt(changes_[g]),
-           std::max({std::sqrt(sums_[g]), moved_[g], noise_of_groups_[g]}),
-           std::max(std::sqrt(sums_v_[g]), moved_[g] / h), inverse_q_[g], inverse_v_[g]);
+    std::tie(inverse_q_[g], inverse_v_[g]) =
+        invert(h, {std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
+                   std::max(scale_.v[g], group_floor * fastest), std::sqrt(changes_[g]),
+                   std::max({std::sqrt(sums_[g]), moved_[g], noise_of_groups_[g]}),
+                   std::max(std::sqrt(sums_v_[g]), moved_[g] / h)});
 
   for (int j = 0; j < ends_.outerSize(); ++j)
   {
@@ -382,13 +384,13 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
     speed_[j]         = std::max({scale_.u_rate[j], measure_floor * speed, part * fastest});
     size_[j]          = size;
     rate_[j]          = rate;
-    invert(h, floor, way_[j], speed_[j], std::abs(to.u_rate[j] - from.u_rate[j]), size, rate, inverse_u_[j],
-           inverse_rate_[j]);
+    std::tie(inverse_u_[j], inverse_rate_[j]) =
+        invert(h, {way_[j], speed_[j], std::abs(to.u_rate[j] - from.u_rate[j]), size, rate});
   }
-  set_scales_of_virtual(h, floor);
+  set_scales_of_virtual(h);
 }
 
-void ErrorScale::set_scales_of_virtual(double h, double floor)
+void ErrorScale::set_scales_of_virtual(double h)
 {
   for (const Virtual &z : virtual_)
   {
@@ -398,8 +400,8 @@ void ErrorScale::set_scales_of_virtual(double h, double floor)
     const double left =
         z.by_u.dot(size_) + z.by_rate.dot(rate_) + z.by_rate.dot(joint_noise_) / (z.time + h); // h/(T + h) of noise/h
     const double size = std::max(size_[j], left);
-    invert(h, floor, way, speed, 0., size, rate_[j], inverse_u_[j], inverse_rate_[j]);
-    inverse_rate_[j] = 0.;
+    inverse_u_[j]     = invert(h, {way, speed, 0., size, rate_[j]}).first;
+    inverse_rate_[j]  = 0.;
   }
 }
 

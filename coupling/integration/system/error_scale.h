@@ -2,6 +2,7 @@
 
 #include "coupling/integration/system/second_order_system.h"
 
+#include <utility>
 #include <vector>
 
 namespace gestell::coupling
@@ -86,6 +87,14 @@ public:
   int massless() const { return massless_; }
 
 private:
+  /// Of a group or a measure: how far and how fast it has gone, the change of its speed in the step, its size and rate
+  /// now.
+  struct Excursion
+  {
+    double way, speed, change_of_speed, size, rate;
+  };
+  using Inverse = std::pair<double, double>; ///< 1 / scale of displacements and of velocities; 0: no error
+
   /// A virtual coordinate's measure, its time constant [s], and by how much its law follows others, per u and u' [n_u].
   struct Virtual
   {
@@ -115,9 +124,8 @@ private:
   void        find_noise();
   void        spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const;
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
-  void        invert(double h, double floor, double E, double V, double change_of_speed, double size, double rate,
-                     double &of_q, double &of_v) const;
-  void        set_scales_of_virtual(double h, double floor);
+  Inverse     invert(double h, const Excursion &of) const;
+  void        set_scales_of_virtual(double h);
   void        set_scales(double h, const Motion &from, const Motion &to, const Vector &moved);
 
   const SecondOrderSystem    &system_;

@@ -134,7 +134,7 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
       text += "; " + percent(walls.thin_share, 2) + " of the surface belongs to walls thinner than the elements, " +
               rounded(walls.median_ratio, 3) + " times on the average (thinnest wall " +
               rounded(1000. * walls.thinnest, 3) + " mm)" +
-              (raised ? "" : ", of which stresses do not tell how much too stiff they bend");
+              (raised ? "" : ", whose stresses do not show how much too stiff they are in bending");
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
       text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls need "

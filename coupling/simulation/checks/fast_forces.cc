@@ -1,7 +1,7 @@
 #include "coupling/simulation/checks/fast_forces.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/modes/modes.h"
 #include "fem/values/two_pi.h"
 

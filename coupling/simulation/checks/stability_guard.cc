@@ -1,10 +1,11 @@
 #include "coupling/simulation/checks/stability_guard.h"
 
+#include "coupling/integration/integration_methods.h"
 #include "coupling/integration/stability/stability.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "fem/values/two_pi.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +19,13 @@ namespace
 {
 
 constexpr double harmless = 1e-10; // growth per step that 1e9 steps may have
-constexpr double rounding = 1e-14; // of step_weights(), sums of a few terms of order one
+constexpr double rounding = 1e-14; // of step weights, sums of a few terms of order one
 
 // --- one mode
 
 TestOscillator oscillator(const ModeAccuracy &mode, double omega_h, const MethodOptions &options)
 {
-  const Spring spring = options.method == Method::exact ? Spring::contact : Spring::base;
+  const Spring spring = method_of(options).carries_base() ? Spring::contact : Spring::base;
   return {std::max(0., mode.mode.zeta), omega_h, spring};
 }
 
@@ -59,7 +60,7 @@ ModeAccuracy accuracy(ModeOrigin origin, int number, const SpectrumLine &line, d
   ModeAccuracy result{origin, number, line, line.omega * h, 1., 0., 0., false};
 
   double share = 1.; // of the motion that the method approximates
-  if (options.method == Method::exact)
+  if (method_of(options).carries_base())
   {
     share = std::pow(contact_omega / line.omega, 2);
     if (!(share > 1e-12))
@@ -83,7 +84,7 @@ bool stable_at_every_step(const MethodOptions &options)
   return unstable_intervals(options, 0.).empty();
 }
 
-// --- motions of all modes together, for methods with step_weights()
+// --- motions of all modes together, for methods with IntegrationMethod::step_weights()
 
 /// A direction of motion in the modes that grows, and by how much in every step.
 struct GrowingMotion
@@ -109,7 +110,7 @@ Eigen::MatrixXd balance(const LinearMachine &machine, const StepWeights &w, doub
 /// No motion x r^k: the balance is positive definite.
 bool balanced(const LinearMachine &machine, const MethodOptions &options, double h, double r)
 {
-  const StepWeights w = step_weights(options, r);
+  const StepWeights w = *method_of(options).step_weights(options, r);
   if (machine.B.rows() == 0 || (w.damping > -rounding && w.stiffness > -rounding)) // for any motion
     return true;
   if (std::abs(w.damping) < rounding)
@@ -117,11 +118,11 @@ bool balanced(const LinearMachine &machine, const MethodOptions &options, double
   return Eigen::LLT<Eigen::MatrixXd>(balance(machine, w, h)).info() == Eigen::Success;
 }
 
-/// The step of Newmark's method is a machine with mass A, damping D and stiffness C whose motions exp(z t) are its
-/// roots, z = (r - 1)/(r + 1); A must be positive definite, r = -1 balanced.
-std::optional<GrowingMotion> growing_root(const LinearMachine &machine, const MethodOptions &options, double h)
+/// The step in z = (r - 1)/(r + 1) is a machine with mass A, damping D and stiffness C whose motions exp(z t) are its
+/// roots; A must be positive definite, r = -1 balanced.
+std::optional<GrowingMotion> growing_root(const LinearMachine &machine, const BilinearWeights &weights, double h)
 {
-  const double          c = 2. * options.gamma - 1., d = 4. * options.beta - 2. * options.gamma;
+  const auto [c, d]            = weights;
   const Eigen::VectorXd square = h * h * stiffness_of(machine);
   const Eigen::MatrixXd C      = square.asDiagonal();
   const Eigen::MatrixXd A      = balance(machine, {4., 2. * c, d}, h);
@@ -152,21 +153,21 @@ GrowingMotion growing_alternation(const LinearMachine &machine, const MethodOpti
     const double middle                                     = 0.5 * (still + fast);
     (balanced(machine, options, h, -middle) ? still : fast) = middle;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(balance(machine, step_weights(options, -fast), h));
+  const SymmetricEigenSolver solver(balance(machine, *method_of(options).step_weights(options, -fast), h));
   return {fast, solver.eigenvectors().col(0)};
 }
 
-bool takes_roots(const MethodOptions &options)
+bool weighs_steps(const MethodOptions &options)
 {
-  return options.method == Method::newmark && options.gamma < 0.5;
+  return method_of(options).step_weights(options, -1.).has_value();
 }
 
 std::optional<GrowingMotion> growing_motion(const LinearMachine &machine, const MethodOptions &options, double h)
 {
   if (!balanced(machine, options, h, -1.))
     return growing_alternation(machine, options, h);
-  if (takes_roots(options))
-    return growing_root(machine, options, h);
+  if (const auto weights = method_of(options).growing_weights(options))
+    return growing_root(machine, *weights, h);
   return {};
 }
 
@@ -225,7 +226,7 @@ double rounded_down(double h)
 /// digits of a step.
 CouplingTolerance coupling_tolerance(const MethodOptions &options)
 {
-  const bool judged = options.method == Method::bdf && options.order > 2;
+  const bool judged = !stable_at_every_step(options) && !weighs_steps(options);
   return judged ? CouplingTolerance{1e-6, 1e-4} : CouplingTolerance{1e-4, 1e-2};
 }
 
@@ -255,7 +256,7 @@ void StabilityGuard::add_machine(const LinearMachine &machine)
   for (const DampedMode &mode : damped_modes(machine.modes, machine.B, coupling_tolerance(options_)))
     modes_.push_back(
         accuracy(machine.origin, int(mode.nearest) + 1, mode.line, machine.contact_omega[mode.nearest], options_));
-  if (!has_step_weights(options_))
+  if (!weighs_steps(options_))
     return;
   // What a mode would do alone is no verdict: the modes are coupled.
   const auto motion = growing_motion(machine, options_, options_.step);
@@ -288,7 +289,7 @@ void StabilityGuard::add_large()
   for (const LargeMode &mode : spectrum_.large)
   {
     // Where modes are not carried one by one, dampers may leave any motion without damping.
-    SpectrumLine line = has_step_weights(options_) ? SpectrumLine{mode.line.omega, 0.} : mode.line;
+    SpectrumLine line = weighs_steps(options_) ? SpectrumLine{mode.line.omega, 0.} : mode.line;
     if (mode.bound)
       line.omega = worst_below(above, line, options_) / options_.step;
     modes_.push_back(accuracy(mode.origin, mode.number, line, 0., options_));
@@ -309,7 +310,7 @@ const ModeAccuracy *StabilityGuard::fastest() const
 std::string StabilityGuard::message_of(const ModeAccuracy &worst) const
 {
   const auto others = std::count_if(modes_.begin(), modes_.end(), [](const auto &mode) { return mode.unstable; }) - 1;
-  const std::string sign = options_.method == Method::exact ? "omega_contact h" : "omega h";
+  const std::string sign = method_of(options_).carries_base() ? "omega_contact h" : "omega h";
   std::string text = method_name(options_) + " is unstable with run.step = " + step_text(options_.step) + ": for " +
                      describe(worst) + " " + sign + " is " + number(worst.omega_h, 5) + interval_text(worst, options_) +
                      ", and its amplitude grows by the factor " + growth_text(worst) + " in every step";
@@ -321,8 +322,9 @@ std::string StabilityGuard::message_of(const ModeAccuracy &worst) const
 /// For methods whose modes are coupled.
 bool StabilityGuard::motion_grows(double h) const
 {
+  const auto weights = method_of(options_).growing_weights(options_);
   for (const LinearMachine &machine : spectrum_.machines)
-    if (!balanced(machine, options_, h, -1.) || (takes_roots(options_) && growing_root(machine, options_, h)))
+    if (!balanced(machine, options_, h, -1.) || (weights && growing_root(machine, *weights, h)))
       return true;
   return spectrum_.machines.empty() && mode_grows(h);
 }
@@ -332,7 +334,7 @@ bool StabilityGuard::mode_grows(double h) const
   return std::any_of(modes_.begin(), modes_.end(),
                      [&](const ModeAccuracy &mode)
                      {
-                       const bool takes_part = options_.method != Method::exact || mode.period_error != 0.;
+                       const bool takes_part = !method_of(options_).carries_base() || mode.period_error != 0.;
                        return takes_part && mode.omega_h > 0. &&
                               grows(mode, mode.omega_h * h / options_.step, options_);
                      });
@@ -367,7 +369,7 @@ double StabilityGuard::by_bisection() const
 
 double StabilityGuard::largest_stable_step() const
 {
-  if (has_step_weights(options_))
+  if (weighs_steps(options_))
     return by_bisection();
   const bool unknown = std::any_of(modes_.begin(), modes_.end(), [](const ModeAccuracy &mode) { return mode.bound; });
   return unknown ? 0. : by_ladder(); // modes that are not known lie anywhere
@@ -376,7 +378,7 @@ double StabilityGuard::largest_stable_step() const
 void StabilityGuard::check() const
 {
   const ModeAccuracy *worst = fastest();
-  if (!worst || options_.method == Method::exact)
+  if (!worst || method_of(options_).carries_base())
     return;
   const double      step = largest_stable_step();
   const std::string way =
@@ -390,7 +392,7 @@ void StabilityGuard::check() const
 
 std::vector<std::string> StabilityGuard::warnings() const
 {
-  if (options_.method != Method::exact || options_.force == ForceRule::average)
+  if (!method_of(options_).carries_base())
     return {};
   const ModeAccuracy *worst = fastest();
   if (!worst)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 #include "coupling/modes/linear_spectrum.h"
 
 #include <string>

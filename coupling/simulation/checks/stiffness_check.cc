@@ -1,7 +1,8 @@
 #include "coupling/simulation/checks/stiffness_check.h"
 
 #include "coupling/integration/stability/stability.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -16,7 +17,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double rounding = 1e-14; // of step_weights(), sums of a few terms of order one
+constexpr double rounding = 1e-14; // of step weights, sums of a few terms of order one
 
 double stored(const mechanism::ForceElement &element, const Eigen::VectorXd &u, const Eigen::VectorXd &v)
 {
@@ -32,12 +33,12 @@ double stored(const mechanism::ForceElement &element, const Eigen::VectorXd &u, 
 StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start, const MethodOptions &options)
     : machine_(machine), options_(options)
 {
-  if (!has_step_weights(options) || options.tolerance > 0. || is_large(machine))
+  const auto weights = method_of(options).step_weights(options, -1.);
+  if (!weights || controlled(options) || is_large(machine) ||
+      weights->stiffness > -rounding) // stable at every stiffness
     return;
-  const StepWeights w = step_weights(options, -1.);
-  if (w.stiffness > -rounding) // stable at every stiffness
-    return;
-  int first = 0, row = 0;
+  const StepWeights w     = *weights;
+  int               first = 0, row = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
     const int k = placement.element->n_measures();
@@ -102,7 +103,7 @@ double StiffnessCheck::largest(const Eigen::VectorXd &u, std::size_t &most) cons
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(F_.rows(), F_.cols());
   for (const Watched &watched : watched_)
     K.block(watched.row, watched.row, watched.size, watched.size) = stiffness(watched, u);
-  return Eigen::EigenSolver<Eigen::MatrixXd>(K * F_, false).eigenvalues().real().maxCoeff();
+  return GeneralEigenSolver(K * F_, WithVectors::no).eigenvalues().real().maxCoeff();
 }
 
 void StiffnessCheck::step(const LocalState &state)
@@ -124,9 +125,8 @@ double StiffnessCheck::frequency_at_peak(const Watched &watched, const Eigen::Ve
   const auto &[placement, first, k, row] = watched;
   const Eigen::VectorXd u = last_.u.segment(first, k), v = last_.v.segment(first, k);
   const Eigen::MatrixXd lightness = lightness_.block(row, row, k, k);
-  const double          energy =
-      stored(*placement->element, u, v) + 0.5 * v.dot(lightness.completeOrthogonalDecomposition().solve(v));
-  double far = options_.step;
+  const double energy = stored(*placement->element, u, v) + 0.5 * v.dot(LeastSquaresSolver(lightness).solve(v));
+  double       far    = options_.step;
   for (int i = 0; i < 60 && stored(*placement->element, u + far * v, v) < energy; ++i)
     far *= 2.;
   const bool found = stored(*placement->element, u + far * v, v) >= energy;

@@ -269,7 +269,7 @@ TEST(OwnReference, HoldsForAMachineWithEventsToo)
   std::vector<std::string> notes;
   const Reference          reference = own_reference(tiny.problem, notes);
   coupling::MethodOptions  other; // another method altogether: of second order, so extrapolated from two steps
-  other.method               = coupling::Method::newmark;
+  other.method               = "newmark";
   other.step                 = 1e-5;
   const SignalSamples fine   = measure(tiny.problem, other, true).values;
   other.step                 = 2e-5;
@@ -305,7 +305,7 @@ TEST(Measurement, OfAPeerGivesTheSameSignalsAsOurMethods)
     GTEST_SKIP() << "no SUNDIALS in this build";
   TinyProblem             tiny(true);
   coupling::MethodOptions own;
-  own.method = coupling::Method::exact;
+  own.method = "exact";
   own.order  = 6;
   own.step   = 2e-4;
   peers::PeerOptions peer;

@@ -1,7 +1,7 @@
 // Natural frequencies along a coordinate against closed forms.
 
 #include "apps/session/modes_along.h"
-#include "coupling/machine/loop_closure.h"
+#include "coupling/machine/configuration/loop_closure.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/scene_text.h"
 

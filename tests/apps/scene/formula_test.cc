@@ -1,7 +1,7 @@
 // Formulas: from the text with units to the program, and the element "formula force" from the scene to the motion.
 
 #include "apps/scene/language/parse_quantity.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "tests/support/scene_motion.h"
 
 #include <gtest/gtest.h>

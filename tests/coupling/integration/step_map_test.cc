@@ -1,5 +1,6 @@
 // Stability, accuracy and overshoot of the integrators as they are: every number comes from steps they take themselves.
 
+#include "coupling/integration/bdf/bdf_method.h"
 #include "tests/support/step_map.h"
 
 #include "tests/support/reference_table.h"

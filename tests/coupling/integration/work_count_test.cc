@@ -1,6 +1,7 @@
 // Work is counted the same way for every method: each look at the forces of the elements is one evaluation.
 
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
+#include "coupling/integration/propagation/force_rule.h"
 #include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +13,13 @@ namespace
 
 using namespace coupling;
 
-MethodOptions of(Method method, int order = 2, ForceRule force = ForceRule::collocation, double tolerance = 0.)
+MethodOptions of(const std::string &method, int order = 2, ForceRule force = ForceRule::collocation,
+                 double tolerance = 0.)
 {
   MethodOptions options;
-  options.method    = method;
-  options.order     = order;
-  options.force     = force;
+  options.method = method;
+  options.order  = order;
+  options.set("force", force_rule_name(force));
   options.tolerance = tolerance;
   options.step      = 1e-3;
   return options;
@@ -50,12 +52,11 @@ TEST_P(WorkCount, HoldsEveryLookAtTheForces)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, WorkCount,
-                         ::testing::Values(of(Method::bdf), of(Method::bdf, 4),
-                                           of(Method::bdf, 5, ForceRule::collocation, 1e-6), of(Method::newmark),
-                                           of(Method::hht), of(Method::generalised_alpha), of(Method::wilson),
-                                           of(Method::central_difference), of(Method::exact, 2, ForceRule::average),
-                                           of(Method::exact, 2, ForceRule::linear), of(Method::exact, 6),
-                                           of(Method::exact, 6, ForceRule::collocation, 1e-6)),
+                         ::testing::Values(of("bdf"), of("bdf", 4), of("bdf", 5, ForceRule::collocation, 1e-6),
+                                           of("newmark"), of("hht"), of("generalised-alpha"), of("wilson"),
+                                           of("central-difference"), of("exact", 2, ForceRule::average),
+                                           of("exact", 2, ForceRule::linear), of("exact", 6),
+                                           of("exact", 6, ForceRule::collocation, 1e-6)),
                          [](const auto &info)
                          {
                            std::string name;

@@ -1,8 +1,8 @@
 #include "coupling/integration/events/event_driver.h"
-#include "coupling/integration/method.h"
-#include "coupling/machine/assembly.h"
-#include "tests/support/reference_table.h"
+#include "coupling/integration/integration_methods.h"
+#include "coupling/machine/configuration/assembly.h"
 #include "tests/support/jointed_machines.h"
+#include "tests/support/reference_table.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,12 @@ namespace gestell::tests
 namespace
 {
 
-using coupling::Method;
 using coupling::MethodOptions;
 
 MethodOptions bdf(int order, double step)
 {
   MethodOptions options;
-  options.method = Method::bdf;
+  options.method = "bdf";
   options.order  = order;
   options.step   = step;
   return options;
@@ -28,9 +27,9 @@ MethodOptions bdf(int order, double step)
 MethodOptions alpha(double rho, double step)
 {
   MethodOptions options;
-  options.method  = Method::generalised_alpha;
-  options.rho_inf = rho;
-  options.step    = step;
+  options.method = "generalised-alpha";
+  options.set("rho_inf", rho);
+  options.step = step;
   return options;
 }
 
@@ -226,8 +225,7 @@ TEST(IdealJoint, MethodsThatCannotHoldJointsSaySo)
 {
   Machine       machine = pendulum();
   MethodOptions newmark, wilson, central, exact;
-  newmark.method = Method::newmark, wilson.method = Method::wilson, central.method = Method::central_difference,
-  exact.method = Method::exact;
+  newmark.method = "newmark", wilson.method = "wilson", central.method = "central-difference", exact.method = "exact";
   for (MethodOptions *method : {&newmark, &wilson, &central, &exact})
   {
     method->step = 1e-3;

@@ -1,7 +1,7 @@
 // Events located and the integration restarted there: times against exact solutions (tests/reference/numerics/order).
 
 #include "coupling/integration/events/event_driver.h"
-#include "coupling/integration/method.h"
+#include "coupling/integration/integration_methods.h"
 #include "coupling/machine/machine.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "tests/support/reference_table.h"
@@ -90,7 +90,7 @@ std::vector<Event> run(SecondOrderSystem &system, const MethodOptions &method, c
 MethodOptions exact(double tolerance)
 {
   MethodOptions method;
-  method.method           = Method::exact;
+  method.method           = "exact";
   method.order            = 6;
   method.step             = 0.02;
   method.tolerance        = tolerance;

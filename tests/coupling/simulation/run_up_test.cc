@@ -18,7 +18,7 @@ using namespace coupling;
 
 constexpr double J_1 = 0.5, J_2 = 2., c = 800., b = 0.1; ///< [kg m^2, N m/rad, N m s/rad]
 
-RunResult run_up(Method method, int order, double tolerance)
+RunResult run_up(const std::string &method, int order, double tolerance)
 {
   Machine   machine;
   const int motor = machine.add_rotor("motor", {0., 0., 1.}, J_1, 0., "ground"),
@@ -41,12 +41,12 @@ RunResult run_up(Method method, int order, double tolerance)
 
 TEST(RunUp, OfAMotorTellsThePeakOfTheShaftByExactPropagationWithATolerance)
 {
-  const double peak = run_up(Method::bdf, 5, 1e-9).signals[0].max;
+  const double peak = run_up("bdf", 5, 1e-9).signals[0].max;
   EXPECT_NEAR(peak, 295.4, 0.1);
   // The peak, after 167 periods of the shaft, is that of a passage in which errors add up; they follow the tolerance.
-  EXPECT_NEAR(run_up(Method::exact, 4, 1e-5).signals[0].max, peak, 0.02 * peak);
-  EXPECT_NEAR(run_up(Method::exact, 4, 1e-6).signals[0].max, peak, 0.002 * peak);
-  EXPECT_NEAR(run_up(Method::exact, 4, 1e-8).signals[0].max, peak, 0.0002 * peak);
+  EXPECT_NEAR(run_up("exact", 4, 1e-5).signals[0].max, peak, 0.02 * peak);
+  EXPECT_NEAR(run_up("exact", 4, 1e-6).signals[0].max, peak, 0.002 * peak);
+  EXPECT_NEAR(run_up("exact", 4, 1e-8).signals[0].max, peak, 0.0002 * peak);
 }
 
 TEST(RunUp, EndsWithTheTorqueOfTheLoad)
@@ -54,7 +54,7 @@ TEST(RunUp, EndsWithTheTorqueOfTheLoad)
   // Vibrations died away: T = b omega, and the motor gives the same.
   for (const double tolerance : {1e-5, 1e-7})
   {
-    const RunResult run = run_up(Method::exact, 4, tolerance);
+    const RunResult run = run_up("exact", 4, tolerance);
     EXPECT_NEAR(run.signals[0].final, 15.2415, 0.02) << tolerance;
     EXPECT_TRUE(run.warnings.empty());
   }

@@ -35,7 +35,7 @@ Eigen::VectorXd field(const fem::QuadraticMesh &mesh, const std::function<Eigen:
 
 Eigen::SparseMatrix<double> free_matrix(const fem::BlockMatrix &A, int n_nodes)
 {
-  return fem::Kinematics(fem::Constraints(n_nodes)).project(A);
+  return fem::AffineConstraints(fem::MultipointConstraints(n_nodes)).project(A);
 }
 
 TEST(Hexahedra, PassThePatchTestHoweverDistorted)

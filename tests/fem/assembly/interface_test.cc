@@ -267,14 +267,14 @@ TEST(AverageCoupling, NodeIsTheAreaMeanAndTheBestRotationOfTheSurface)
   // Without support q2 is arbitrary.  A quadratic field on the whole block is represented exactly; its mean over the
   // face z = c [0, a] x [0, b] and its best rotation are known:  u = (x y, 0, x^2)
   //   mean  (a b / 4, 0, a^2 / 3),   rotation about y from u_z = x^2:  -a,   about z from u_x = x y:  see below.
-  const double     a = 1., b = 0.8;
-  const fem::Mesh  mesh      = block_mesh(5); // several groups of nodes
-  const auto       quadratic = fem::quadratic_mesh(mesh);
-  fem::Constraints constraints(quadratic.n_nodes());
-  const auto       specification = block(average);
-  const auto       coupled       = fem::couple_patches(mesh, quadratic, specification.interfaces, constraints);
+  const double               a = 1., b = 0.8;
+  const fem::Mesh            mesh      = block_mesh(5); // several groups of nodes
+  const auto                 quadratic = fem::quadratic_mesh(mesh);
+  fem::MultipointConstraints constraints(quadratic.n_nodes());
+  const auto                 specification = block(average);
+  const auto                 coupled = fem::couple_patches(mesh, quadratic, specification.interfaces, constraints);
   fem::tie_interfaces(coupled, quadratic, constraints);
-  const fem::Kinematics kinematics(constraints);
+  const fem::AffineConstraints affine(constraints);
 
   Eigen::VectorXd u(3 * quadratic.n_nodes());
   for (int i = 0; i < quadratic.n_nodes(); ++i)
@@ -282,13 +282,13 @@ TEST(AverageCoupling, NodeIsTheAreaMeanAndTheBestRotationOfTheSurface)
     const auto &x       = quadratic.points[i];
     u.segment<3>(3 * i) = Eigen::Vector3d(x[0] * x[1], 0., x[0] * x[0]);
   }
-  Eigen::VectorXd q(kinematics.n_coordinates());
+  Eigen::VectorXd q(affine.n_coordinates());
   for (int i = 0; i < u.size(); ++i)
-    if (kinematics.coordinate(i) >= 0)
-      q[kinematics.coordinate(i)] = u[i];
+    if (affine.coordinate(i) >= 0)
+      q[affine.coordinate(i)] = u[i];
   for (std::size_t k = 0; k < constraints.measures.size(); ++k)
   {
-    double &inner = q[kinematics.coordinate(constraints.first_new() + static_cast<int>(k))];
+    double &inner = q[affine.coordinate(constraints.first_new() + static_cast<int>(k))];
     inner         = 0.;
     for (const auto &[displacement, weight] : constraints.measures[k])
       inner += weight * u[displacement];
@@ -299,9 +299,9 @@ TEST(AverageCoupling, NodeIsTheAreaMeanAndTheBestRotationOfTheSurface)
   Eigen::VectorXd exact(6);
   exact << a * b / 4., 0., a * a / 3., 0., -a, -a * b * b / (2. * (a * a + b * b));
   for (int k = 0; k < 6; ++k)
-    q[kinematics.coordinate(constraints.first_new() + k)] = exact[k];
+    q[affine.coordinate(constraints.first_new() + k)] = exact[k];
 
-  EXPECT_LT((kinematics.expand(q) - u).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_LT((affine.expand(q) - u).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 TEST(AverageCoupling, GivesNoStiffnessRigidCouplingDoes)
@@ -314,20 +314,20 @@ TEST(AverageCoupling, GivesNoStiffnessRigidCouplingDoes)
   EXPECT_GT(difference.eigenvalues()[0], 0.);
 
   // The mean displacement under a traction spread evenly is that of the frame without any coupling.
-  auto uncoupled_specification       = block(average);
-  uncoupled_specification.interfaces = {};
-  const auto       uncoupled         = discretise(mesh, uncoupled_specification);
-  const auto       quadratic         = fem::quadratic_mesh(mesh);
-  const auto       patch             = fem::surface_patch(mesh, quadratic, {"z1"}, "test", "");
-  fem::Constraints constraints(quadratic.n_nodes());
+  auto uncoupled_specification         = block(average);
+  uncoupled_specification.interfaces   = {};
+  const auto                 uncoupled = discretise(mesh, uncoupled_specification);
+  const auto                 quadratic = fem::quadratic_mesh(mesh);
+  const auto                 patch     = fem::surface_patch(mesh, quadratic, {"z1"}, "test", "");
+  fem::MultipointConstraints constraints(quadratic.n_nodes());
   for (const int node : fem::surface_patch(mesh, quadratic, {"z0"}, "test", "").nodes)
     for (int d = 0; d < 3; ++d)
       constraints.held[3 * node + d] = 1;
-  const fem::Kinematics kinematics(constraints);
-  Eigen::VectorXd       load = Eigen::VectorXd::Zero(kinematics.n_displacements());
+  const fem::AffineConstraints affine(constraints);
+  Eigen::VectorXd              load = Eigen::VectorXd::Zero(affine.n_displacements());
   for (std::size_t i = 0; i < patch.nodes.size(); ++i)
     load[3 * patch.nodes[i] + 2] = patch.weight[i] / patch.area;
-  const Eigen::VectorXd f = kinematics.gather(load);
+  const Eigen::VectorXd f = affine.gather(load);
   EXPECT_NEAR(H_a(2, 2), f.dot(statics(uncoupled, f)), 1e-9 * H_a(2, 2));
 }
 

@@ -66,7 +66,7 @@ fem::CellMaterials all_of(const fem::QuadraticMesh &mesh)
 
 Eigen::SparseMatrix<double> free_matrix(const fem::BlockMatrix &A, int n_nodes)
 {
-  return fem::Kinematics(fem::Constraints(n_nodes)).project(A);
+  return fem::AffineConstraints(fem::MultipointConstraints(n_nodes)).project(A);
 }
 
 std::set<int> outer_nodes(const fem::QuadraticMesh &mesh)
@@ -251,12 +251,12 @@ TEST(MixedMeshes, InDegreeThreeKeepRigidMotionsFreeAndLinearFieldsAsTheyAre)
 {
   for (const auto &[name, mesh, volume] : mixtures())
   {
-    const auto              quadratic = fem::quadratic_mesh(mesh);
-    const fem::Kinematics   kinematics((fem::Constraints(quadratic.n_nodes())));
-    const auto              materials = all_of(quadratic);
-    const fem::SparseMatrix C         = kinematics.project(fem::assemble_stiffness(quadratic, materials)),
-                            M         = kinematics.project(fem::assemble_mass(quadratic, materials));
-    const fem::RaisedFrame raised     = fem::raise_degree(quadratic, materials, kinematics, C, M);
+    const auto                   quadratic = fem::quadratic_mesh(mesh);
+    const fem::AffineConstraints affine((fem::MultipointConstraints(quadratic.n_nodes())));
+    const auto                   materials = all_of(quadratic);
+    const fem::SparseMatrix      C         = affine.project(fem::assemble_stiffness(quadratic, materials)),
+                            M              = affine.project(fem::assemble_mass(quadratic, materials));
+    const fem::RaisedFrame raised          = fem::raise_degree(quadratic, materials, affine, C, M);
     EXPECT_GT(raised.C.rows(), C.rows()) << name;
     const Eigen::MatrixXd R        = fem::rigid_displacements(quadratic, Eigen::Vector3d::Zero());
     Eigen::MatrixXd       R_raised = Eigen::MatrixXd::Zero(raised.C.rows(), 6);

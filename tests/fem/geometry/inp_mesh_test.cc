@@ -170,14 +170,15 @@ std::string quadratic_prism(double bulge)
 {
   std::ostringstream text;
   text << "*NODE\n9, .5," << -bulge << ",0\n10, 1,.5,0\n11, .5,.5,0\n12, .5,0,1\n13, 1,.5,1\n14, .5,.5,1\n"
-       << "15, 0,0,.5\n16, 1,0,.5\n17, 1,1,.5\n*ELEMENT, TYPE=C3D15\n1, 1,2,4,5,6,8,9,10,11,12,13,14,15,16,17\n";
+       << "15, 0,0,.5\n16, 1,0,.5\n17, 1,1,.5\n*ELEMENT, TYPE=C3D15, ELSET=A\n1, "
+          "1,2,4,5,6,8,9,10,11,12,13,14,15,16,17\n";
   return nodes_of_cube(1, 0.) + text.str();
 }
 
 TEST(InpMesh, OfPrismsIsTakenLinearOrQuadraticWithTheirFacesAsSurfaces)
 {
   const std::string both = quadratic_prism(0.) +
-                           "*ELEMENT, TYPE=C3D6\n2, 1,4,3,5,8,7\n*SURFACE, NAME=TOP\n1, S2\n2, S2\n"
+                           "*ELEMENT, TYPE=C3D6, ELSET=B\n2, 1,4,3,5,8,7\n*SURFACE, NAME=TOP\n1, S2\n2, S2\n"
                            "*SURFACE, NAME=FRONT\n1, S3\n";
   FrameSpecification s = specification(write_text("prisms.inp", both), 0.);
   s.surfaces["top"]    = group("TOP");
@@ -188,6 +189,10 @@ TEST(InpMesh, OfPrismsIsTakenLinearOrQuadraticWithTheirFacesAsSurfaces)
   EXPECT_TRUE(mesh.notes.empty());
   EXPECT_NEAR(norm(area_vector(mesh, "top") - Vector3{0., 0., 1.}), 0., 1e-14);
   EXPECT_NEAR(norm(area_vector(mesh, "front") - Vector3{0., -1., 0.}), 0., 1e-14);
+  const FrameSpecification one =
+      specification(write_text("one.inp", quadratic_prism(0.) + "*ELEMENT, TYPE=C3D6, ELSET=A\n2, 1,4,3,5,8,7\n"), 0.);
+  EXPECT_EQ(make_mesh(one).prisms.size(), 2u);
+  EXPECT_THAT(report_geometry(one).notes, Contains(HasSubstr("with and without middle nodes")));
   const Mesh bulged = make_mesh(specification(write_text("bulged.inp", quadratic_prism(0.05)), 0.));
   EXPECT_THAT(bulged.notes, Contains(AllOf(HasSubstr("straight edges"), HasSubstr("up to 50 mm"))));
 }

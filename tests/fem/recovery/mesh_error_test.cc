@@ -23,7 +23,7 @@ fem::MeshError free_error(const fem::Mesh &mesh)
   const auto quadratic = fem::quadratic_mesh(mesh);
   return {quadratic,
           {{steel}, std::vector<int>(quadratic.n_cells(), 0)},
-          fem::Kinematics(fem::Constraints(quadratic.n_nodes()))};
+          fem::AffineConstraints(fem::MultipointConstraints(quadratic.n_nodes()))};
 }
 
 /// u = the square of a linear function times a direction: its stresses are linear.

@@ -225,7 +225,7 @@ TEST(SkinStress, JumpsBetweenMaterialsAndIsNotAveragedThere)
   };
   const auto recovery =
       fem::skin_stress(quad, [&](int cell) -> const fem::Material & { return beyond(cell) ? soft : hard; },
-                       fem::Kinematics(fem::Constraints(quad.n_nodes())), {});
+                       fem::AffineConstraints(fem::MultipointConstraints(quad.n_nodes())), {});
   const VectorXd sigma = fem::stresses(
       recovery, nodal(mesh, [](const Vector3d &x) { return Vector3d(1e-4 * x[0], 0., 0.); }), StressOf::mean);
   ASSERT_EQ(recovery.point.size(), 20u + 4u) << "the four points between the halves count twice";

@@ -358,7 +358,7 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
   matrices.mass         = total_mass(frame, matrices, has_translations);
   if (matrices.mass == 0.)
     matrices.statements.push_back("mass of the frame: not known, and effective masses count the rows of interfaces and "
-                                  "nodes alone; 'translations' tells how all rows move, 'total_mass' what it weighs");
+                                  "nodes alone; 'translations' says how all rows move, 'total_mass' what it weighs");
   std::vector<fem::Interface> placed = matrices.interfaces;
   for (const TableNode &node : nodes)
     placed.push_back(node.motions);

@@ -1,6 +1,6 @@
-#include "coupling/machine/loop_closure.h"
+#include "coupling/machine/configuration/loop_closure.h"
 
-#include <Eigen/QR>
+#include "coupling/integration/system/dense_solvers.h"
 
 namespace gestell::coupling
 {
@@ -60,7 +60,7 @@ Eigen::VectorXd slider_solution(const Machine &machine, const Eigen::MatrixXd &J
   if (sliders.empty() || J.rows() == 0)
     return x;
   const Eigen::MatrixXd own   = J(Eigen::all, sliders);
-  const Eigen::VectorXd least = own.completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd least = LeastSquaresSolver(own).solve(b);
   x(sliders)                  = least;
   return x;
 }

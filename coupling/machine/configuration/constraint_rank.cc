@@ -1,6 +1,6 @@
-#include "coupling/machine/constraint_rank.h"
+#include "coupling/machine/configuration/constraint_rank.h"
 
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
 #include <algorithm>

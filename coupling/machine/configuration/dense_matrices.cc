@@ -1,4 +1,4 @@
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include "fem/values/nearest_name.h"
 

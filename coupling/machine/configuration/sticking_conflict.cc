@@ -1,6 +1,6 @@
-#include "coupling/machine/sticking_conflict.h"
+#include "coupling/machine/configuration/sticking_conflict.h"
 
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/QR>
 

@@ -1,7 +1,8 @@
-#include "coupling/machine/assembly.h"
+#include "coupling/machine/configuration/assembly.h"
 
-#include "coupling/machine/constraint_rank.h"
-#include "coupling/machine/dense_matrices.h"
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/constraint_rank.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -169,10 +170,7 @@ private:
       scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
       A.col(Eigen::Index(j)) = scale[Eigen::Index(j)] * rows.col(free[j]);
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-12);
-    qr.compute(A);
-    const Eigen::VectorXd x = qr.solve(-residual);
+    const Eigen::VectorXd x = LeastSquaresSolver(A, 1e-12).solve(-residual);
     for (std::size_t j = 0; j < free.size(); ++j)
       delta[free[j]] = scale[Eigen::Index(j)] * x[Eigen::Index(j)];
     return delta;

@@ -1,0 +1,131 @@
+#pragma once
+
+#include "coupling/integration/method_options.h"
+#include "coupling/integration/stability/characteristic_roots.h"
+#include "coupling/integration/stability/test_oscillator.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// What a method takes besides step and tolerance.
+struct MethodParameter
+{
+  std::string                 name;     ///< "rho_inf"
+  std::string                 meaning;  ///< one clause
+  double                      fallback; ///< where none is given
+  std::string                 range;    ///< "between 0 and 1": it must be ...
+  std::function<bool(double)> valid;
+  std::vector<std::string>    choices{}; ///< of text; the first is the default, and fallback, range, valid stay empty
+};
+
+/// A setting of a method that work-precision charts show.
+struct ChartSetting
+{
+  std::string   key; ///< "bdf-2-controlled"
+  MethodOptions options;
+  bool          controlled = false; ///< the tolerance is varied, not the step
+  bool          on_request = false; ///< shown only when it is asked for
+};
+
+/**
+ * Weights of a motion x r^k in the balance of a one-step method that averages no forces: Newmark, central differences,
+ * Wilson.  Accelerations x, and with them velocities and displacements, fulfil
+ *
+ *     (mass(r) M + damping(r) h B + stiffness(r) h^2 C) x = 0.
+ *
+ * Their sign is chosen so that all are positive for large negative r.
+ */
+struct StepWeights
+{
+  double mass, damping, stiffness;
+};
+
+/// The same balance in z = (r - 1)/(r + 1):  (4 M + 2 c h B + d h^2 C) z^2 + (2 h B + c h^2 C) z + h^2 C.
+struct BilinearWeights
+{
+  double c, d;
+};
+
+/**
+ * A method of time integration, as integration_methods() lists it: what it takes, what it makes, how it steps the test
+ * oscillator.  Help, scenes, charts, stability maps and the guard against unstable steps ask it, and no one knows which
+ * methods there are.
+ *
+ * The options that come in have its name; check() is called before make().
+ */
+class IntegrationMethod
+{
+public:
+  virtual ~IntegrationMethod() = default;
+
+  virtual std::string name() const    = 0; ///< run.method of scenes
+  virtual std::string meaning() const = 0; ///< a sentence, with the source of its formulas
+
+  virtual const std::vector<MethodParameter> &parameters() const; ///< none by default
+  virtual bool                                takes_order() const { return false; }
+  /// Order where none is given; 0: with these options it has but one.
+  virtual int  default_order(const MethodOptions &) const { return 0; }
+  virtual bool can_control_error() const { return false; }
+
+  /// "BDF 2", "generalised alpha 0.8"
+  virtual std::string label(const MethodOptions &options) const = 0;
+  /// Further to step, tolerance and the ranges of parameters().
+  /// @throws std::invalid_argument naming the parameter, its value and what it may be
+  virtual void check(const MethodOptions &) const {}
+  /// @throws std::invalid_argument if the method cannot treat the system, with the reason
+  virtual std::unique_ptr<TimeIntegrator> make(const SecondOrderSystem &system, const MethodOptions &options) const = 0;
+
+  /**
+   * The step as a matrix on the state that the method carries, lengths in units of x, times in units of h; (x, h x')
+   * or (x, h x', h^2 x'') for methods of one step, of others whatever begins with x.
+   */
+  virtual Eigen::MatrixXd amplification_matrix(const MethodOptions  &options,
+                                               const TestOscillator &oscillator) const = 0;
+  /// Its roots; by default the eigenvalues of the matrix, whose rounding, 1e-13, counts as no growth.
+  virtual CharacteristicRoots roots(const MethodOptions &options, const TestOscillator &oscillator) const;
+  /// (x, h x') after 1, 2, ... n steps, from consistent accelerations; by default with the matrix from the begin on.
+  virtual std::vector<Eigen::Vector2d> first_steps(const MethodOptions &options, const TestOscillator &oscillator,
+                                                   const Eigen::Vector2d &start, int n, FirstSteps kind) const;
+  /// Where modes are not carried one by one.
+  virtual std::optional<StepWeights> step_weights(const MethodOptions &, double r) const
+  {
+    return (void)r, std::nullopt;
+  }
+  /// Where vibrating motions may grow: a method with step_weights() that falls short of second order's damping.
+  virtual std::optional<BilinearWeights> growing_weights(const MethodOptions &) const { return {}; }
+
+  /// The linear base system is carried exactly: only the springs of elements limit the step.
+  virtual bool carries_base() const { return false; }
+  /// Steps may be long against what moves in them, as those of high order are.
+  virtual bool takes_long_steps(const MethodOptions &options) const { return controlled(options); }
+  /// What keeps the energy better than `options` do, as a sentence; empty: nothing beyond a smaller step.
+  virtual std::string energy_advice(const MethodOptions &) const { return ""; }
+
+  virtual std::string               family() const = 0; ///< of charts: methods of one colour
+  virtual std::vector<ChartSetting> chart_settings() const { return {{name(), named(), false}}; }
+
+  double      number(const MethodOptions &options, const std::string &parameter) const;
+  std::string choice(const MethodOptions &options, const std::string &parameter) const;
+
+protected:
+  /// Options of this method.
+  MethodOptions named() const;
+
+private:
+  const MethodParameter &parameter(const std::string &name) const;
+};
+
+/// @throws std::invalid_argument "BDF 7: order is 7; it must be 1 to 6" unless valid
+void require_parameter(bool valid, const std::string &method, const std::string &parameter, double value,
+                       const std::string &needed);
+
+} // namespace gestell::coupling

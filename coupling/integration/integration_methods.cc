@@ -1,0 +1,92 @@
+#include "coupling/integration/integration_methods.h"
+
+#include "coupling/integration/bdf/bdf_method.h"
+#include "coupling/integration/newmark/newmark_methods.h"
+#include "coupling/integration/newmark/wilson_method.h"
+#include "coupling/integration/propagation/propagation_method.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double finest = 1e-13; ///< tolerances below are rounding
+
+/// "bdf and exact"
+std::string controlling_methods()
+{
+  std::string names;
+  for (const IntegrationMethod *method : integration_methods())
+    if (method->can_control_error())
+      names += (names.empty() ? "" : " and ") + method->name();
+  return names;
+}
+
+void check_steps(const MethodOptions &o, const std::string &label)
+{
+  const bool controllable = method_of(o).can_control_error();
+  require_parameter(o.step >= 0. && std::isfinite(o.step), label, "step [s]", o.step, "positive");
+  require_parameter(o.tolerance >= 0. && o.tolerance < 1., label, "tolerance", o.tolerance, "between 0 and 1");
+  require_parameter(o.tolerance == 0. || controllable, label, "tolerance", o.tolerance,
+                    "left out: only " + controlling_methods() + " control their step; give a step");
+  require_parameter(o.tolerance == 0. || o.tolerance >= finest, label, "tolerance", o.tolerance,
+                    "1e-13 or more: what lies below is rounding");
+  require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step, "positive, or a tolerance be given");
+  require_parameter(o.newton.tolerance >= finest && o.newton.tolerance < 1., label, "newton_tolerance",
+                    o.newton.tolerance, "1e-13 or more, below 1");
+}
+
+} // namespace
+
+const std::vector<const IntegrationMethod *> &integration_methods()
+{
+  static const std::vector<const IntegrationMethod *> all = {
+      &bdf_method(),        &newmark_method(),           &wilson_method(),
+      &hht_method(),        &generalised_alpha_method(), &central_difference_method(),
+      &propagation_method()};
+  return all;
+}
+
+const IntegrationMethod &integration_method(const std::string &name)
+{
+  for (const IntegrationMethod *method : integration_methods())
+    if (method->name() == name)
+      return *method;
+  throw std::invalid_argument("there is no method of integration \"" + name + "\"");
+}
+
+const IntegrationMethod &method_of(const MethodOptions &options)
+{
+  return integration_method(options.method);
+}
+
+std::string method_name(const MethodOptions &options)
+{
+  return method_of(options).label(options);
+}
+
+void check_method(const MethodOptions &options)
+{
+  const IntegrationMethod &method = method_of(options);
+  const std::string        label  = method.label(options);
+  check_steps(options, label);
+  for (const MethodParameter &parameter : method.parameters())
+    if (parameter.choices.empty())
+    {
+      const double value = method.number(options, parameter.name);
+      require_parameter(parameter.valid(value), label, parameter.name, value, parameter.range);
+    }
+  method.check(options);
+}
+
+std::unique_ptr<TimeIntegrator> make_integrator(const SecondOrderSystem &system, const MethodOptions &options)
+{
+  check_method(options);
+  return method_of(options).make(system, options);
+}
+
+} // namespace gestell::coupling

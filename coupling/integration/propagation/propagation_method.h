@@ -1,0 +1,20 @@
+#pragma once
+
+#include "coupling/integration/integration_method.h"
+#include "coupling/integration/propagation/force_rule.h"
+
+namespace gestell::coupling
+{
+
+/// Modal propagation, "exact" in scenes: the base system exactly, the forces of the elements by a ForceRule.
+const IntegrationMethod &propagation_method();
+
+using LongMatrix2 = Eigen::Matrix<long double, 2, 2>;
+
+/// Step (x, h x') of a free mass with the spring and damper of an element under exact propagation, where the element's
+/// force is the polynomial through its values at Gauss points c_i:
+///
+///     p_i = -(Omega^2 u_i + 2 zeta Omega h u'_i),   u_i = u_0 + c_i h u'_0 + sum_j p_j int_0^c_i (c_i - s) L_j(s) ds.
+LongMatrix2 contact_step(int order, const TestOscillator &oscillator);
+
+} // namespace gestell::coupling
