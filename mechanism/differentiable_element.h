@@ -1,6 +1,9 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/branches.h"
+#include "mechanism/commands.h"
+#include "mechanism/force_law.h"
+#include "mechanism/structure.h"
 
 #include <Eigen/Core>
 #include <unsupported/Eigen/AutoDiff>
@@ -21,7 +24,8 @@ struct Measures
 };
 
 /**
- * A ForceElement whose law is written once, for any number type; dual numbers give its tangent.
+ * A ForceLaw that is written once, for any number type; dual numbers give its tangent.  `Facets` are those it has:
+ * Branches, Structure, Commands.
  *
  * `Law` (the derived class) provides
  *
@@ -31,14 +35,18 @@ struct Measures
  * with k measures.  Each measure carries one dual direction in which u, v and a move together as (w.u, w.v, w.a): the
  * tangent  w.u dp/du + w.v dp/dv + w.a dp/da  costs k directions, not 3 k; dp/du and dp/dv apart cost 2 k.
  */
-template <class Law, int k>
-class DifferentiableElement : public ForceElement
+template <class Law, int k, class... Facets>
+class DifferentiableElement : public ForceLaw, public Facets...
 {
 public:
   template <int n_directions>
   using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, n_directions, 1>>;
 
   int n_measures() const final { return k; }
+
+  const Branches  *branches() const override { return own<Branches>(); }
+  const Structure *structure() const override { return own<Structure>(); }
+  const Commands  *commands() const override { return own<Commands>(); }
 
   void force(const LocalMotion &motion, const double *history, double *p) const final
   {
@@ -89,6 +97,15 @@ public:
   }
 
 private:
+  template <class Facet>
+  const Facet *own() const
+  {
+    if constexpr ((std::is_base_of_v<Facet, Facets> || ...))
+      return this;
+    else
+      return nullptr;
+  }
+
   template <typename Number>
   void law(const Measures<Number> &measures, const double *history, Number *p) const
   {

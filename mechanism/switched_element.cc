@@ -13,8 +13,7 @@ void zero(double *p, int n)
 }
 } // namespace
 
-SwitchedElement::SwitchedElement(std::shared_ptr<const ForceElement> law, Begin begin)
-    : law_(std::move(law)), begin_(begin)
+SwitchedElement::SwitchedElement(std::shared_ptr<const ForceLaw> law, Begin begin) : law_(std::move(law)), begin_(begin)
 {
   for (const Quantity &quantity : law_->quantities())
     is_force_.push_back(quantity.unit == "N" || quantity.unit == "N m" || quantity.unit == "W");
@@ -23,7 +22,8 @@ SwitchedElement::SwitchedElement(std::shared_ptr<const ForceElement> law, Begin 
 void SwitchedElement::start(const LocalMotion &motion, double *history) const
 {
   history[changed] = history[brought] = 0.;
-  law_->start(motion, history + n_slots);
+  if (branches_)
+    branches_->start(motion, history + n_slots);
 }
 
 void SwitchedElement::force(const LocalMotion &motion, const double *history, double *p) const
@@ -61,39 +61,36 @@ void SwitchedElement::derivatives(const LocalMotion &motion, const double *histo
 
 bool SwitchedElement::holds(const double *history, double &rate) const
 {
-  return is_on(history) && law_->holds(history + n_slots, rate);
+  return branches_act(history) && branches_->holds(history + n_slots, rate);
 }
 
 void SwitchedElement::engaged(const double *u, double *K, double *D) const
 {
   if (begin_ == Begin::on)
-  {
-    law_->engaged(u, K, D);
-    return;
-  }
-  zero(K, n_measures() * n_measures());
-  zero(D, n_measures() * n_measures());
+    structure_->engaged(u, K, D);
 }
 
 void SwitchedElement::open_branch(const double *u, double *K, double *D) const
 {
   if (begin_ == Begin::on)
-    law_->open_branch(u, K, D);
-  else
-    no_structure(K, D);
+    structure_->open_branch(u, K, D);
 }
 
 void SwitchedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
   if (is_on(history))
-    law_->geometric(motion, history + n_slots, K);
-  else
-    zero(K, n_measures() * n_measures());
+    structure_->geometric(motion, history + n_slots, K);
 }
 
 bool SwitchedElement::closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const
 {
-  return begin_ == Begin::on && law_->closure(u, v, g, gradient, curvature);
+  return begin_ == Begin::on && structure_->closure(u, v, g, gradient, curvature);
+}
+
+void SwitchedElement::resume_law(const LocalMotion &motion, double *history) const
+{
+  if (branches_)
+    branches_->resume(motion, history + n_slots);
 }
 
 bool SwitchedElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
@@ -101,31 +98,37 @@ bool SwitchedElement::command(const SwitchCommand &order, const LocalMotion &mot
   if (order.name != "on" && order.name != "off")
   {
     if (!is_on(history)) // corners went by without it
-      law_->resume(motion, history + n_slots);
-    return law_->command(order, motion, history + n_slots);
+      resume_law(motion, history);
+    return commands_ && commands_->command(order, motion, history + n_slots);
   }
   if ((order.name == "on") == is_on(history))
     return true; // it is already
   history[changed] = 1. - history[changed];
   if (!is_on(history))
     return true;
-  law_->resume(motion, history + n_slots);
+  resume_law(motion, history);
   history[brought] += law_->stored_energy(motion, history + n_slots);
   return true;
 }
 
-std::vector<std::string> SwitchedElement::commands() const
+std::vector<std::string> SwitchedElement::command_names() const
 {
   std::vector<std::string> orders = {"on", "off"};
-  for (const std::string &own : law_->commands())
+  for (const std::string &own : mechanism::command_names(*law_))
     orders.push_back(own);
   return orders;
 }
 
+void SwitchedElement::check_order(const SwitchCommand &order) const
+{
+  if (commands_)
+    commands_->check_order(order);
+}
+
 void SwitchedElement::accept(const LocalMotion &motion, double *history) const
 {
-  if (is_on(history))
-    law_->accept(motion, history + n_slots);
+  if (branches_act(history))
+    branches_->accept(motion, history + n_slots);
 }
 
 double SwitchedElement::stored_energy(const LocalMotion &motion, const double *history) const
@@ -140,28 +143,28 @@ double SwitchedElement::stored_power(const LocalMotion &motion, const double *hi
 
 double SwitchedElement::penetration(const LocalMotion &motion) const
 {
-  return begin_ == Begin::on ? law_->penetration(motion) : 0.;
+  return begin_ == Begin::on ? structure_->penetration(motion) : 0.;
 }
 
 int SwitchedElement::n_guards(const double *history) const
 {
-  return is_on(history) ? law_->n_guards(history + n_slots) : 0;
+  return branches_act(history) ? branches_->n_guards(history + n_slots) : 0;
 }
 
 std::vector<Guard> SwitchedElement::guards(const double *history) const
 {
-  return is_on(history) ? law_->guards(history + n_slots) : std::vector<Guard>{};
+  return branches_act(history) ? branches_->guards(history + n_slots) : std::vector<Guard>{};
 }
 
 void SwitchedElement::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  if (is_on(history))
-    law_->guard_values(motion, history + n_slots, g);
+  if (branches_act(history))
+    branches_->guard_values(motion, history + n_slots, g);
 }
 
 void SwitchedElement::transition(int i, const LocalMotion &motion, double *history) const
 {
-  law_->transition(i, motion, history + n_slots);
+  branches_->transition(i, motion, history + n_slots);
 }
 
 double SwitchedElement::quantity(int i, const LocalMotion &motion, const double *history) const

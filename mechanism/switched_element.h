@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 
 #include <memory>
 
@@ -17,7 +17,7 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/switches.md.
  */
-class SwitchedElement : public ForceElement
+class SwitchedElement : public ForceLaw, public Branches, public Structure, public Commands
 {
 public:
   enum class Begin
@@ -26,36 +26,42 @@ public:
     off
   };
 
-  SwitchedElement(std::shared_ptr<const ForceElement> law, Begin begin);
+  SwitchedElement(std::shared_ptr<const ForceLaw> law, Begin begin);
 
-  const ForceElement &law() const { return *law_; }
+  const ForceLaw &law() const { return *law_; }
 
-  int n_measures() const override { return law_->n_measures(); }
-  /// history: 1 where it is not as it began; energy it brought along [J]; that of the law.
-  int  n_history() const override { return n_slots + law_->n_history(); }
-  void start(const LocalMotion &motion, double *history) const override;
+  int  n_measures() const override { return law_->n_measures(); }
   void force(const LocalMotion &motion, const double *history, double *p) const override;
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
   void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                    double *dp_dv) const override;
-  bool holds(const double *history, double &rate) const override;
-  /// As it begins, likewise closure() and penetration(): structure and start of a run are asked for, no later instant.
-  void engaged(const double *u, double *K, double *D) const override;
-  void stiffest(const double *u, double *K, double *D) const override { law_->stiffest(u, K, D); }
-  void open_branch(const double *u, double *K, double *D) const override;
-  bool stiffens() const override { return law_->stiffens(); }
-  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
-  bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
 
-  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override;
-  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
-  void                     accept(const LocalMotion &motion, double *history) const override;
-  double                   stored_energy(const LocalMotion &motion, const double *history) const override;
-  double                   stored_power(const LocalMotion &motion, const double *history) const override;
-  Work                     work() const override { return law_->work(); }
-  double                   penetration(const LocalMotion &motion) const override;
+  /// history: 1 where it is not as it began; energy it brought along [J]; that of the law.
+  const Branches *branches() const override { return this; }
+  int             n_history() const override { return n_slots + mechanism::n_history(*law_); }
+  void            start(const LocalMotion &motion, double *history) const override;
+  void            accept(const LocalMotion &motion, double *history) const override;
+  bool            holds(const double *history, double &rate) const override;
+
+  const Structure *structure() const override { return structure_ ? this : nullptr; }
+  /// As it begins, likewise closure() and penetration(): structure and start of a run are asked for, no later instant.
+  void   engaged(const double *u, double *K, double *D) const override;
+  void   stiffest(const double *u, double *K, double *D) const override { structure_->stiffest(u, K, D); }
+  void   open_branch(const double *u, double *K, double *D) const override;
+  bool   stiffens() const override { return structure_->stiffens(); }
+  void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+  double penetration(const LocalMotion &motion) const override;
+
+  const Commands *commands() const override { return this; }
+  bool            command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> command_names() const override;
+  void                     check_order(const SwitchCommand &order) const override;
+
+  double stored_energy(const LocalMotion &motion, const double *history) const override;
+  double stored_power(const LocalMotion &motion, const double *history) const override;
+  Work   work() const override { return law_->work(); }
 
   std::vector<Guard> guards(const double *history) const override;
   int                n_guards(const double *history) const override;
@@ -74,9 +80,17 @@ private:
     n_slots
   };
   bool is_on(const double *history) const { return (begin_ == Begin::on) == (history[changed] == 0.); }
-  std::shared_ptr<const ForceElement> law_;
-  Begin                               begin_;
-  std::vector<char>                   is_force_; ///< by quantity: zero while it is off
+  bool branches_act(const double *history) const { return branches_ && is_on(history); } ///< those of the law
+  void resume_law(const LocalMotion &motion, double *history) const;
+
+  std::shared_ptr<const ForceLaw> law_;
+  Begin                           begin_;
+  std::vector<char>               is_force_; ///< by quantity: zero while it is off
+
+  // Of the law.
+  const Branches  *branches_  = law_->branches();
+  const Structure *structure_ = law_->structure();
+  const Commands  *commands_  = law_->commands();
 };
 
 } // namespace gestell::mechanism

@@ -13,8 +13,7 @@ namespace
 constexpr double at_rest[CombinedMeasure::max_measures + TransmittedElement::max_virtual] = {};
 }
 
-TransmittedElement::TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceElement> law,
-                                       double rest)
+TransmittedElement::TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceLaw> law, double rest)
     : measures_{measure}, law_(std::move(law)), rest_(rest)
 {
   require(law_->n_measures() >= 1 && n_virtual() <= max_virtual, "transmitted element", "number of measures of its law",
@@ -23,7 +22,7 @@ TransmittedElement::TransmittedElement(const CombinedMeasure &measure, std::shar
 
 TransmittedElement::TransmittedElement(const Placement &first, const Placement &second,
                                        const std::vector<RelativeMeasure> &measures,
-                                       std::shared_ptr<const ForceElement> law)
+                                       std::shared_ptr<const ForceLaw>     law)
     : law_(std::move(law)), rest_(0.)
 {
   for (const RelativeMeasure &measure : measures)
@@ -98,16 +97,20 @@ void TransmittedElement::spread_tangent(const Seen &seen, const double *dP, doub
 
 void TransmittedElement::start(const LocalMotion &motion, double *history) const
 {
-  function().start(motion.u, motion.v, history + law_->n_history());
+  function().start(motion.u, motion.v, history + n_of_law_);
+  if (!branches_)
+    return;
   const Seen seen = see(motion, history);
-  law_->start(seen.motion(motion), history);
+  branches_->start(seen.motion(motion), history);
 }
 
 void TransmittedElement::resume(const LocalMotion &motion, double *history) const
 {
-  function().start(motion.u, motion.v, history + law_->n_history());
+  function().start(motion.u, motion.v, history + n_of_law_);
+  if (!branches_)
+    return;
   const Seen seen = see(motion, history);
-  law_->resume(seen.motion(motion), history);
+  branches_->resume(seen.motion(motion), history);
 }
 
 void TransmittedElement::force(const LocalMotion &motion, const double *history, double *p) const
@@ -139,28 +142,28 @@ void TransmittedElement::derivatives(const LocalMotion &motion, const double *hi
   spread_tangent(seen, of_rate, dp_dv);
 }
 
-void TransmittedElement::spread_structure(Structure structure, const double *u, double *K, double *D) const
+void TransmittedElement::spread_structure(Matrices matrices, const double *u, double *K, double *D) const
 {
   const Seen seen = see({0., u, at_rest, at_rest}, nullptr);
   double     k[max_of_law * max_of_law], d[max_of_law * max_of_law];
-  (law_.get()->*structure)(seen.s, k, d);
+  matrices(*law_, seen.s, k, d);
   spread_tangent(seen, k, K);
   spread_tangent(seen, d, D);
 }
 
 void TransmittedElement::engaged(const double *u, double *K, double *D) const
 {
-  spread_structure(&ForceElement::engaged, u, K, D);
+  spread_structure(mechanism::engaged, u, K, D);
 }
 
 void TransmittedElement::stiffest(const double *u, double *K, double *D) const
 {
-  spread_structure(&ForceElement::stiffest, u, K, D);
+  spread_structure(mechanism::stiffest, u, K, D);
 }
 
 void TransmittedElement::open_branch(const double *u, double *K, double *D) const
 {
-  spread_structure(&ForceElement::open_branch, u, K, D);
+  spread_structure(mechanism::open_branch, u, K, D);
 }
 
 void TransmittedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
@@ -171,17 +174,16 @@ void TransmittedElement::geometric(const LocalMotion &motion, const double *hist
   const int k = n_motions(), n = n_measures();
   for (int i = 0; i < n_seen(); ++i)
     measures_[i].add_curvature(motion.u, -P[i], own, of_function(motion, history));
-  std::fill(K, K + n * n, 0.);
   for (int j = 0; j < k; ++j)
     std::copy_n(own + k * j, k, K + n * j);
 }
 
 void TransmittedElement::accept(const LocalMotion &motion, double *history) const
 {
-  if (law_->n_history() == 0)
+  if (n_of_law_ == 0)
     return;
   const Seen seen = see(motion, history);
-  law_->accept(seen.motion(motion), history);
+  branches_->accept(seen.motion(motion), history);
 }
 
 double TransmittedElement::stored_energy(const LocalMotion &motion, const double *history) const
@@ -198,43 +200,48 @@ double TransmittedElement::stored_power(const LocalMotion &motion, const double 
 
 double TransmittedElement::penetration(const LocalMotion &motion) const
 {
+  if (!structure_)
+    return 0.;
   const Seen seen = see(motion, nullptr);
-  return law_->penetration(seen.motion(motion));
+  return structure_->penetration(seen.motion(motion));
 }
 
 // --- events: those of the law, then those of the position function
 
 std::vector<Guard> TransmittedElement::guards(const double *history) const
 {
-  auto       guards = law_->guards(history);
-  const auto own    = function().guards(history + law_->n_history());
+  auto       guards = branches_ ? branches_->guards(history) : std::vector<Guard>{};
+  const auto own    = function().guards(history + n_of_law_);
   guards.insert(guards.end(), own.begin(), own.end());
   return guards;
 }
 
 void TransmittedElement::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const Seen seen = see(motion, history);
-  law_->guard_values(seen.motion(motion), history, g);
-  function().guard_values(motion.u, history + law_->n_history(), g + law_->n_guards(history));
+  if (branches_)
+  {
+    const Seen seen = see(motion, history);
+    branches_->guard_values(seen.motion(motion), history, g);
+  }
+  function().guard_values(motion.u, history + n_of_law_, g + n_guards_of_law(history));
 }
 
 void TransmittedElement::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const int of_law = law_->n_guards(history);
+  const int of_law = n_guards_of_law(history);
   if (i >= of_law)
   {
-    function().transition(i - of_law, motion.u, motion.v, history + law_->n_history());
+    function().transition(i - of_law, motion.u, motion.v, history + n_of_law_);
     return;
   }
   const Seen seen = see(motion, history);
-  law_->transition(i, seen.motion(motion), history);
+  branches_->transition(i, seen.motion(motion), history);
 }
 
 bool TransmittedElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion, history);
-  return law_->command(order, seen.motion(motion), history);
+  return commands_->command(order, seen.motion(motion), history);
 }
 
 double TransmittedElement::quantity(int i, const LocalMotion &motion, const double *history) const

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 #include "mechanism/measures/combined_measure.h"
 
 #include <memory>
@@ -23,7 +23,7 @@ namespace gestell::mechanism
  *
  * Source: principle of virtual work; docs/theory/joints.md (5).
  */
-class TransmittedElement : public ForceElement
+class TransmittedElement : public ForceLaw, public Branches, public Structure, public Commands
 {
 public:
   static constexpr int max_seen    = 3; ///< scalars s
@@ -32,44 +32,49 @@ public:
   /// @param law   of one measure, and virtual coordinates
   /// @param rest  value of s that the law sees as zero
   /// @throws std::invalid_argument if the law has more of them than max_virtual
-  TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceElement> law, double rest = 0.);
+  TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceLaw> law, double rest = 0.);
   /// @param measures  of the motion of the same two bodies, one for each of the law
   /// @throws std::invalid_argument if their number is not that of the law, or more than max_seen
   TransmittedElement(const Placement &first, const Placement &second, const std::vector<RelativeMeasure> &measures,
-                     std::shared_ptr<const ForceElement> law);
+                     std::shared_ptr<const ForceLaw> law);
 
-  const ForceElement &law() const { return *law_; }
+  const ForceLaw &law() const { return *law_; }
 
-  int n_measures() const override { return n_motions() + n_virtual(); }
-  /// history: that of the law, then that of the position function.
-  int  n_history() const override { return law_->n_history() + function().n_history(); }
-  void start(const LocalMotion &motion, double *history) const override;
-  void resume(const LocalMotion &motion, double *history) const override;
+  int  n_measures() const override { return n_motions() + n_virtual(); }
   void force(const LocalMotion &motion, const double *history, double *p) const override;
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
   void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                    double *dp_dv) const override;
-  void engaged(const double *u, double *K, double *D) const override;
-  void stiffest(const double *u, double *K, double *D) const override;
-  void open_branch(const double *u, double *K, double *D) const override;
-  bool stiffens() const override { return law_->stiffens(); }
-  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
-  void accept(const LocalMotion &motion, double *history) const override;
+
+  const Structure *structure() const override { return this; }
+  void             engaged(const double *u, double *K, double *D) const override;
+  void             stiffest(const double *u, double *K, double *D) const override;
+  void             open_branch(const double *u, double *K, double *D) const override;
+  bool             stiffens() const override { return structure_ && structure_->stiffens(); }
+  void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  double           penetration(const LocalMotion &motion) const override;
 
   double size_of_terms() const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   double stored_power(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
-  double penetration(const LocalMotion &motion) const override;
 
+  const Branches *branches() const override { return branches_ || function().n_guards() > 0 ? this : nullptr; }
+  /// history: that of the law, then that of the position function.
+  int                n_history() const override { return n_of_law_ + function().n_history(); }
+  void               start(const LocalMotion &motion, double *history) const override;
+  void               resume(const LocalMotion &motion, double *history) const override;
+  void               accept(const LocalMotion &motion, double *history) const override;
   std::vector<Guard> guards(const double *history) const override;
-  int  n_guards(const double *history) const override { return law_->n_guards(history) + function().n_guards(); }
+  int  n_guards(const double *history) const override { return n_guards_of_law(history) + function().n_guards(); }
   void guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void transition(int i, const LocalMotion &motion, double *history) const override;
-  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return law_->commands(); }
-  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
+
+  const Commands *commands() const override { return commands_ ? this : nullptr; }
+  bool            command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+  std::vector<std::string> command_names() const override { return commands_->command_names(); }
+  void                     check_order(const SwitchCommand &order) const override { commands_->check_order(order); }
 
   std::vector<Quantity> quantities() const override { return law_->quantities(); }
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
@@ -90,26 +95,33 @@ private:
   };
   int  n_seen() const { return int(measures_.size()); }
   int  n_motions() const { return measures_.front().n_measures(); }
+  int  n_guards_of_law(const double *history) const { return branches_ ? branches_->n_guards(history) : 0; }
   int  n_virtual() const { return law_->n_measures() - n_seen(); }
   Seen see(const LocalMotion &motion, const double *history) const;
   /// p = G^T P with the virtual coordinates' P behind it and, of a derivative of P by the law's measures, that by u.
   void spread(const Seen &seen, const double *P, double *p) const;
   void spread_tangent(const Seen &seen, const double *dP, double *dp) const;
-  /// K and D of the law by one of its methods, on the measures of the motion.
-  using Structure = void (ForceElement::*)(const double *u, double *K, double *D) const;
-  void spread_structure(Structure structure, const double *u, double *K, double *D) const;
+  /// K and D of the law by one of the functions of facets.h, on the measures of the motion.
+  using Matrices = void (*)(const Element &law, const double *u, double *K, double *D);
+  void spread_structure(Matrices matrices, const double *u, double *K, double *D) const;
 
   const double *of_function(const LocalMotion &motion, const double *history) const
   {
-    return motion.by_history ? history + law_->n_history() : nullptr;
+    return motion.by_history ? history + n_of_law_ : nullptr;
   }
 
   /// The one that may have a position function, whose kinks are events.
   const CombinedMeasure &function() const { return measures_.front(); }
 
-  std::vector<CombinedMeasure>        measures_;
-  std::shared_ptr<const ForceElement> law_;
-  double                              rest_;
+  std::vector<CombinedMeasure>    measures_;
+  std::shared_ptr<const ForceLaw> law_;
+  double                          rest_;
+
+  // Of the law.
+  const Branches  *branches_  = law_->branches();
+  const Structure *structure_ = law_->structure();
+  const Commands  *commands_  = law_->commands();
+  int              n_of_law_  = mechanism::n_history(*law_);
 };
 
 } // namespace gestell::mechanism

@@ -12,7 +12,7 @@ namespace gestell::coupling
 template <typename Law>
 const Law *law_of(const ElementPlacement &placement)
 {
-  const mechanism::ForceElement *element = placement.element.get();
+  const mechanism::Element *element = placement.element.get();
   if (const auto *transmitted = dynamic_cast<const mechanism::TransmittedElement *>(element))
     element = &transmitted->law();
   if (const auto *switched = dynamic_cast<const mechanism::SwitchedElement *>(element))

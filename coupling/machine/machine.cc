@@ -81,7 +81,7 @@ int Machine::add_lag(const std::string &name, double time_constant)
   return x;
 }
 
-void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
+void Machine::attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
                      const std::vector<Measure> &measures, MeasureKind kind)
 {
   if (static_cast<int>(measures.size()) != element->n_measures())
@@ -90,10 +90,10 @@ void Machine::attach(const std::string &name, std::shared_ptr<mechanism::ForceEl
   parts_->elements.push_back({name, std::move(element), measures, -1, kind});
 }
 
-void Machine::attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures)
+void Machine::attach_friction(std::shared_ptr<mechanism::ForceLaw> element, const std::vector<Measure> &measures)
 {
   const int joint = static_cast<int>(parts_->elements.size()) - 1;
-  assert(joint >= 0 && parts_->elements[joint].element->joints().n_rows() > 0);
+  assert(joint >= 0 && parts_->elements[joint].element->ideal_joint());
   attach(std::string(parts_->elements[joint].name), std::move(element), measures);
   parts_->elements.back().joint = joint;
 }
@@ -199,7 +199,7 @@ void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
   double block[MachineParts::max_measures * MachineParts::max_measures];
   for (const auto &part : parts_->placed)
   {
-    part.element->geometric(part.motion(state, parts_->by_history), parts_->history_of(part), block);
+    mechanism::geometric(*part.element, part.motion(state, parts_->by_history), parts_->history_of(part), block);
     K.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) =
         Eigen::Map<const Eigen::MatrixXd>(block, part.n_measures, part.n_measures);
   }
@@ -214,7 +214,7 @@ std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
   for (std::size_t e = 0; e < parts_->placed.size(); ++e)
   {
     const auto  &part = parts_->placed[e];
-    const double deep = part.element->penetration(part.motion(state, false));
+    const double deep = part.structure ? part.structure->penetration(part.motion(state, false)) : 0.;
     if (deep <= touching)
       continue;
     std::ostringstream words;

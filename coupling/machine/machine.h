@@ -95,11 +95,11 @@ public:
   int add_lag(const std::string &name, double time_constant);
 
   /// Nonlinear element acting on its measures; those of virtual coordinates come last.
-  void attach(const std::string &name, std::shared_ptr<mechanism::ForceElement> element,
+  void attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
               const std::vector<Measure> &measures, MeasureKind kind = MeasureKind::displacement);
   /// Friction of the ideal joint that was attached last, whose multipliers the element sees; it goes by the joint's
   /// name.
-  void attach_friction(std::shared_ptr<mechanism::ForceElement> element, const std::vector<Measure> &measures);
+  void attach_friction(std::shared_ptr<mechanism::ForceLaw> element, const std::vector<Measure> &measures);
 
   /// Signals that will be read: whether any tells the force of an ideal joint, or an acceleration, which follows from
   /// these forces.
@@ -143,7 +143,7 @@ public:
   {
     return evaluate(signal, q, v, Eigen::VectorXd(), local);
   }
-  /// Geometric stiffness [n_u x n_u] of all elements and joints, block diagonal: mechanism::ForceElement::geometric().
+  /// Geometric stiffness [n_u x n_u] of all elements and joints, block diagonal: mechanism::geometric().
   void geometric(const LocalState &state, Eigen::MatrixXd &K) const;
   /// u, v, a of all elements for q, q', q''.
   void gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,

@@ -16,8 +16,7 @@ void MachineForces::force(const LocalState &state, Eigen::VectorXd &p) const
 {
   for (const auto &part : parts_.placed)
     if (!part.implied())
-      part.element->force(part.motion(state, parts_.by_history), parts_.history_of(part),
-                          p.data() + part.first_measure);
+      part.law->force(part.motion(state, parts_.by_history), parts_.history_of(part), p.data() + part.first_measure);
 }
 
 void MachineForces::tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
@@ -29,8 +28,8 @@ void MachineForces::tangent(const LocalState &state, double w_u, double w_v, dou
   {
     if (part.implied())
       continue;
-    part.element->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
-                          p.data() + part.first_measure, block);
+    part.law->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
+                      p.data() + part.first_measure, block);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
         dp(part.first_measure + i, part.first_measure + j) = block[i + part.n_measures * j];
@@ -46,8 +45,8 @@ void MachineForces::derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   {
     if (part.implied())
       continue;
-    part.element->derivatives(part.motion(state, parts_.by_history), parts_.history_of(part),
-                              p.data() + part.first_measure, of_u, of_v);
+    part.law->derivatives(part.motion(state, parts_.by_history), parts_.history_of(part), p.data() + part.first_measure,
+                          of_u, of_v);
     for (int j = 0; j < part.n_measures; ++j)
       for (int i = 0; i < part.n_measures; ++i)
       {
@@ -74,8 +73,8 @@ void MachineForces::tangent_blocks(const LocalState &state, double w_u, double w
     if (part.holds)
       std::fill_n(block, size, 0.);
     else
-      part.element->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
-                            p.data() + part.first_measure, block);
+      part.law->tangent(part.motion(state, parts_.by_history), parts_.history_of(part), {w_u, w_v, w_a},
+                        p.data() + part.first_measure, block);
     block += size;
   }
 }
@@ -96,8 +95,8 @@ double MachineParts::held_rate(int measure) const
 double MachineParts::prescribed_power(const PlacedElement &joint, const LocalState &state) const
 {
   double rate[max_constraints], bias[max_constraints], power = 0.;
-  joint.element->constraint_rates(joint.motion(state, by_history), history_of(joint), rate, bias);
-  for (int i = 0; i < joint.element->n_constraints(); ++i)
+  joint.joint->constraint_rates(joint.motion(state, by_history), history_of(joint), rate, bias);
+  for (int i = 0; i < joint.joint->n_constraints(); ++i)
     power -= state.lambda[joint.first_constraint + i] * rate[i];
   return power;
 }
@@ -106,8 +105,8 @@ double MachineParts::taken_power(const PlacedElement &part, const LocalState &st
 {
   const auto motion = part.motion(state, by_history);
   double     p[max_measures];
-  part.element->force(motion, history_of(part), p);
-  double taken = -part.element->stored_power(motion, history_of(part));
+  part.law->force(motion, history_of(part), p);
+  double taken = -part.law->stored_power(motion, history_of(part));
   for (int i = 0; i < part.n_motions; ++i)
     taken -= p[i] * motion.v[i];
   return taken;
@@ -130,8 +129,8 @@ std::string MachineJoints::name(int i) const
   {
     const auto &part = parts_.placed[joint];
     const int   row  = i - part.first_constraint;
-    if (row >= 0 && row < part.element->n_constraints())
-      return "\"" + parts_.elements[joint].name + "\" (" + part.element->constraint_name(row) + ")";
+    if (row >= 0 && row < part.joint->n_constraints())
+      return "\"" + parts_.elements[joint].name + "\" (" + part.joint->constraint_name(row) + ")";
   }
   return IdealJoints::name(i);
 }
@@ -152,8 +151,8 @@ void MachineJoints::constraints(const LocalState &state, Eigen::VectorXd &g, Con
   for (std::size_t i = 0; i < parts_.joint_blocks.size(); ++i)
   {
     const auto &part = parts_.placed[parts_.joints[i]];
-    part.element->constraint(part.motion(state, parts_.by_history), parts_.history_of(part),
-                             g.data() + part.first_constraint, G[i].data());
+    part.joint->constraint(part.motion(state, parts_.by_history), parts_.history_of(part),
+                           g.data() + part.first_constraint, G[i].data());
   }
 }
 
@@ -162,8 +161,8 @@ void MachineJoints::rates(const LocalState &state, Eigen::VectorXd &rate, Eigen:
   for (const int joint : parts_.joints)
   {
     const auto &part = parts_.placed[joint];
-    part.element->constraint_rates(part.motion(state, parts_.by_history), parts_.history_of(part),
-                                   rate.data() + part.first_constraint, bias.data() + part.first_constraint);
+    part.joint->constraint_rates(part.motion(state, parts_.by_history), parts_.history_of(part),
+                                 rate.data() + part.first_constraint, bias.data() + part.first_constraint);
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/machine/marker.h"
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 #include "mechanism/measures/combined_measure.h"
 
 #include <memory>
@@ -150,11 +150,11 @@ enum class MeasureKind
 
 struct ElementPlacement
 {
-  std::string                              name;
-  std::shared_ptr<mechanism::ForceElement> element;
-  std::vector<Measure>                     measures;   ///< one per measure of the element
-  int                                      joint = -1; ///< of friction in an ideal joint: which element that is
-  MeasureKind                              kind  = MeasureKind::displacement;
+  std::string                         name;
+  std::shared_ptr<mechanism::Element> element;
+  std::vector<Measure>                measures;   ///< one per measure of the element
+  int                                 joint = -1; ///< of friction in an ideal joint: which element that is
+  MeasureKind                         kind  = MeasureKind::displacement;
 };
 
 } // namespace gestell::coupling

@@ -180,7 +180,7 @@ void MachineParts::assemble_sparse(int n)
 bool MachineParts::has_joints() const
 {
   return std::any_of(elements.begin(), elements.end(),
-                     [](const ElementPlacement &placement) { return placement.element->n_constraints() > 0; });
+                     [](const ElementPlacement &placement) { return placement.element->ideal_joint() != nullptr; });
 }
 
 /// Bodies alone: a few numbers per row.
@@ -208,7 +208,7 @@ void MachineParts::place_elements(int n)
     while (n_motions > 0 && is_lag(placement.measures[n_motions - 1]))
       --n_motions;
     placed.push_back({placement.element.get(), n_measures, k, n_history, n_motions});
-    if (const int n_c = placement.element->n_constraints(); n_c > 0)
+    if (const int n_c = mechanism::n_constraints(*placement.element); n_c > 0)
     {
       placed.back().first_constraint = placed.back().first_multiplier = n_constraints;
       joints.push_back(int(placed.size()) - 1);
@@ -225,8 +225,8 @@ void MachineParts::place_elements(int n)
       for (const auto &[coordinate, weight] : placement.measures[j])
         columns.emplace_back(coordinate, n_measures + j, weight);
     n_measures += k;
-    n_history += placement.element->n_history();
-    if (placement.joint >= 0 && k == 1 && placement.element->n_history() > 0)
+    n_history += mechanism::n_history(*placement.element);
+    if (placement.joint >= 0 && k == 1 && mechanism::n_history(*placement.element) > 0)
     {
       placed.back().stop = n_history;
       n_history += 2;
@@ -244,12 +244,12 @@ void MachineParts::refresh_guards()
   for (std::size_t e = 0; e < placed.size(); ++e)
   {
     double rate     = 0.;
-    placed[e].holds = placed[e].element->holds(history_of(placed[e]), rate) && !is_stopped(placed[e]);
+    placed[e].holds = placed[e].sticks(history_of(placed[e]), rate) && !is_stopped(placed[e]);
     if (placed[e].holds)
       held.push_back({placed[e].first_measure, rate});
-    if (is_stopped(placed[e]))
+    if (!placed[e].branches || is_stopped(placed[e]))
       continue;
-    const auto own = placed[e].element->guards(history_of(placed[e]));
+    const auto own = placed[e].branches->guards(history_of(placed[e]));
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       const bool rising = own[i].crossing == mechanism::Crossing::rising;

@@ -31,13 +31,21 @@ struct MachineParts
   /// An element with its place in u and in the history; a copy of what the hot loop needs, side by side.
   struct PlacedElement
   {
-    const mechanism::ForceElement *element;
-    int                            first_measure, n_measures, first_history;
-    int                            n_motions;     ///< measures that do work: the first ones, lags behind them do none
-    bool                           holds = false; ///< its measure sticks: its force is an unknown of the step
-    int                            came  = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
-    int                            first_constraint = -1; ///< of an ideal joint: the first row of its equations
-    int                            first_multiplier = -1; ///< of a joint or its friction: the first one it sees
+    const mechanism::Element *element;
+    int                       first_measure, n_measures, first_history;
+    int                       n_motions;     ///< measures that do work: the first ones, lags behind them do none
+    bool                      holds = false; ///< its measure sticks: its force is an unknown of the step
+    int                       came  = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
+    int                       first_constraint = -1; ///< of an ideal joint: the first row of its equations
+    int                       first_multiplier = -1; ///< of a joint or its friction: the first one it sees
+
+    // Which of the two it is, and its facets; null where it has none.
+    const mechanism::ForceLaw   *law       = element->force_law();
+    const mechanism::Constraint *joint     = element->ideal_joint();
+    const mechanism::Branches   *branches  = element->branches();
+    const mechanism::Structure  *structure = element->structure();
+    const mechanism::Commands   *commands  = element->commands();
+    bool                         drives    = element->work() == mechanism::Work::input;
 
     /// Of dry friction in a joint, in the history of the machine: 1 where others stop its motion; behind it the sign of
     /// the sliding from which it came to stick.
@@ -48,8 +56,11 @@ struct MachineParts
     /// The quantity follows from multipliers, its own or (of friction in a joint) those of another.
     bool tells_multipliers(int quantity) const
     {
-      return first_multiplier >= 0 && (first_constraint < 0 || element->needs_multipliers(quantity));
+      return first_multiplier >= 0 && (!joint || joint->needs_multipliers(quantity));
     }
+
+    /// A branch of its law holds its measure at u' = rate.
+    bool sticks(const double *history, double &rate) const { return branches && branches->holds(history, rate); }
 
     mechanism::LocalMotion motion(const LocalState &state, bool by_history) const
     {

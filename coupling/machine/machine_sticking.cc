@@ -55,7 +55,7 @@ void MachineParts::find_stopped(const LocalState &state)
   double rate = 0.;
   if (std::none_of(placed.begin(), placed.end(),
                    [&](const PlacedElement &part)
-                   { return part.stop >= 0 || (part.came != 0 && part.element->holds(history_of(part), rate)); }))
+                   { return part.stop >= 0 || (part.came != 0 && part.sticks(history_of(part), rate)); }))
     return;
   // Rows over the coordinates that anything here moves.
   std::map<int, int> places;
@@ -68,7 +68,7 @@ void MachineParts::find_stopped(const LocalState &state)
     for (int k = 0; k < block.n_measures; ++k)
       touch(block.first_measure + k);
   for (const PlacedElement &part : placed)
-    if (part.stop >= 0 || part.element->holds(history_of(part), rate))
+    if (part.stop >= 0 || part.sticks(history_of(part), rate))
       touch(part.first_measure);
   const auto add_measure = [&](double factor, int measure, Eigen::VectorXd &row)
   {
@@ -89,7 +89,7 @@ void MachineParts::find_stopped(const LocalState &state)
   {
     const PlacedElement   &part  = placed[joints[i]];
     const ConstraintBlock &block = joint_blocks[i];
-    part.element->constraint(part.motion(state, by_history), history_of(part), g, G);
+    part.joint->constraint(part.motion(state, by_history), history_of(part), g, G);
     for (int r = 0; r < block.n_rows; ++r)
     {
       row.setZero();
@@ -99,11 +99,11 @@ void MachineParts::find_stopped(const LocalState &state)
     }
   }
   const auto slide_on = [&](const PlacedElement &part, double came)
-  { part.element->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
+  { part.branches->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
   // Near a dead point joints alone stop a motion, and holding it would take any force.
   const auto by_joints = [joints_alone = span](const Eigen::VectorXd &own) { return joints_alone.contains(own, 1e-3); };
   for (const PlacedElement &part : placed)
-    if (part.stop < 0 && part.element->holds(history_of(part), rate))
+    if (part.stop < 0 && part.sticks(history_of(part), rate))
     {
       const Eigen::VectorXd own = row_of(part);
       if (part.came != 0 && by_joints(own))
@@ -114,7 +114,7 @@ void MachineParts::find_stopped(const LocalState &state)
   for (const bool before : {true, false}) // what held before goes on holding
     for (PlacedElement &part : placed)
     {
-      if (part.stop < 0 || part.holds != before || !part.element->holds(history_of(part), rate))
+      if (part.stop < 0 || part.holds != before || !part.sticks(history_of(part), rate))
         continue;
       const Eigen::VectorXd own = row_of(part);
       history[part.stop]        = 0.;
@@ -124,7 +124,7 @@ void MachineParts::find_stopped(const LocalState &state)
         history[part.stop] = 1.;
     }
   for (const PlacedElement &part : placed)
-    if (part.stop >= 0 && !part.element->holds(history_of(part), rate))
+    if (part.stop >= 0 && !part.sticks(history_of(part), rate))
     {
       const Eigen::VectorXd own = row_of(part);
       history[part.stop]        = !by_joints(own) && span.contains(own) ? 1. : 0.;

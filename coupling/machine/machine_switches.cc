@@ -13,7 +13,7 @@ namespace
 {
 
 /// Carries the motion of a signal into u, so that it is known wherever events are looked for; acts with no force.
-class Watch : public mechanism::ForceElement
+class Watch : public mechanism::ForceLaw
 {
 public:
   explicit Watch(int n_measures) : n_measures_(n_measures) {}
@@ -68,11 +68,11 @@ void Machine::add_switch(const Switch &request)
     if (found == names.end())
       throw std::invalid_argument("there is no element \"" + name + "\"" + suggestion(name, names));
     const auto &element = *parts_->elements[found - names.begin()].element;
-    const auto  known   = element.commands();
+    const auto  known   = command_names(element);
     if (std::find(known.begin(), known.end(), order.name) == known.end())
       throw std::invalid_argument("\"" + name + "\" knows no order \"" + order.name + "\"" +
                                   (known.empty() ? std::string("; it obeys none") : suggestion(order.name, known)));
-    element.check_order(order);
+    element.commands()->check_order(order);
   }
   parts_->switch_requests.push_back(request);
 }
@@ -165,7 +165,7 @@ bool MachineParts::tells_found_force(const PlacedSwitch &own) const
 {
   double      rate = 0.;
   const auto &part = placed[own.watched];
-  return part.tells_multipliers(own.signal.quantity) || part.element->holds(history_of(part), rate);
+  return part.tells_multipliers(own.signal.quantity) || part.sticks(history_of(part), rate);
 }
 
 void MachineParts::find_sides(const LocalState &state)
@@ -267,7 +267,7 @@ void MachineParts::give_orders(int index, const LocalState &state)
     const SwitchOrder   &told   = own.request.orders[i];
     try
     {
-      target.element->command(told.order, target.motion(state, by_history), history_of(target));
+      target.commands->command(told.order, target.motion(state, by_history), history_of(target));
     }
     catch (const std::domain_error &beyond) // it has no law that goes on so
     {

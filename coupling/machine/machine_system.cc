@@ -132,7 +132,8 @@ void MachineEvents::restore_history(const Eigen::VectorXd &saved)
 void MachineEvents::start(const LocalState &state)
 {
   for (const auto &part : parts_.placed)
-    part.element->start(part.motion(state, parts_.by_history), parts_.history_of(part));
+    if (part.branches)
+      part.branches->start(part.motion(state, parts_.by_history), parts_.history_of(part));
   parts_.start_switches(&state);
   for (auto &part : parts_.placed)
     if (part.stop >= 0)
@@ -148,7 +149,8 @@ void MachineEvents::start(const LocalState &state)
 void MachineEvents::accept(const LocalState &state)
 {
   for (const auto &part : parts_.placed)
-    part.element->accept(part.motion(state, parts_.by_history), parts_.history_of(part));
+    if (part.branches)
+      part.branches->accept(part.motion(state, parts_.by_history), parts_.history_of(part));
   parts_.find_sides(state);
 }
 
@@ -162,12 +164,12 @@ void MachineEvents::guard_values(const LocalState &state, Eigen::VectorXd &g) co
   int first = 0;
   for (const auto &part : parts_.placed)
   {
-    if (parts_.is_stopped(part))
+    if (!part.branches || parts_.is_stopped(part))
       continue;
     const double *history = parts_.history_of(part);
-    const int     n       = part.element->n_guards(history);
+    const int     n       = part.branches->n_guards(history);
     if (n > 0)
-      part.element->guard_values(part.motion(state, parts_.by_history), history, g.data() + first);
+      part.branches->guard_values(part.motion(state, parts_.by_history), history, g.data() + first);
     first += n;
   }
   for (const auto &own : parts_.switches)
@@ -202,7 +204,7 @@ void MachineEvents::transition(int i, const LocalState &state)
     parts_.history[part.stop + 1] = came_from;
   try
   {
-    part.element->transition(active.index, part.motion(state, parts_.by_history), parts_.history_of(part));
+    part.branches->transition(active.index, part.motion(state, parts_.by_history), parts_.history_of(part));
   }
   catch (const std::domain_error &beyond) // the element has no law that goes on from here
   {
@@ -219,7 +221,8 @@ double MachineEnergy::stored(const LocalState &state) const
 {
   double energy = 0.;
   for (const auto &part : parts_.placed)
-    energy += part.element->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
+    if (part.law)
+      energy += part.law->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
   return energy;
 }
 
@@ -228,13 +231,12 @@ void MachineEnergy::power(const LocalState &state, const Eigen::VectorXd &p, dou
   input = dissipated = 0.;
   for (const auto &part : parts_.placed)
   {
-    const bool drives = part.element->work() == mechanism::Work::input;
     if (part.first_constraint >= 0)
-      input += drives ? parts_.prescribed_power(part, state) : 0.;
+      input += part.drives ? parts_.prescribed_power(part, state) : 0.;
     else if (part.holds)
-      (drives ? input : dissipated) +=
-          (drives ? 1. : -1.) * p[part.first_measure] * parts_.held_rate(part.first_measure);
-    else if (drives)
+      (part.drives ? input : dissipated) +=
+          (part.drives ? 1. : -1.) * p[part.first_measure] * parts_.held_rate(part.first_measure);
+    else if (part.drives)
       input += p.segment(part.first_measure, part.n_motions).dot(state.v.segment(part.first_measure, part.n_motions));
     else
       dissipated += parts_.taken_power(part, state);

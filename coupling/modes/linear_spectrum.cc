@@ -60,7 +60,7 @@ Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const E
   {
     const int       k = placement.element->n_measures();
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
-    placement.element->stiffest(u.data() + first, K.data(), D.data());
+    stiffest(*placement.element, u.data() + first, K.data(), D.data());
     for (int i = 0; i < k; ++i)
       for (int j = 0; j < k; ++j)
         if (K(i, j) != 0.)

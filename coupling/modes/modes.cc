@@ -211,6 +211,13 @@ struct Drives
   std::vector<int> lags; ///< virtual coordinates whose elements act; those of others only fade with their own constants
 };
 
+/// Of a motion that begins here.
+bool sticks(const mechanism::Element &element, const mechanism::LocalMotion &motion)
+{
+  double rate;
+  return element.branches() && element.branches()->holds(started(element, motion).data(), rate);
+}
+
 /// Adds -dp/du and -dp/dv [n x n] of the drives, which are no structure, as they are at a motion.
 Drives add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
 {
@@ -221,19 +228,15 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
   int                   first = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
-    const mechanism::ForceElement &element = *placement.element;
-    const int                      k       = element.n_measures();
-    mechanism::LocalMotion motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
-    std::vector<double>    history(element.n_history() + 1);
-    double                 rate;
+    const mechanism::Element &element = *placement.element;
+    const int                 k       = element.n_measures();
+    mechanism::LocalMotion    motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
     const bool drives = structure[first] == 0. && placement.joint < 0 && element.work() == mechanism::Work::input;
-    if (drives)
-      element.start(motion, history.data());
-    if (drives && !element.holds(history.data(), rate)) // what sticks gives no way
+    if (drives && !sticks(element, motion)) // what sticks gives no way
     {
       Eigen::VectorXd p(k);
       Eigen::MatrixXd du(k, k), dv(k, k);
-      element.derivatives(motion, history.data(), p.data(), du.data(), dv.data());
+      element.force_law()->derivatives(motion, started(element, motion).data(), p.data(), du.data(), dv.data());
       const Eigen::MatrixXd own = W.middleCols(first, k);
       K -= own * du * own.transpose();
       B -= own * dv * own.transpose();

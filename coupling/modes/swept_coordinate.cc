@@ -64,7 +64,7 @@ std::vector<SweptCoordinate> all_swept(const Machine &machine)
       own.row       = row;
       all.push_back(own);
     }
-    row += placement.element->n_constraints();
+    row += n_constraints(*placement.element);
   }
   for (const std::string &path : machine.signal_paths())
     if (const Signal signal = machine.signal(path, path); signal.measure >= 0 && signal.quantity == 0)

@@ -30,10 +30,9 @@ BlankingForce::BlankingForce(const Parameters &parameters) : parameters_(paramet
           "above the initial slope of the virgin curve, " + std::to_string(slope) + " N/m");
 }
 
-void BlankingForce::stiffest(const double *, double *K, double *D) const
+void BlankingForce::stiffest(const double *, double *K, double *) const
 {
   *K = parameters_.elastic_stiffness;
-  *D = 0.;
 }
 
 double BlankingForce::lift_off(double z_max) const

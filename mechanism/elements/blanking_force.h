@@ -25,7 +25,7 @@ namespace gestell::mechanism
  * Stored is F^2/(2 c_el), what unloading gives back; the rest is dissipated.  Source: reference model of the crank
  * press, section 3; docs/theory/elements.md.
  */
-class BlankingForce : public DifferentiableElement<BlankingForce, 1>
+class BlankingForce : public DifferentiableElement<BlankingForce, 1, Branches, Structure>
 {
 public:
   struct Parameters

@@ -54,7 +54,7 @@ void Clearance::engaged(const double *u, double *K, double *D) const
 double Clearance::stored_energy(const LocalMotion &motion, const double *history) const
 {
   const double u      = motion.u[0];
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(u, motion.v[0]);
+  const Branch branch = branch_for(motion, history);
   const double d      = branch == open ? 0. : side(branch) * u - parameters_.gap;
   const double n      = parameters_.exponent;
   return n == 1. ? 0.5 * parameters_.stiffness * d * d : parameters_.stiffness / (n + 1.) * d * power(d);
@@ -62,7 +62,7 @@ double Clearance::stored_energy(const LocalMotion &motion, const double *history
 
 double Clearance::stored_power(const LocalMotion &motion, const double *history) const
 {
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(motion.u[0], motion.v[0]);
+  const Branch branch = branch_for(motion, history);
   if (branch == open)
     return 0.;
   return parameters_.stiffness * power(side(branch) * motion.u[0] - parameters_.gap) * side(branch) * motion.v[0];

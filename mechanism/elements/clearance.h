@@ -23,7 +23,7 @@ namespace gestell::mechanism
  * body slows down and the factor is positive again.
  * Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445, with any n.
  */
-class Clearance : public DifferentiableElement<Clearance, 1>
+class Clearance : public DifferentiableElement<Clearance, 1, Branches, Structure>
 {
 public:
   enum class Stops
@@ -62,7 +62,7 @@ public:
   Number pressure(const Measures<Number> &m, const double *history, double &s) const
   {
     const auto &[gap, c, chi, stops, n] = parameters_;
-    const Branch branch                 = m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+    const Branch branch                 = branch_for(m, history);
     s                                   = 0.;
     if (branch != contact_negative && branch != contact_positive)
       return Number(0.);
@@ -76,7 +76,7 @@ public:
   int                   n_history() const override { return 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  engaged(const double *u, double *K, double *D) const override;
-  void                  open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  void                  open_branch(const double *, double *, double *) const override {}
   bool                  stiffens() const override { return parameters_.exponent > 1.; }
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
   double                stored_power(const LocalMotion &motion, const double *history) const override;
@@ -101,6 +101,13 @@ private:
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
   static double side(Branch branch) { return branch < 0 ? -1. : 1.; } ///< s; of no meaning when open
   static bool   in_slack(Branch branch) { return branch == slack_negative || branch == slack_positive; }
+
+  /// The one that is asked for.
+  template <class Motion>
+  Branch branch_for(const Motion &m, const double *history) const
+  {
+    return m.by_history ? branch_of(history) : branch_at(value(m.u[0]), value(m.v[0]));
+  }
 
   Branch branch_at(double u, double v) const
   {

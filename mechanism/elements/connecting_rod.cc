@@ -82,7 +82,7 @@ double ConnectingRod::deflection(const LocalMotion &motion, const double *histor
 {
   double       gradient[3];
   const double delta  = compression(motion.u, gradient);
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(delta);
+  const Branch branch = branch_for(motion.by_history, history, delta);
   return branch == compressed ? delta : branch == pulled ? delta + parameters_.clearance : 0.;
 }
 
@@ -134,7 +134,7 @@ double ConnectingRod::quantity(int i, const LocalMotion &motion, const double *h
   const double delta_rate = rate(motion);
   if (i == 2)
     return delta_rate;
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(delta);
+  const Branch branch = branch_for(motion.by_history, history, delta);
   const double push = chain_force(branch, delta, delta_rate), tan_psi = -gradient[2];
   return i == 0 ? push : i == 3 ? push * std::sqrt(1. + tan_psi * tan_psi) : push * tan_psi;
 }

@@ -27,7 +27,7 @@ namespace gestell::mechanism
  *
  * Source: reference model of the crank press, sections 2 and 3; docs/theory/elements.md.
  */
-class ConnectingRod : public DifferentiableElement<ConnectingRod, 3>
+class ConnectingRod : public DifferentiableElement<ConnectingRod, 3, Branches, Structure>
 {
 public:
   struct Parameters
@@ -49,7 +49,7 @@ public:
     Number       gradient[3];
     const Number delta = compression(m.u, gradient);
     const Number rate  = gradient[0] * m.v[0] + gradient[1] * m.v[1] + gradient[2] * m.v[2];
-    const Number push  = chain_force(m.by_history ? branch_of(history) : branch_at(value(delta)), delta, rate);
+    const Number push  = chain_force(branch_for(m.by_history, history, value(delta)), delta, rate);
     for (int i = 0; i < 3; ++i)
       p[i] = -push * gradient[i];
   }
@@ -83,7 +83,12 @@ private:
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
-  Branch        branch_at(double delta) const
+  /// The one that is asked for.
+  Branch branch_for(bool by_history, const double *history, double delta) const
+  {
+    return by_history ? branch_of(history) : branch_at(delta);
+  }
+  Branch branch_at(double delta) const
   {
     return delta > 0. ? compressed : delta < -parameters_.clearance ? pulled : gap;
   }

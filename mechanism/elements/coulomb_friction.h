@@ -39,7 +39,7 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/elements.md; Stribeck.
  */
-class CoulombFriction : public DifferentiableElement<CoulombFriction, 1>
+class CoulombFriction : public DifferentiableElement<CoulombFriction, 1, Branches, Structure, Commands>
 {
 public:
   struct Parameters
@@ -85,7 +85,7 @@ public:
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
   bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
   void                     check_order(const SwitchCommand &order) const override;
 
   std::vector<Quantity> quantities() const override;

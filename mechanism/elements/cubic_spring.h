@@ -6,7 +6,7 @@ namespace gestell::mechanism
 {
 
 /// Spring with a linear and a cubic part:   p = -(c u + c3 u^3)      [N],   energy c u^2/2 + c3 u^4/4.
-class CubicSpring : public DifferentiableElement<CubicSpring, 1>
+class CubicSpring : public DifferentiableElement<CubicSpring, 1, Structure>
 {
 public:
   struct Parameters

@@ -22,26 +22,9 @@ void CuttingForce::stiffest(const double *, double *K, double *D) const
   *D = 0.;
 }
 
-void CuttingForce::start(const LocalMotion &motion, double *history) const
-{
-  history[0] = motion.u[0] > parameters_.contact_at ? 1. : 0.;
-}
-
-std::vector<Guard> CuttingForce::guards(const double *history) const
-{
-  if (history[0] == 0.)
-    return {{"tool_contact", Crossing::rising}};
-  return {{"tool_release", Crossing::falling}};
-}
-
 void CuttingForce::guard_values(const LocalMotion &motion, const double *, double *g) const
 {
   g[0] = motion.u[0] - parameters_.contact_at;
-}
-
-void CuttingForce::transition(int, const LocalMotion &, double *history) const
-{
-  history[0] = 1. - history[0];
 }
 
 std::vector<Quantity> CuttingForce::quantities() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/elements/one_sided_contact.h"
 
 #include <cmath>
 
@@ -16,7 +17,7 @@ namespace gestell::mechanism
  *
  * The largest force F is reached at z = z_p.  Its work counts as dissipated.
  */
-class CuttingForce : public DifferentiableElement<CuttingForce, 1>
+class CuttingForce : public DifferentiableElement<CuttingForce, 1, OneSidedContact, Structure>
 {
 public:
   struct Parameters
@@ -35,7 +36,7 @@ public:
     using std::tanh;
     const auto &[F, z_p, x_T, v0] = parameters_;
     const Number x                = (m.u[0] - x_T) / z_p;
-    if (!(m.by_history ? history[0] != 0. : x > 0.))
+    if (!(m.by_history ? is_closed(history) : closes(value(m.u[0]), value(m.v[0]))))
     {
       p[0] = Number(0.);
       return;
@@ -47,17 +48,14 @@ public:
   /// F e / z_p, the slope with which the force sets in.
   void stiffest(const double *u, double *K, double *D) const override;
 
-  /// history: 1 in contact, 0 apart.
-  int                   n_history() const override { return 1; }
-  void                  start(const LocalMotion &motion, double *history) const override;
-  int                   n_guards(const double *) const override { return 1; }
-  std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
+  std::string event(bool closing) const final { return closing ? "tool_contact" : "tool_release"; }
+  bool        closes(double u, double) const final { return u > parameters_.contact_at; }
+
   /// x exp(1 - x); far below the switching point x = 0, where only a trial motion gets, its tangent at x = -1: finite.
   template <typename Number>
   static Number shape(const Number &x)

@@ -18,10 +18,9 @@ DrawingForce::DrawingForce(const Parameters &parameters) : parameters_(parameter
   require(depth > F / c, name, "depth [m]", depth, "above the rise, " + std::to_string(F / c) + " m");
 }
 
-void DrawingForce::stiffest(const double *, double *K, double *D) const
+void DrawingForce::stiffest(const double *, double *K, double *) const
 {
   *K = parameters_.stiffness;
-  *D = 0.;
 }
 
 /// A punch that starts inside has drawn so far.
@@ -42,7 +41,7 @@ void DrawingForce::accept(const LocalMotion &motion, double *history) const
 double DrawingForce::stored_energy(const LocalMotion &motion, const double *history) const
 {
   const double d      = elastic_force(path(motion), history);
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(d, history);
+  const Branch branch = branch_for(motion.by_history, history, d);
   const double F      = branch == elastic ? d : branch == flow ? parameters_.force : 0.;
   return 0.5 * F * F / parameters_.stiffness;
 }
@@ -50,7 +49,7 @@ double DrawingForce::stored_energy(const LocalMotion &motion, const double *hist
 double DrawingForce::stored_power(const LocalMotion &motion, const double *history) const
 {
   const double d      = parameters_.stiffness * (path(motion) - history[0]);
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(d, history);
+  const Branch branch = branch_for(motion.by_history, history, d);
   return branch == elastic ? d * motion.v[0] : 0.;
 }
 
@@ -130,7 +129,7 @@ double DrawingForce::quantity(int i, const LocalMotion &motion, const double *hi
   if (i < 2)
     return i == 0 ? resistance(motion, history) : path(motion);
   const double z      = path(motion);
-  const Branch branch = motion.by_history ? branch_of(history) : branch_at(elastic_force(z, history), history);
+  const Branch branch = branch_for(motion.by_history, history, elastic_force(z, history));
   return branch == flow ? z - rise() : history[0];
 }
 

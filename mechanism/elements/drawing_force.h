@@ -22,7 +22,7 @@ namespace gestell::mechanism
  *
  * Source: elastic, perfectly plastic contact that never pulls; Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1.
  */
-class DrawingForce : public DifferentiableElement<DrawingForce, 1>
+class DrawingForce : public DifferentiableElement<DrawingForce, 1, Branches, Structure>
 {
 public:
   struct Parameters
@@ -39,7 +39,7 @@ public:
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const Number d      = elastic_force(Number(m.u[0] - parameters_.contact_at), history);
-    const Branch branch = m.by_history ? branch_of(history) : branch_at(value(d), history);
+    const Branch branch = branch_for(m.by_history, history, value(d));
     p[0]                = branch == elastic ? Number(-d) : branch == flow ? Number(-parameters_.force) : Number(0.);
   }
 
@@ -69,7 +69,12 @@ private:
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[1])); }
-  Branch        branch_at(double elastic_force, const double *history) const
+  /// The one that is asked for.
+  Branch branch_for(bool by_history, const double *history, double elastic_force) const
+  {
+    return by_history ? branch_of(history) : branch_at(elastic_force, history);
+  }
+  Branch branch_at(double elastic_force, const double *history) const
   {
     return branch_of(history) == through        ? through
            : elastic_force <= 0.                ? apart

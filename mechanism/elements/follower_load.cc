@@ -7,7 +7,7 @@
 namespace gestell::mechanism
 {
 
-FollowerLoad::FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceElement> law)
+FollowerLoad::FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceLaw> law)
     : point_(point), e_(e), law_(std::move(law))
 {
   require(law_->n_measures() == 1, "follower load", "number of measures of its law", law_->n_measures(), "1");
@@ -30,7 +30,7 @@ FollowerLoad::Seen FollowerLoad::see(const LocalMotion &motion) const
 void FollowerLoad::start(const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion);
-  law_->start(seen.motion(motion), history);
+  branches_->start(seen.motion(motion), history);
 }
 
 void FollowerLoad::force(const LocalMotion &motion, const double *history, double *p) const
@@ -60,19 +60,19 @@ void FollowerLoad::tangent(const LocalMotion &motion, const double *history, con
 void FollowerLoad::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   const Seen seen = see(motion);
-  law_->guard_values(seen.motion(motion), history, g);
+  branches_->guard_values(seen.motion(motion), history, g);
 }
 
 void FollowerLoad::transition(int i, const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion);
-  law_->transition(i, seen.motion(motion), history);
+  branches_->transition(i, seen.motion(motion), history);
 }
 
 bool FollowerLoad::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
   const Seen seen = see(motion);
-  return law_->command(order, seen.motion(motion), history);
+  return commands_->command(order, seen.motion(motion), history);
 }
 
 double FollowerLoad::quantity(int i, const LocalMotion &motion, const double *history) const

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 #include "mechanism/measures/placement.h"
 
 #include <memory>
@@ -18,27 +18,31 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/joints.md (5a).
  */
-class FollowerLoad : public ForceElement
+class FollowerLoad : public ForceLaw, public Branches, public Commands
 {
 public:
   /// @param e  unit vector, as described
   /// @throws std::invalid_argument if the law has not one measure, or the point does not move
-  FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceElement> law);
+  FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceLaw> law);
 
   int  n_measures() const override { return point_.n_measures(); }
-  int  n_history() const override { return law_->n_history(); }
-  void start(const LocalMotion &motion, double *history) const override;
   void force(const LocalMotion &motion, const double *history, double *p) const override;
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
   Work work() const override { return law_->work(); }
 
-  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return law_->commands(); }
-  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
+  /// Those of the law.
+  const Branches *branches() const override { return branches_ ? this : nullptr; }
+  const Commands *commands() const override { return commands_ ? this : nullptr; }
 
-  std::vector<Guard> guards(const double *history) const override { return law_->guards(history); }
-  int                n_guards(const double *history) const override { return law_->n_guards(history); }
+  std::vector<std::string> command_names() const override { return commands_->command_names(); }
+  void                     check_order(const SwitchCommand &order) const override { commands_->check_order(order); }
+  bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
+
+  int                n_history() const override { return branches_->n_history(); }
+  void               start(const LocalMotion &motion, double *history) const override;
+  int                n_guards(const double *history) const override { return branches_->n_guards(history); }
+  std::vector<Guard> guards(const double *history) const override { return branches_->guards(history); }
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
@@ -58,9 +62,13 @@ private:
   };
   Seen see(const LocalMotion &motion) const;
 
-  Placement                           point_;
-  Vector3d                            e_;
-  std::shared_ptr<const ForceElement> law_;
+  Placement                       point_;
+  Vector3d                        e_;
+  std::shared_ptr<const ForceLaw> law_;
+
+  // Of the law.
+  const Branches *branches_ = law_->branches();
+  const Commands *commands_ = law_->commands();
 };
 
 } // namespace gestell::mechanism

@@ -16,7 +16,7 @@ FormulaForce::FormulaForce(const Parameters &parameters) : parameters_(parameter
 
 // --- as structure
 
-void FormulaForce::structure(double u, const double *sides, double &K, double &D) const
+void FormulaForce::derivatives_at(double u, const double *sides, double &K, double &D) const
 {
   using Direction     = Eigen::Vector2d;
   const Dual<2> x[]   = {Dual<2>(0.), Dual<2>(u, Direction::UnitX()), Dual<2>(0., Direction::UnitY())};
@@ -27,7 +27,7 @@ void FormulaForce::structure(double u, const double *sides, double &K, double &D
 
 void FormulaForce::engaged(const double *u, double *K, double *D) const
 {
-  structure(*u, nullptr, *K, *D);
+  derivatives_at(*u, nullptr, *K, *D);
 }
 
 /// Each kink in turn on the side where K, or D, is larger, or smaller.
@@ -39,12 +39,12 @@ void FormulaForce::extreme(bool largest, double u, double &K, double &D) const
   {
     double sides[Formula::max_kinks + 1], both[2];
     start({0., &u, &zero, &zero}, sides);
-    structure(u, sides, both[0], both[1]);
+    derivatives_at(u, sides, both[0], both[1]);
     double best = both[damping];
     for (int i = 0; i < n; ++i)
     {
       sides[i] = -sides[i];
-      structure(u, sides, both[0], both[1]);
+      derivatives_at(u, sides, both[0], both[1]);
       if (sign * both[damping] > sign * best)
         best = both[damping];
       else
@@ -68,8 +68,6 @@ void FormulaForce::open_branch(const double *u, double *K, double *D) const
 
 void FormulaForce::start(const LocalMotion &motion, double *history) const
 {
-  if (n_kinks() == 0)
-    return;
   const double x[] = {motion.t, motion.u[0], motion.v[0]}, rates[] = {1., motion.v[0], motion.a[0]};
   kinks().start(x, rates, history);
   history[n_kinks()] = 0.;
@@ -78,7 +76,7 @@ void FormulaForce::start(const LocalMotion &motion, double *history) const
 void FormulaForce::accept(const LocalMotion &motion, double *history) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]};
-  if (n_kinks() > 0 && std::isnan(parameters_.force.value(x)))
+  if (std::isnan(parameters_.force.value(x)))
     history[n_kinks()] = std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -14,7 +14,7 @@ namespace gestell::mechanism
  * Its work counts as input, negative where the force brakes: nothing in a formula tells what it stores.  As structure
  * it has K = -dF/du and D = -dF/du' at the given u, at t = 0 and at rest.
  */
-class FormulaForce : public DifferentiableElement<FormulaForce, 1>
+class FormulaForce : public DifferentiableElement<FormulaForce, 1, Branches, Structure>
 {
 public:
   enum Variable
@@ -48,6 +48,8 @@ public:
                                  : parameters_.force.value(x);
   }
 
+  const Branches *branches() const override { return n_kinks() > 0 ? this : nullptr; } ///< one for each set of sides
+
   void engaged(const double *u, double *K, double *D) const override;
   /// Each kink in turn on the side where K, or D, is larger: right for a sum of terms with a kink each.
   void stiffest(const double *u, double *K, double *D) const override;
@@ -57,7 +59,7 @@ public:
 
   /// history: side of each kink, -1 or 1; then 0, or no number once an accepted motion has left the range of a root:
   /// roots go on below zero beyond a kink, but not for good.
-  int                   n_history() const override { return n_kinks() > 0 ? n_kinks() + 1 : 0; }
+  int                   n_history() const override { return n_kinks() + 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;
   Work                  work() const override { return Work::input; }
@@ -71,7 +73,7 @@ public:
 private:
   int          n_kinks() const { return parameters_.force.n_kinks(); }
   FormulaKinks kinks() const { return FormulaKinks(parameters_.force); }
-  void         structure(double u, const double *sides, double &K, double &D) const;
+  void         derivatives_at(double u, const double *sides, double &K, double &D) const;
   void         extreme(bool largest, double u, double &K, double &D) const;
 
   Parameters parameters_;

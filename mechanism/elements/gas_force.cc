@@ -27,11 +27,10 @@ GasForce::GasForce(const Parameters &parameters) : parameters_(parameters)
           "initial_pressure [Pa]", d.initial_pressure, "between the pressures of suction and delivery");
 }
 
-void GasForce::stiffest(const double *, double *K, double *D) const
+void GasForce::stiffest(const double *, double *K, double *) const
 {
   const auto &d = parameters_;
   *K            = d.valves ? d.area * d.area * d.exponent * d.valves->delivery / d.clearance_volume : 0.;
-  *D            = 0.;
 }
 
 void GasForce::start(const LocalMotion &motion, double *history) const

@@ -27,7 +27,7 @@ namespace gestell::mechanism
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1 (compressor forces); any textbook of reciprocating
  * compressors.
  */
-class GasForce : public DifferentiableElement<GasForce, 1>
+class GasForce : public DifferentiableElement<GasForce, 1, Branches, Structure>
 {
 public:
   struct Valves

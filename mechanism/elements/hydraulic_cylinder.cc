@@ -28,12 +28,10 @@ HydraulicCylinder::HydraulicCylinder(const Parameters &parameters) : parameters_
     require(std::abs(level) <= 1., name, "opening of the valve", level, "from -1 to 1");
 }
 
-void HydraulicCylinder::engaged(const double *u, double *K, double *D) const
+void HydraulicCylinder::engaged(const double *u, double *K, double *) const
 {
   const auto  &P   = parameters_;
   const double L_a = P.volume_a / P.area_a, L_b = P.volume_b / P.area_b;
-  std::fill_n(K, 9, 0.);
-  std::fill_n(D, 9, 0.);
   const double x = u[0] - P.zero;
   K[0]           = P.bulk_modulus * (P.area_a / (L_a + x) + P.area_b / (L_b - x));
 }

@@ -32,7 +32,7 @@ namespace gestell::mechanism
  *
  * Source: H. Murrenhoff, Fundamentals of Fluid Power, Part 1: Hydraulics; docs/theory/position_functions.md (5).
  */
-class HydraulicCylinder : public DifferentiableElement<HydraulicCylinder, 3>
+class HydraulicCylinder : public DifferentiableElement<HydraulicCylinder, 3, Branches, Structure, Commands>
 {
 public:
   enum class Control
@@ -114,7 +114,7 @@ public:
   void               transition(int i, const LocalMotion &motion, double *history) const override;
 
   bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
   void                     check_order(const SwitchCommand &order) const override;
 
   std::vector<Quantity> quantities() const override;

@@ -35,14 +35,12 @@ void JournalBearing::start(const LocalMotion &motion, double *history) const
 }
 
 /// Pressed along the eccentricity; across it the contact gives way.
-void JournalBearing::engaged(const double *u, double *K, double *D) const
+void JournalBearing::engaged(const double *u, double *K, double *) const
 {
   constexpr double at_rest[3] = {};
   const Polar      polar({0., u, at_rest, nullptr});
   double           k, d;
   normal_.engaged(&polar.r, &k, &d);
-  std::fill_n(K, 9, 0.);
-  std::fill_n(D, 9, 0.);
   const double n[] = {polar.n1, polar.n2};
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i)

@@ -22,7 +22,7 @@ namespace gestell::mechanism
  * Source: P. Flores, J. Ambrosio, J. C. P. Claro, H. M. Lankarani, Kinematics and Dynamics of Multibody Systems with
  * Imperfect Joints, Springer 2008, chapter 3; docs/theory/contact.md (1).
  */
-class JournalBearing : public DifferentiableElement<JournalBearing, 3>
+class JournalBearing : public DifferentiableElement<JournalBearing, 3, Branches, Structure>
 {
 public:
   struct Parameters
@@ -63,7 +63,7 @@ public:
   int  n_history() const override { return normal_.n_history(); }
   void start(const LocalMotion &motion, double *history) const override;
   void engaged(const double *u, double *K, double *D) const override;
-  void open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  void open_branch(const double *, double *, double *) const override {}
   bool stiffens() const override { return normal_.stiffens(); }
 
   double             stored_energy(const LocalMotion &motion, const double *history) const override;

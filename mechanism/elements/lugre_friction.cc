@@ -22,8 +22,6 @@ LuGreFriction::LuGreFriction(const Parameters &parameters)
 
 void LuGreFriction::stiffest(const double *, double *K, double *D) const
 {
-  std::fill_n(K, 4, 0.);
-  std::fill_n(D, 4, 0.);
   if (parameters_.load)
     return;
   K[0] = parameters_.bristle_stiffness;

@@ -27,7 +27,7 @@ namespace gestell::mechanism
  *
  * Source: C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
  */
-class LuGreFriction : public DifferentiableElement<LuGreFriction, 2>
+class LuGreFriction : public DifferentiableElement<LuGreFriction, 2, Branches, Structure>
 {
 public:
   struct Parameters

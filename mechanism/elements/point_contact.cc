@@ -13,12 +13,10 @@ PointContact::PointContact(const Parameters &parameters) : normal_(parameters.no
   friction_.check("contact");
 }
 
-void PointContact::engaged(const double *u, double *K, double *D) const
+void PointContact::engaged(const double *u, double *K, double *) const
 {
   double k, d;
   normal_.engaged(u, &k, &d);
-  std::fill_n(K, 9, 0.);
-  std::fill_n(D, 9, 0.);
   K[0] = k;
 }
 

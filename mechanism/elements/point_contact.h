@@ -17,7 +17,7 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/contact.md (2).
  */
-class PointContact : public DifferentiableElement<PointContact, 3>
+class PointContact : public DifferentiableElement<PointContact, 3, Branches, Structure>
 {
 public:
   struct Parameters
@@ -46,7 +46,7 @@ public:
   int  n_history() const override { return normal_.n_history(); }
   void start(const LocalMotion &motion, double *history) const override { normal_.start(motion, history); }
   void engaged(const double *u, double *K, double *D) const override;
-  void open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  void open_branch(const double *, double *, double *) const override {}
   bool stiffens() const override { return normal_.stiffens(); }
 
   double             stored_energy(const LocalMotion &motion, const double *history) const override;

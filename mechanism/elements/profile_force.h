@@ -11,7 +11,7 @@ namespace gestell::mechanism
  *
  * +F acts on the measure u [m or rad].  Corners of the course are events.  Its work counts as input.
  */
-class ProfileForce : public DifferentiableElement<ProfileForce, 1>
+class ProfileForce : public DifferentiableElement<ProfileForce, 1, Branches, Commands>
 {
 public:
   explicit ProfileForce(const CommandedProfile &course) : course_(course) {}
@@ -31,7 +31,7 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
   bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 

@@ -22,12 +22,6 @@ void Rope::engaged(const double *, double *K, double *D) const
   D[0] = parameters_.damping;
 }
 
-void Rope::start(const LocalMotion &motion, double *history) const
-{
-  const double d = motion.u[0] - parameters_.slack;
-  history[0]     = d > 0. && parameters_.stiffness * d + parameters_.damping * motion.v[0] > 0. ? 1. : 0.;
-}
-
 double Rope::stored_energy(const LocalMotion &motion, const double *) const
 {
   const double d = std::max(0., motion.u[0] - parameters_.slack);
@@ -39,24 +33,12 @@ double Rope::stored_power(const LocalMotion &motion, const double *) const
   return parameters_.stiffness * std::max(0., motion.u[0] - parameters_.slack) * motion.v[0];
 }
 
-std::vector<Guard> Rope::guards(const double *history) const
-{
-  if (history[0] != 0.)
-    return {{"slack", Crossing::falling}};
-  return {{"taut", Crossing::rising}};
-}
-
 void Rope::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   const auto &[c, b, slack] = parameters_;
   const double d            = motion.u[0] - slack;
   const double pull         = d + b / c * motion.v[0]; // F/c
-  g[0]                      = history[0] != 0. ? pull : std::min(d, pull);
-}
-
-void Rope::transition(int, const LocalMotion &, double *history) const
-{
-  history[0] = 1. - history[0];
+  g[0]                      = is_closed(history) ? pull : std::min(d, pull);
 }
 
 std::vector<Quantity> Rope::quantities() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/elements/one_sided_contact.h"
 
 namespace gestell::mechanism
 {
@@ -15,7 +16,7 @@ namespace gestell::mechanism
  * A rope that contracts faster than it can follow is slack before d = 0.  With b > 0 the force sets in with a jump.
  * Events "taut" and "slack".  Stored is c d^2/2 while d > 0, the rest is dissipated.
  */
-class Rope : public DifferentiableElement<Rope, 1>
+class Rope : public DifferentiableElement<Rope, 1, OneSidedContact, Structure>
 {
 public:
   struct Parameters
@@ -32,26 +33,27 @@ public:
   {
     const auto &[c, b, slack] = parameters_;
     const Number F            = c * (m.u[0] - slack) + b * m.v[0];
-    const bool   taut         = m.by_history ? history[0] != 0. : value(m.u[0]) > slack && value(F) > 0.;
+    const bool   taut         = m.by_history ? is_closed(history) : closes(value(m.u[0]), value(m.v[0]));
     p[0]                      = taut ? Number(-F) : Number(0.);
   }
 
   void engaged(const double *u, double *K, double *D) const override;
-  void open_branch(const double *, double *K, double *D) const override { no_structure(K, D); }
+  void open_branch(const double *, double *, double *) const override {}
 
-  /// history: 1 taut, 0 slack.
-  int                   n_history() const override { return 1; }
-  void                  start(const LocalMotion &motion, double *history) const override;
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
   double                stored_power(const LocalMotion &motion, const double *history) const override;
-  int                   n_guards(const double *) const override { return 1; }
-  std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
+  std::string event(bool closing) const final { return closing ? "taut" : "slack"; }
+  bool        closes(double u, double v) const final
+  {
+    const double d = u - parameters_.slack;
+    return d > 0. && parameters_.stiffness * d + parameters_.damping * v > 0.;
+  }
+
   Parameters parameters_;
 };
 

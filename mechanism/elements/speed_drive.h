@@ -24,7 +24,7 @@ namespace gestell::mechanism
  *
  * Source: K. J. Astrom, T. Hagglund, PID Controllers, 2nd ed. 1995 (automatic reset, windup).
  */
-class SpeedDrive : public DifferentiableElement<SpeedDrive, 2>
+class SpeedDrive : public DifferentiableElement<SpeedDrive, 2, Branches, Commands>
 {
 public:
   struct Parameters
@@ -59,7 +59,7 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
   bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 

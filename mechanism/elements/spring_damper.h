@@ -12,7 +12,7 @@ namespace gestell::mechanism
  *
  * Between places that move along a constant direction the linear base system takes them instead.
  */
-class SpringDamper : public DifferentiableElement<SpringDamper, 1>
+class SpringDamper : public DifferentiableElement<SpringDamper, 1, Structure>
 {
 public:
   struct Parameters

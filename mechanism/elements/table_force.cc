@@ -67,7 +67,6 @@ double TableForce::abscissa(const LocalMotion &motion) const
 
 void TableForce::stiffest(const double *, double *K, double *D) const
 {
-  *K = *D = 0.;
   if (against_ != Against::time)
     for (const Segment &s : segments_)
     {

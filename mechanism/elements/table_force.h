@@ -19,7 +19,7 @@ namespace gestell::mechanism
  * rate its work counts as input, negative where it brakes.  A jump over the rate by which the force falls, like that of
  * dry friction, holds the rate where it is and chatters: CoulombFriction sticks.
  */
-class TableForce : public DifferentiableElement<TableForce, 1>
+class TableForce : public DifferentiableElement<TableForce, 1, Branches, Structure>
 {
 public:
   enum class Against

@@ -13,11 +13,6 @@ Wheel::Wheel(const Parameters &parameters) : parameters_(parameters)
   require(parameters.damping >= 0., "wheel", "damping [N s/m]", parameters.damping, "zero or positive");
 }
 
-void Wheel::start(const LocalMotion &motion, double *history) const
-{
-  history[0] = motion.u[0] <= 0. && force_in_contact(motion) >= 0. ? 1. : 0.;
-}
-
 void Wheel::engaged(const double *, double *K, double *D) const
 {
   K[0] = parameters_.stiffness;
@@ -28,8 +23,6 @@ void Wheel::open_branch(const double *u, double *K, double *D) const
 {
   if (parameters_.bilateral)
     engaged(u, K, D);
-  else
-    no_structure(K, D);
 }
 
 double Wheel::stored_energy(const LocalMotion &motion, const double *) const
@@ -49,26 +42,10 @@ double Wheel::deflection(const LocalMotion &motion) const
   return parameters_.bilateral ? motion.u[0] : std::min(0., motion.u[0]);
 }
 
-std::vector<Guard> Wheel::guards(const double *history) const
-{
-  if (parameters_.bilateral)
-    return {};
-  if (history[0] != 0.)
-    return {{"lift_off", Crossing::falling}};
-  return {{"touch_down", Crossing::rising}};
-}
-
 void Wheel::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  if (parameters_.bilateral)
-    return;
-  const double force = force_in_contact(motion) / parameters_.stiffness; // as a length, like u
-  g[0]               = history[0] != 0. ? force : std::min(force, -motion.u[0]);
-}
-
-void Wheel::transition(int, const LocalMotion &, double *history) const
-{
-  history[0] = 1. - history[0];
+  const double force = force_in_contact(motion.u[0], motion.v[0]) / parameters_.stiffness; // as a length, like u
+  g[0]               = is_closed(history) ? force : std::min(force, -motion.u[0]);
 }
 
 std::vector<Quantity> Wheel::quantities() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
+#include "mechanism/elements/one_sided_contact.h"
 
 namespace gestell::mechanism
 {
@@ -17,7 +18,7 @@ namespace gestell::mechanism
  *
  * Source: reference model of the mobile crane, sections 3 and 4; docs/theory/elements.md.
  */
-class Wheel : public DifferentiableElement<Wheel, 1>
+class Wheel : public DifferentiableElement<Wheel, 1, OneSidedContact, Structure>
 {
 public:
   struct Parameters
@@ -35,32 +36,26 @@ public:
   {
     const Number u = -m.u[0], force = parameters_.stiffness * u - parameters_.damping * m.v[0];
     const bool   stands =
-        parameters_.bilateral || (m.by_history ? history[0] != 0. : value(u) >= 0. && value(force) >= 0.);
+        parameters_.bilateral || (m.by_history ? is_closed(history) : closes(value(m.u[0]), value(m.v[0])));
     p[0] = stands ? force : Number(0. * force);
   }
 
-  /// history: 1 in contact, 0 free.
-  int    n_history() const override { return 1; }
-  void   start(const LocalMotion &motion, double *history) const override;
+  const Branches *branches() const override { return parameters_.bilateral ? nullptr : this; }
+
   void   engaged(const double *u, double *K, double *D) const override;
   void   open_branch(const double *u, double *K, double *D) const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   double stored_power(const LocalMotion &motion, const double *history) const override;
-
-  int                n_guards(const double *) const override { return parameters_.bilateral ? 0 : 1; }
-  std::vector<Guard> guards(const double *history) const override;
-  void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  void               transition(int i, const LocalMotion &motion, double *history) const override;
+  void   guard_values(const LocalMotion &motion, const double *history, double *g) const override;
 
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
   double deflection(const LocalMotion &motion) const;
-  double force_in_contact(const LocalMotion &motion) const
-  {
-    return -parameters_.stiffness * motion.u[0] - parameters_.damping * motion.v[0];
-  }
+  double force_in_contact(double u, double v) const { return -parameters_.stiffness * u - parameters_.damping * v; }
+  std::string event(bool closing) const final { return closing ? "touch_down" : "lift_off"; }
+  bool        closes(double u, double v) const final { return u <= 0. && force_in_contact(u, v) >= 0.; }
 
   Parameters parameters_;
 };

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/branches.h"
 #include "mechanism/functions/position_function.h"
 #include "mechanism/functions/profile.h"
+#include "mechanism/switch_command.h"
 
 #include <optional>
 
@@ -18,7 +19,7 @@ namespace gestell::mechanism
  * whatever the rate was before.
  *
  * Where it stands is history [n_history()] of the element that follows it; ends of its pieces are guards, as those of a
- * ForceElement: "next_segment", or the kinks of the formula.
+ * Branches: "next_segment", or the kinks of the formula.
  */
 class CommandedProfile
 {

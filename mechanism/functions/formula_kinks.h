@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/branches.h"
 #include "mechanism/functions/formula.h"
 
 #include <string>

@@ -106,7 +106,6 @@ void CompliantJoint::geometric(const LocalMotion &motion, const double *, double
 {
   Seen seen;
   see(motion.u, motion.v, seen);
-  std::fill(K, K + n_measures() * n_measures(), 0.);
   for (int i = 0; i < n_equations(); ++i)
     PlacedMeasure{first_, second_, equations_[i].demand.measure}.add_curvature(motion.u, -seen.lambda[i], K);
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/force_law.h"
 #include "mechanism/joints/ideal_joint.h"
 #include "mechanism/measures/relative_measure.h"
+#include "mechanism/structure.h"
 
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/joints.md (11).
  */
-class CompliantJoint : public ForceElement
+class CompliantJoint : public ForceLaw, public Structure
 {
 public:
   /// What an ideal joint would demand of a measure, and what keeps it there.
@@ -44,8 +45,10 @@ public:
                double *dp) const override;
   void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                    double *dp_dv) const override;
-  void engaged(const double *u, double *K, double *D) const override;
-  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
+
+  const Structure *structure() const override { return this; }
+  void             engaged(const double *u, double *K, double *D) const override;
+  void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
 
   double size_of_terms() const override { return first_.size() + second_.size(); }
   double stored_energy(const LocalMotion &motion, const double *history) const override;

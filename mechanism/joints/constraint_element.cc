@@ -2,24 +2,11 @@
 
 #include "mechanism/functions/slope_jump.h"
 
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
 namespace gestell::mechanism
 {
-
-void ConstraintElement::force(const LocalMotion &, const double *, double *p) const
-{
-  std::fill(p, p + n_measures(), 0.);
-}
-
-void ConstraintElement::tangent(const LocalMotion &motion, const double *history, const TangentWeights &, double *p,
-                                double *dp) const
-{
-  force(motion, history, p);
-  std::fill(dp, dp + n_measures() * n_measures(), 0.);
-}
 
 void ConstraintElement::start(const LocalMotion &motion, double *history) const
 {
@@ -45,8 +32,6 @@ void ConstraintElement::transition(int i, const LocalMotion &motion, double *his
 
 bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
-  if (!law_)
-    return false;
   const double before = law_->at(motion.t, history).rate;
   if (!law_->command(order, motion.t, history))
     return false;
@@ -58,12 +43,6 @@ bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &m
     throw std::domain_error(message.str());
   }
   return true;
-}
-
-void ConstraintElement::check_order(const SwitchCommand &order) const
-{
-  if (law_)
-    law_->check_order(order);
 }
 
 } // namespace gestell::mechanism

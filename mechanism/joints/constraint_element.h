@@ -1,7 +1,10 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/branches.h"
+#include "mechanism/commands.h"
+#include "mechanism/constraint.h"
 #include "mechanism/joints/motion_law.h"
+#include "mechanism/structure.h"
 
 #include <memory>
 #include <string>
@@ -11,20 +14,20 @@ namespace gestell::mechanism
 {
 
 /**
- * What ideal joints have in common: their force p = G^T lambda is the system's, and if a MotionLaw drives them,
- * history, corners and orders are those of the law and their work is an input.
+ * What ideal joints have in common: if a MotionLaw drives them, history, corners and orders are those of the law and
+ * their work is an input.
  */
-class ConstraintElement : public ForceElement
+class ConstraintElement : public Constraint, public Branches, public Structure, public Commands
 {
 public:
-  void force(const LocalMotion &motion, const double *history, double *p) const final;
-  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
-               double *dp) const final;
-
   /// s(u) of the equation that follows the law; 0 if none does.
   virtual double driven_value(const double *u) const { return (void)u, 0.; }
 
   Work work() const override { return law_ ? Work::input : Work::dissipated; }
+
+  const Branches  *branches() const override { return law_ ? this : nullptr; }
+  const Structure *structure() const override { return this; } ///< geometric
+  const Commands  *commands() const override { return law_ ? this : nullptr; }
 
   int                n_history() const override { return law_ ? law_->n_history() : 0; }
   void               start(const LocalMotion &motion, double *history) const override;
@@ -33,8 +36,8 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
   bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> commands() const override { return law_ ? law_->commands() : std::vector<std::string>{}; }
-  void                     check_order(const SwitchCommand &order) const override;
+  std::vector<std::string> command_names() const override { return law_->commands(); }
+  void                     check_order(const SwitchCommand &order) const override { law_->check_order(order); }
 
 protected:
   explicit ConstraintElement(std::shared_ptr<const MotionLaw> law) : law_(std::move(law)) {}

@@ -84,7 +84,6 @@ double IdealJoint::size_of_terms() const
 
 void IdealJoint::geometric(const LocalMotion &motion, const double *, double *K) const
 {
-  std::fill(K, K + n_measures() * n_measures(), 0.);
   for (int i = 0; motion.lambda && i < n_constraints(); ++i)
     PlacedMeasure{first_, second_, equations_[i].measure}.add_curvature(motion.u, -motion.lambda[i], K);
 }

@@ -63,7 +63,6 @@ double MeasureJoint::size_of_terms() const
 
 void MeasureJoint::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
-  std::fill(K, K + n_measures() * n_measures(), 0.);
   if (motion.lambda)
     measure().add_curvature(motion.u, -*motion.lambda, K, of_function(motion, history));
 }

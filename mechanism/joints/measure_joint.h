@@ -42,6 +42,7 @@ public:
   std::string constraint_name(int) const override { return parameters_.name; }
   void        geometric(const LocalMotion &motion, const double *history, double *K) const override;
 
+  const Branches *branches() const override { return is_driven() || measure().n_guards() > 0 ? this : nullptr; }
   /// history: that of the law, then that of the position function.
   int  n_history() const override { return ConstraintElement::n_history() + measure().n_history(); }
   void start(const LocalMotion &motion, double *history) const override;

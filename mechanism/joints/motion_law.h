@@ -17,7 +17,7 @@ struct PrescribedMotion
 
 /**
  * A prescribed motion, smooth between corners.  Where it stands (which stage, since when, from where) is history, as
- * that of a ForceElement: corners and commands lead from one stage to the next.
+ * that of Branches: corners and commands lead from one stage to the next.
  */
 class MotionLaw
 {
@@ -28,7 +28,7 @@ public:
   virtual void             start(double t, double *history) const { (void)t, (void)history; }
   virtual PrescribedMotion at(double t, const double *history) const = 0;
 
-  /// Corners are guards, as those of a ForceElement.
+  /// Corners are guards, as those of Branches.
   virtual int                n_guards(const double *history) const { return (void)history, 0; }
   virtual std::vector<Guard> guards(const double *history) const { return (void)history, std::vector<Guard>{}; }
   virtual void guard_values(double t, const double *history, double *g) const { (void)t, (void)history, (void)g; }

@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-
 namespace gestell::mechanism
 {
 
@@ -56,7 +54,6 @@ void OrthonormalDirectors::constraint_rates(const LocalMotion &motion, const dou
 void OrthonormalDirectors::geometric(const LocalMotion &motion, const double *, double *K) const
 {
   Eigen::Map<Eigen::Matrix<double, 9, 9>> stiffness(K);
-  stiffness.setZero();
   for (int r = 0; motion.lambda && r < 6; ++r)
   {
     const auto [i, j, factor] = products[r];
@@ -69,19 +66,6 @@ std::string OrthonormalDirectors::constraint_name(int i) const
 {
   static const char *const names[] = {"length 1", "length 2", "length 3", "angle 23", "angle 31", "angle 12"};
   return names[i];
-}
-
-/// The force p = G^T lambda is the system's.
-void OrthonormalDirectors::force(const LocalMotion &, const double *, double *p) const
-{
-  std::fill(p, p + n_directors, 0.);
-}
-
-void OrthonormalDirectors::tangent(const LocalMotion &motion, const double *history, const TangentWeights &, double *p,
-                                   double *dp) const
-{
-  force(motion, history, p);
-  std::fill(dp, dp + n_directors * n_directors, 0.);
 }
 
 Vector3d OrthonormalDirectors::angular_velocity(const double *u, const double *v)

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/constraint.h"
+#include "mechanism/structure.h"
 
 #include <Eigen/Core>
 
@@ -19,21 +20,19 @@ namespace gestell::mechanism
  *
  * Source: docs/theory/joints.md (7).
  */
-class OrthonormalDirectors : public ForceElement
+class OrthonormalDirectors : public Constraint, public Structure
 {
 public:
   static constexpr int n_directors = 9; ///< measures
 
   int  n_measures() const override { return n_directors; }
   int  n_constraints() const override { return 6; }
-  void force(const LocalMotion &motion, const double *history, double *p) const override;
-  void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
-               double *dp) const override;
-
   void constraint(const LocalMotion &motion, const double *history, double *g, double *G) const override;
   void constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const override;
-  void geometric(const LocalMotion &motion, const double *history, double *K) const override;
-  std::string constraint_name(int i) const override;
+
+  const Structure *structure() const override { return this; }
+  void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  std::string      constraint_name(int i) const override;
 
   bool                  needs_multipliers(int) const override { return false; }
   std::vector<Quantity> quantities() const override;

@@ -114,7 +114,7 @@ public:
   double quantity(int, const gestell::mechanism::LocalMotion &, const double *) const override { return 0.; }
 };
 
-void force_of(benchmark::State &state, const gestell::mechanism::ForceElement &element)
+void force_of(benchmark::State &state, const gestell::mechanism::ForceLaw &element)
 {
   double t = 0.3, u = 0.01, v = 0.2, a = 0., p;
   for (auto _ : state)
@@ -126,7 +126,7 @@ void force_of(benchmark::State &state, const gestell::mechanism::ForceElement &e
   }
 }
 
-void tangent_of(benchmark::State &state, const gestell::mechanism::ForceElement &element)
+void tangent_of(benchmark::State &state, const gestell::mechanism::ForceLaw &element)
 {
   double t = 0.3, u = 0.01, v = 0.2, a = 0., p, dp;
   for (auto _ : state)

@@ -69,12 +69,12 @@ Probe sheet_probe(double z, double v, double a = 0.)
 /// A motion at a switching point, on its way through it.
 struct Switch
 {
-  std::string                   name;
-  std::shared_ptr<ForceElement> element;
-  Eigen::VectorXd               history; ///< of the branch before
-  Probe                         probe;
-  int                           guard;
-  std::string                   kind;
+  std::string               name;
+  std::shared_ptr<ForceLaw> element;
+  Eigen::VectorXd           history; ///< of the branch before
+  Probe                     probe;
+  int                       guard;
+  std::string               kind;
 };
 
 std::ostream &operator<<(std::ostream &out, const Switch &s)
@@ -92,7 +92,7 @@ std::vector<Switch> switches()
   const auto conrod  = std::make_shared<ConnectingRod>(rod);
   const auto contact = std::make_shared<Clearance>(play);
   const auto cut     = std::make_shared<CuttingForce>(tool);
-  const auto loaded  = [&](const ForceElement &e, const Probe &p) { return started(e, p); };
+  const auto loaded  = [&](const ForceLaw &e, const Probe &p) { return started(e, p); };
 
   std::vector<Switch> all = {
       {"rod_opens", conrod, loaded(*conrod, rod_probe(1e-4, 0.)), rod_probe(0., -0.2), 0, "conrod_open"},
@@ -194,16 +194,17 @@ TEST_P(Branches, GuardsCrossZeroAtTheSwitchingPointAndTheNextOnesAreOpenBehindIt
 {
   const Switch   &s       = GetParam();
   Eigen::VectorXd history = s.history;
-  ASSERT_EQ(s.element->guards(history.data())[s.guard].kind, s.kind);
+  ASSERT_EQ(s.element->branches()->guards(history.data())[s.guard].kind, s.kind);
   EXPECT_LT(past(*s.element, s.guard, s.probe.moved(-dt), history.data()), 0.);
   EXPECT_GT(past(*s.element, s.guard, s.probe.moved(dt), history.data()), 0.);
   EXPECT_NEAR(past(*s.element, s.guard, s.probe, history.data()), 0., 1e-15);
 
-  s.element->transition(s.guard, s.probe.motion(true), history.data());
-  for (int i = 0; i < s.element->n_guards(history.data()); ++i)
+  s.element->branches()->transition(s.guard, s.probe.motion(true), history.data());
+  for (int i = 0; i < s.element->branches()->n_guards(history.data()); ++i)
   {
     EXPECT_LE(past(*s.element, i, s.probe, history.data()), 1e-15);
-    EXPECT_LT(past(*s.element, i, s.probe.moved(dt), history.data()), 0.) << s.element->guards(history.data())[i].kind;
+    EXPECT_LT(past(*s.element, i, s.probe.moved(dt), history.data()), 0.)
+        << s.element->branches()->guards(history.data())[i].kind;
   }
 }
 
@@ -214,7 +215,7 @@ TEST_P(Branches, ForceAndEnergyDoNotJumpAtATransition)
   const auto      motion  = s.probe.motion(true);
   const auto      before  = force(*s.element, s.probe, history.data(), true);
   const double    energy  = s.element->stored_energy(motion, history.data());
-  s.element->transition(s.guard, motion, history.data());
+  s.element->branches()->transition(s.guard, motion, history.data());
   // The switching point is exact to the rounding of u, 3e-17 m, with stiffnesses up to 9e9 N/m; F_max = 1e6 N.
   EXPECT_LT((force(*s.element, s.probe, history.data(), true) - before).norm(), 1e-6);
   EXPECT_NEAR(s.element->stored_energy(motion, history.data()), energy, 1e-12 * (1. + std::abs(energy))); // F du
@@ -227,7 +228,7 @@ TEST_P(Branches, LawOfABranchIsSmoothAcrossItsSwitchingPoints)
   const Switch   &s     = GetParam();
   const int       k     = s.element->n_measures();
   Eigen::VectorXd after = s.history;
-  s.element->transition(s.guard, s.probe.motion(true), after.data());
+  s.element->branches()->transition(s.guard, s.probe.motion(true), after.data());
   for (const Eigen::VectorXd &history : {s.history, after})
   {
     const auto slopes = [&](double time)
@@ -368,7 +369,7 @@ TEST(Continuation, ByTangentsIsSmoothWhereItBegins)
   const ConnectingRod conrod(rod);
   const CuttingForce  cut(tool);
   const double        in_contact = 1., compressed = started(conrod, rod_probe(1e-4, 0.))[0], d = 1e-10;
-  const auto          slope = [](const ForceElement &element, const Probe &probe, const double *history)
+  const auto          slope = [](const ForceLaw &element, const Probe &probe, const double *history)
   {
     Eigen::VectorXd p(3);
     Eigen::MatrixXd du(3, 3), dv(3, 3);

@@ -1,5 +1,6 @@
 // Forces of a compliant joint against difference quotients, and the work they do.
 
+#include "mechanism/facets.h"
 #include "mechanism/joints/compliant_joint.h"
 
 #include <Eigen/Geometry>
@@ -99,7 +100,7 @@ TEST(CompliantJoint, TangentAndGeometricStiffnessAreTheDerivativeOfTheForce)
         VectorXd  p(n);
         MatrixXd  dp(n, n), geometric(n, n), dp_du(n, n), dp_dv(n, n), K(n, n), D(n, n);
         joint.tangent(motion.local(), nullptr, {1., 0., 0.}, p.data(), dp.data());
-        joint.geometric(motion.local(), nullptr, geometric.data());
+        mechanism::geometric(joint, motion.local(), nullptr, geometric.data());
         joint.derivatives(motion.local(), nullptr, p.data(), dp_du.data(), dp_dv.data());
         joint.engaged(motion.u.data(), K.data(), D.data());
         const MatrixXd whole = dp - geometric;

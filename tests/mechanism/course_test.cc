@@ -155,7 +155,7 @@ TEST(SwitchedElement, BeginsWithAnEmptyStore)
   element.command({"off"}, loose.motion(), history.data());
   EXPECT_EQ(element.stored_energy(loose.motion(), history.data()), -1.); // nothing is dissipated then
   double K, D;
-  element.engaged(tight.u.data(), &K, &D);
+  engaged(element, tight.u.data(), &K, &D);
   EXPECT_EQ(K, 0.); // modes are those of the machine as it begins
 }
 
@@ -176,7 +176,7 @@ TEST(SwitchedElement, HoldsNothingWhileItIsOff)
   EXPECT_FALSE(element.holds(history.data(), rate));
   EXPECT_THROW(element.check_order({"set", 1.5}), std::invalid_argument);
   const std::vector<std::string> orders = {"on", "off", "start", "hold", "set", "brake"};
-  EXPECT_EQ(element.commands(), orders);
+  EXPECT_EQ(element.command_names(), orders);
 }
 
 } // namespace

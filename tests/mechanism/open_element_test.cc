@@ -20,9 +20,9 @@ namespace
 
 struct Open
 {
-  std::string                   name;
-  std::shared_ptr<ForceElement> element;
-  Probe                         probe; ///< in the open branch
+  std::string               name;
+  std::shared_ptr<ForceLaw> element;
+  Probe                     probe; ///< in the open branch
 };
 
 std::vector<Open> open_elements()
@@ -54,8 +54,8 @@ TEST(OpenElement, IsWhatItsLawIsInItsOpenBranch)
     Eigen::VectorXd       p(k);
     Eigen::MatrixXd       du(k, k), dv(k, k), K(k, k), D(k, k), K_engaged(k, k), D_engaged(k, k);
     element->derivatives(probe.motion(), history.data(), p.data(), du.data(), dv.data());
-    element->open_branch(probe.u.data(), K.data(), D.data());
-    element->engaged(probe.u.data(), K_engaged.data(), D_engaged.data());
+    mechanism::open_branch(*element, probe.u.data(), K.data(), D.data());
+    mechanism::engaged(*element, probe.u.data(), K_engaged.data(), D_engaged.data());
     // Geometric stiffness of the oil film's force is no part of K.
     EXPECT_TRUE(K.isZero(0.)) << name;
     EXPECT_LE((D + dv).norm(), 1e-12 * dv.norm()) << name;

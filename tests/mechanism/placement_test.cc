@@ -1,5 +1,6 @@
 // How points and directions of bodies follow their measures, against difference quotients.
 
+#include "mechanism/facets.h"
 #include "mechanism/joints/orthonormal_directors.h"
 #include "mechanism/measures/relative_measure.h"
 
@@ -250,7 +251,7 @@ TEST(OrthonormalDirectors, DerivativesAreThoseOfTheEquations)
   directors.constraint({0., u.data(), v.data(), nullptr}, nullptr, g, G);
   mechanism::LocalMotion motion{0., u.data(), v.data(), nullptr};
   motion.lambda = lambda.data();
-  directors.geometric(motion, nullptr, K);
+  mechanism::geometric(directors, motion, nullptr, K);
   for (int k = 0; k < 9; ++k)
   {
     double         G_plus[54], G_minus[54];

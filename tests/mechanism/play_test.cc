@@ -154,7 +154,7 @@ TEST(TransmittedJournal, TangentAndGeometricStiffnessAreTheDerivative)
     Eigen::VectorXd p(6);
     Eigen::MatrixXd of_u(6, 6), of_v(6, 6), K(6, 6);
     element.derivatives(probe.motion(), &history, p.data(), of_u.data(), of_v.data());
-    element.geometric(probe.motion(), &history, K.data());
+    geometric(element, probe.motion(), &history, K.data());
     for (int j = 0; j < 6; ++j)
       for (const bool rate : {false, true})
       {

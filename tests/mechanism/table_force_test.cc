@@ -106,13 +106,13 @@ TEST(TableForce, TellsItsSteepestResistance)
 {
   const double u = 0.;
   double       K, D;
-  table(Against::displacement).stiffest(&u, &K, &D);
+  stiffest(table(Against::displacement), &u, &K, &D);
   EXPECT_DOUBLE_EQ(K, 100.);
   EXPECT_EQ(D, 0.);
-  table(Against::rate).stiffest(&u, &K, &D);
+  stiffest(table(Against::rate), &u, &K, &D);
   EXPECT_EQ(K, 0.);
   EXPECT_DOUBLE_EQ(D, 100.);
-  table(Against::time).stiffest(&u, &K, &D);
+  stiffest(table(Against::time), &u, &K, &D);
   EXPECT_EQ(K + D, 0.);
 }
 

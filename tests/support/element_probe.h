@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 
 #include <Eigen/Core>
 
@@ -27,7 +27,7 @@ inline Probe probe1(double u, double v, double a = 0.)
   return {0.3, Eigen::VectorXd::Constant(1, u), Eigen::VectorXd::Constant(1, v), Eigen::VectorXd::Constant(1, a)};
 }
 
-inline Eigen::VectorXd force(const mechanism::ForceElement &element, const Probe &probe, const double *history,
+inline Eigen::VectorXd force(const mechanism::ForceLaw &element, const Probe &probe, const double *history,
                              bool by_history = false)
 {
   Eigen::VectorXd p(element.n_measures());
@@ -37,21 +37,20 @@ inline Eigen::VectorXd force(const mechanism::ForceElement &element, const Probe
 
 /// Value of a guard, turned so that it is open while negative and due when it has become positive.  p: force of a
 /// branch that holds.
-inline double past(const mechanism::ForceElement &element, int guard, const Probe &probe, const double *history,
+inline double past(const mechanism::Element &element, int guard, const Probe &probe, const double *history,
                    const double *p = nullptr)
 {
-  const auto      guards = element.guards(history);
+  const auto      guards = element.branches()->guards(history);
   Eigen::VectorXd g(guards.size());
-  element.guard_values(probe.motion(true, p), history, g.data());
+  element.branches()->guard_values(probe.motion(true, p), history, g.data());
   return guards[guard].crossing == mechanism::Crossing::rising ? g[guard] : -g[guard];
 }
 
 /// History of a motion that starts at the probe.
-inline Eigen::VectorXd started(const mechanism::ForceElement &element, const Probe &probe)
+inline Eigen::VectorXd started(const mechanism::Element &element, const Probe &probe)
 {
-  Eigen::VectorXd history = Eigen::VectorXd::Zero(element.n_history() + 1);
-  element.start(probe.motion(), history.data());
-  return history;
+  const std::vector<double> history = mechanism::started(element, probe.motion());
+  return Eigen::Map<const Eigen::VectorXd>(history.data(), Eigen::Index(history.size()));
 }
 
 } // namespace gestell::tests

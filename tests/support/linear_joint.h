@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanism/force_element.h"
+#include "mechanism/facets.h"
 
 #include <utility>
 #include <vector>
@@ -9,7 +9,7 @@ namespace gestell::tests
 {
 
 /// An ideal joint sum g_i u_i = 0: gears on sliders.
-class LinearJoint final : public mechanism::ForceElement
+class LinearJoint final : public mechanism::Constraint
 {
 public:
   explicit LinearJoint(std::vector<double> ratios) : ratios_(std::move(ratios)) {}
@@ -25,11 +25,6 @@ public:
   void constraint_rates(const mechanism::LocalMotion &, const double *, double *rate, double *bias) const override
   {
     *rate = *bias = 0.;
-  }
-  void force(const mechanism::LocalMotion &, const double *, double *) const override {}
-  void tangent(const mechanism::LocalMotion &, const double *, const mechanism::TangentWeights &, double *,
-               double *) const override
-  {
   }
   std::vector<mechanism::Quantity> quantities() const override { return {}; }
   double quantity(int, const mechanism::LocalMotion &, const double *) const override { return 0.; }

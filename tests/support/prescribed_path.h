@@ -14,16 +14,16 @@
 namespace gestell::tests
 {
 
-using mechanism::ForceElement;
+using mechanism::ForceLaw;
 
 /// An element driven along a prescribed motion u(t), u'(t).
 struct Drive
 {
-  std::string                   name;
-  std::shared_ptr<ForceElement> element;
-  std::function<Probe(double)>  motion;
-  double                        end;
-  std::set<std::string>         kinds; ///< of all events on the way
+  std::string                  name;
+  std::shared_ptr<ForceLaw>    element;
+  std::function<Probe(double)> motion;
+  double                       end;
+  std::set<std::string>        kinds; ///< of all events on the way
 };
 
 inline std::ostream &operator<<(std::ostream &out, const Drive &d)
@@ -44,11 +44,12 @@ inline Probe swinging(double t, double offset, double slope, double amplitude, d
 /// motion, and so would their forces.
 inline void expect_guards_to_tell_every_branch(const Drive &drive)
 {
-  const ForceElement   &element = *drive.element;
-  constexpr int         steps   = 20000;
-  const double          h       = drive.end / steps;
-  Eigen::VectorXd       history = started(element, drive.motion(0.));
-  std::set<std::string> kinds;
+  const ForceLaw            &element  = *drive.element;
+  const mechanism::Branches &branches = *element.branches();
+  constexpr int              steps    = 20000;
+  const double               h        = drive.end / steps;
+  Eigen::VectorXd            history  = started(element, drive.motion(0.));
+  std::set<std::string>      kinds;
   for (int n = 0; n < steps; ++n)
   {
     double       from = n * h;
@@ -56,7 +57,7 @@ inline void expect_guards_to_tell_every_branch(const Drive &drive)
     for (bool again = true; again;)
     {
       again = false;
-      for (int i = 0; i < element.n_guards(history.data()) && !again; ++i)
+      for (int i = 0; i < branches.n_guards(history.data()) && !again; ++i)
       {
         const auto value = [&](double t) { return past(element, i, drive.motion(t), history.data()); };
         if (value(to) <= 0.)
@@ -67,14 +68,14 @@ inline void expect_guards_to_tell_every_branch(const Drive &drive)
           const double middle               = 0.5 * (open + due);
           (value(middle) < 0. ? open : due) = middle;
         }
-        kinds.insert(element.guards(history.data())[i].kind);
-        element.transition(i, drive.motion(due).motion(true), history.data());
+        kinds.insert(branches.guards(history.data())[i].kind);
+        branches.transition(i, drive.motion(due).motion(true), history.data());
         from  = due;
         again = true;
       }
     }
     const Probe probe = drive.motion(to);
-    element.accept(probe.motion(true), history.data());
+    branches.accept(probe.motion(true), history.data());
     const Eigen::VectorXd by_motion  = force(element, probe, history.data(), false);
     const Eigen::VectorXd by_history = force(element, probe, history.data(), true);
     // z_max is located to 1e-14 s, about the rounding of u: 1e-16 m times 9e9 N/m; the rest is equal but for rounding.

@@ -83,7 +83,7 @@ std::shared_ptr<const ProfileKeys> levels_of(const JointRequest &joint)
 /// Only what the element knows, so that the keys of other orders are not asked for.
 void check_known(const SceneTable &table, const ElementRequest &element, const std::string &order)
 {
-  const auto known = element.element->commands();
+  const auto known = command_names(*element.element);
   if (std::find(known.begin(), known.end(), order) == known.end())
     throw table.error("order", "'" + element.name + "' knows no order '" + order + "'; it obeys " + listed(known));
 }
@@ -122,7 +122,7 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
   }
   const bool switching = order == "on" || order == "off";
   for (const ElementRequest &element : scene.elements)
-    if (switching ? !element.fixed : knows(element.element->commands()))
+    if (switching ? !element.fixed : knows(command_names(*element.element)))
       obeying.push_back(element.name);
   for (const LoadRequest &load : scene.loads)
     if (switching || knows(mechanism::CommandedProfile::commands()))

@@ -171,13 +171,13 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names)
   return {difference(name, stator_of(table, names, *body), body->axis, true), true, ""};
 }
 
-void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                  const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags)
 {
   scene.elements.push_back({table.name(), std::move(element), measures, "", lags});
 }
 
-void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                     const RelativeMotion &motion, const std::vector<LagRequest> &lags)
 {
   ElementRequest request{table.name(), std::move(element), {}, motion.on, lags};

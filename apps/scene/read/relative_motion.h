@@ -56,14 +56,14 @@ RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
 RelativeMotion read_shaft(const SceneTable &table, const Names &names);
 
 /// Adds an element of one measure to the scene, with the virtual coordinates that follow it.
-void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                     const RelativeMotion &motion, const std::vector<LagRequest> &lags = {});
 /// The same motion without a measure, where that is one along or about constant directions; else as it is.
 RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names);
 /// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
 void refuse_measure(const SceneTable &table, const RelativeMotion &motion);
 /// Adds an element to the scene.
-void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceElement> element,
+void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                  const std::vector<MotionMeasure> &measures, const std::vector<LagRequest> &lags = {});
 
 } // namespace gestell::apps

@@ -220,12 +220,12 @@ struct PairRequest
 
 struct ElementRequest
 {
-  std::string                              name;
-  std::shared_ptr<mechanism::ForceElement> element;
-  std::vector<MotionMeasure>               measures;
-  std::string                              on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
-  std::vector<LagRequest>                  lags;   ///< the element's last measures
-  std::optional<PairRequest>               pair{}; ///< the element is a law of these measures
+  std::string                          name;
+  std::shared_ptr<mechanism::ForceLaw> element;
+  std::vector<MotionMeasure>           measures;
+  std::string                          on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::vector<LagRequest>              lags;   ///< the element's last measures
+  std::optional<PairRequest>           pair{}; ///< the element is a law of these measures
   /// A measure without a name that the element acts on, counted from the position described.
   std::shared_ptr<const MeasureRequest> own{};
   bool follows = false; ///< of `own`: the element is a load on its second place along a direction that turns with it

@@ -54,7 +54,7 @@ ConstraintRank::ConstraintRank(const Machine &machine, Eigen::MatrixXd rows) : m
   int first = 0; // bodies are rigid whatever the joints are: their rows are the longer ones and come first
   for (const ElementPlacement &placement : machine.elements())
   {
-    const int n = placement.element->n_constraints();
+    const int n = n_constraints(*placement.element);
     if (makes_rigid(placement))
       rows_.middleRows(first, n) *= 2.;
     first += n;
@@ -80,7 +80,7 @@ std::string ConstraintRank::joint_of(int row) const
 {
   for (const ElementPlacement &placement : machine_.elements())
   {
-    const int n = placement.element->n_constraints();
+    const int n = n_constraints(*placement.element);
     if (row < n)
       return makes_rigid(placement) ? "" : "\"" + placement.name + "\"";
     row -= n;

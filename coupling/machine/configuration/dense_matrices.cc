@@ -82,11 +82,11 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
   add_up(machine, q, stiffness, damping,
          [&open](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
          {
-           placement.element->engaged(u, K.data(), D.data());
+           engaged(*placement.element, u, K.data(), D.data());
            if (std::find(open.begin(), open.end(), placement.name) == open.end())
              return;
            const Eigen::MatrixXd engaged_K = K, engaged_D = D;
-           placement.element->open_branch(u, K.data(), D.data());
+           open_branch(*placement.element, u, K.data(), D.data());
            if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
              throw std::invalid_argument("modes: element \"" + placement.name +
                                          "\" acts in every position, so that it cannot be open; leave it out of "
@@ -99,7 +99,7 @@ void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::
 {
   add_up(machine, q, stiffness, damping,
          [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
-         { placement.element->stiffest(u, K.data(), D.data()); });
+         { stiffest(*placement.element, u, K.data(), D.data()); });
 }
 
 void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,
@@ -107,21 +107,21 @@ void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::Matr
 {
   add_up(machine, q, stiffness, damping,
          [](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
-         { placement.element->open_branch(u, K.data(), D.data()); });
+         { open_branch(*placement.element, u, K.data(), D.data()); });
 }
 
 namespace
 {
 
 /// Stiff or damping somewhere near u: a cubic spring is neither where it is relaxed.
-bool is_structure(const mechanism::ForceElement &element, const Eigen::VectorXd &u)
+bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u)
 {
   constexpr double beside = 1e-3; // m or rad
   const auto       k      = u.size();
   Eigen::MatrixXd  K(k, k), D(k, k);
   const auto       acts_at = [&](const Eigen::VectorXd &at)
   {
-    element.engaged(at.data(), K.data(), D.data());
+    engaged(element, at.data(), K.data(), D.data());
     return !K.isZero(0.) || !D.isZero(0.);
   };
   bool acts = acts_at(u);
@@ -139,7 +139,7 @@ Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u
   for (const ElementPlacement &placement : machine.elements())
   {
     const int k = placement.element->n_measures();
-    if (acting == Acting::structure && placement.element->n_constraints() == 0 &&
+    if (acting == Acting::structure && !placement.element->ideal_joint() &&
         !is_structure(*placement.element, u.segment(first, k)))
       acts.segment(first, k).setZero();
     first += k;
@@ -151,7 +151,7 @@ namespace
 {
 
 /// v^T g'' w of the position function of an element, by polarisation of its quadratic form.
-double closure_curvature(const mechanism::ForceElement &element, const double *u, const Eigen::VectorXd &v,
+double closure_curvature(const mechanism::Structure &element, const double *u, const Eigen::VectorXd &v,
                          const Eigen::VectorXd &w)
 {
   Eigen::VectorXd       gradient(v.size());
@@ -170,18 +170,19 @@ void add_turning_closures(const Machine &machine, const LocalState &state, Eigen
   int first = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
-    const int             k    = placement.element->n_measures();
-    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(k);
-    Eigen::VectorXd       gradient(k);
-    double                g, curvature;
-    const double         *u = state.u.data() + first;
-    if (placement.element->closure(u, rest.data(), g, gradient.data(), curvature))
+    const int                   k    = placement.element->n_measures();
+    const Eigen::VectorXd       rest = Eigen::VectorXd::Zero(k);
+    Eigen::VectorXd             gradient(k);
+    double                      g, curvature;
+    const double               *u         = state.u.data() + first;
+    const mechanism::Structure *structure = placement.element->structure();
+    if (structure && structure->closure(u, rest.data(), g, gradient.data(), curvature))
     {
       const double P = p.segment(first, k).dot(gradient) / gradient.squaredNorm();
       for (int i = 0; i < k; ++i)
         for (int j = 0; j < k; ++j)
           K(first + i, first + j) -=
-              P * closure_curvature(*placement.element, u, Eigen::VectorXd::Unit(k, i), Eigen::VectorXd::Unit(k, j));
+              P * closure_curvature(*structure, u, Eigen::VectorXd::Unit(k, i), Eigen::VectorXd::Unit(k, j));
     }
     first += k;
   }

@@ -20,7 +20,7 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
 enum class Acting
 {
   everything,
-  structure ///< not those that are no structure, ForceElement::engaged() being zero: technological forces, drives
+  structure ///< not those that are no structure, Structure::engaged() being zero: technological forces, drives
 };
 
 /// 1 for the measures [n_u] of elements and joints that act at u [n_u], 0 for the others.

@@ -30,10 +30,11 @@ Closures closures(const Machine &machine, const Eigen::VectorXd &q, const Eigen:
   int                          first = 0;
   for (const ElementPlacement &placement : machine.elements())
   {
-    const int           k = placement.element->n_measures();
-    std::vector<double> gradient(k);
-    double              g, curvature;
-    if (placement.element->closure(u.data() + first, u_rate.data() + first, g, gradient.data(), curvature))
+    const int                   k = placement.element->n_measures();
+    std::vector<double>         gradient(k);
+    double                      g, curvature;
+    const mechanism::Structure *structure = placement.element->structure();
+    if (structure && structure->closure(u.data() + first, u_rate.data() + first, g, gradient.data(), curvature))
     {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(machine.size());
       for (int j = 0; j < k; ++j)

@@ -63,7 +63,7 @@ Holding held_by_joints(const Machine &machine, const LocalState &local)
   const Eigen::MatrixXd rows = joint_jacobian(machine, G);
   int                   row  = 0;
   for (const ElementPlacement &placement : machine.elements())
-    for (int i = 0; i < placement.element->n_constraints(); ++i, ++row)
+    for (int i = 0; i < n_constraints(*placement.element); ++i, ++row)
       if (const double size = rows.row(row).norm(); size > 0.)
         holding.add(rows.row(row).transpose() / size, placement.name);
   return holding;

@@ -19,13 +19,11 @@ namespace
 
 constexpr double rounding = 1e-14; // of step weights, sums of a few terms of order one
 
-double stored(const mechanism::ForceElement &element, const Eigen::VectorXd &u, const Eigen::VectorXd &v)
+double stored(const mechanism::Element &element, const Eigen::VectorXd &u, const Eigen::VectorXd &v)
 {
   const Eigen::VectorXd        at_rest = Eigen::VectorXd::Zero(u.size());
-  std::vector<double>          history(element.n_history() + 1);
   const mechanism::LocalMotion motion{0., u.data(), v.data(), at_rest.data()};
-  element.start(motion, history.data());
-  return element.stored_energy(motion, history.data());
+  return element.force_law()->stored_energy(motion, started(element, motion).data());
 }
 
 } // namespace
@@ -42,7 +40,7 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
   for (const ElementPlacement &placement : machine.elements())
   {
     const int k = placement.element->n_measures();
-    if (placement.element->stiffens())
+    if (stiffens(*placement.element))
     {
       watched_.push_back({&placement, first, k, row});
       row += k;
@@ -79,7 +77,7 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
 Eigen::MatrixXd StiffnessCheck::stiffness(const Watched &watched, const Eigen::VectorXd &u) const
 {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(watched.size, watched.size), D = K;
-  watched.placement->element->stiffest(u.data() + watched.first, K.data(), D.data());
+  stiffest(*watched.placement->element, u.data() + watched.first, K.data(), D.data());
   return K;
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "mechanism/local_motion.h"
+#include "mechanism/switch_command.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::mechanism
+{
+
+/// Facet of an element that obeys orders of switches.
+class Commands
+{
+public:
+  /// Names of the orders it knows.
+  virtual std::vector<std::string> command_names() const = 0;
+  /// @throws std::invalid_argument if the values of one of these orders are none for it
+  virtual void check_order(const SwitchCommand &) const {}
+  /// Obeys an order at the motion where it is given; false: the element knows no such order.
+  virtual bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const = 0;
+
+protected:
+  ~Commands() = default;
+};
+
+} // namespace gestell::mechanism

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mechanism/element.h"
+
+namespace gestell::mechanism
+{
+
+/// Equations g(t, u) = 0 that an ideal joint demands of its measures: its force is p = G^T lambda, G = dg/du, with
+/// multipliers lambda that the system finds.
+class Constraint : public Element
+{
+public:
+  const Constraint *ideal_joint() const final { return this; }
+
+  virtual int n_constraints() const = 0;
+  /// g [n_c] and G = dg/du [n_c x k, column major].
+  virtual void constraint(const LocalMotion &motion, const double *history, double *g, double *G) const = 0;
+  /// g' = G u' + rate, g'' = G u'' + bias; [n_c] each.
+  virtual void constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const = 0;
+  virtual std::string constraint_name(int i) const { return (void)i, ""; }
+
+  double size_of_terms() const override { return 1.; }
+
+  /// Whether quantity i follows from the multipliers.
+  virtual bool needs_multipliers(int quantity) const { return (void)quantity, true; }
+};
+
+} // namespace gestell::mechanism

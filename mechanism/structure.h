@@ -1,0 +1,51 @@
+#pragma once
+
+#include "mechanism/local_motion.h"
+
+namespace gestell::mechanism
+{
+
+/**
+ * Facet of an element that is stiff or damps: what natural frequencies and the step of an integrator see of it.
+ *
+ * Stiffness K = -dp/du and damping D = -dp/dv [k x k, column major] are zero when a method is called; it sets what
+ * differs.  The functions of facets.h see to that.
+ */
+class Structure
+{
+public:
+  /// K and D the element has as part of the structure when it is engaged (play closed) at the configuration u;
+  /// geometric stiffness is left out.  Used for natural frequencies.  Technological forces and drives are no structure:
+  /// zero, the default.
+  virtual void engaged(const double *u, double *K, double *D) const { (void)u, (void)K, (void)D; }
+
+  /// K and D of the stiffest branch of the law near u, technological forces included: what the step of an integrator
+  /// has to stand.  Default: engaged().
+  virtual void stiffest(const double *u, double *K, double *D) const { engaged(u, K, D); }
+
+  /// K and D as engaged() tells them of what acts in every branch of the law, so that it stays when the element is
+  /// open: the oil film of a rod with play.  Default: engaged(), of a law without a branch in which it is open.
+  virtual void open_branch(const double *u, double *K, double *D) const { engaged(u, K, D); }
+
+  /// Stiffness grows with the motion itself, so that stiffest() at one place is no bound: a contact after Hertz.
+  virtual bool stiffens() const { return false; }
+
+  /// Geometric stiffness [k x k, column major]: of a force that turns with the motion, -d(G^T)/du P, at the forces of
+  /// `motion` (of a joint its multipliers).  Together with engaged() it is the tangent.
+  virtual void geometric(const LocalMotion &, const double *history, double *K) const { (void)history, (void)K; }
+
+  /// Position function the element closes when it is engaged, g(u) = 0 (compression of a rod, twist of a coupling):
+  /// returns false if there is none; else g, its gradient [k] and its second derivative along v, v^T g'' v.
+  virtual bool closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const
+  {
+    return (void)u, (void)v, (void)g, (void)gradient, (void)curvature, false;
+  }
+
+  /// How deep [m or rad] bodies that a contact keeps apart lie in each other; 0: they do not, or nothing keeps them.
+  virtual double penetration(const LocalMotion &) const { return 0.; }
+
+protected:
+  ~Structure() = default;
+};
+
+} // namespace gestell::mechanism
