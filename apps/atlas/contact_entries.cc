@@ -67,14 +67,14 @@ NamedMethod hht(double alpha)
 /// 1 kg that flies between two elastic stops without loss.
 coupling::Machine flying_mass(double gap, double omega_contact)
 {
-  coupling::Machine       machine;
-  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+  coupling::MachineModel  model;
+  const coupling::Measure u = {{model.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
 
   mechanism::Clearance::Parameters stops;
   stops.gap       = gap;
   stops.stiffness = omega_contact * omega_contact;
-  machine.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
-  machine.finish();
+  model.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 
@@ -195,16 +195,16 @@ namespace
 /// A forced oscillator in a play, which it leaves and meets some ten times.
 coupling::Machine forced_in_play()
 {
-  coupling::Machine       machine;
-  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
-  machine.add_linear("spring", u, 400., 2., 0., 0., "N"); // 20 rad/s, 5 %
-  machine.add_load("load", u, 0., {{15., 0.8, 0.3}}, "N");
+  coupling::MachineModel  model;
+  const coupling::Measure u = {{model.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+  model.add_linear("spring", u, {400., 2., 0., 0.}, "N"); // 20 rad/s, 5 %
+  model.add_load("load", u, 0., {{15., 0.8, 0.3}}, "N");
 
   mechanism::Clearance::Parameters stops;
   stops.gap       = 1e-3;
   stops.stiffness = 1e4;
-  machine.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
-  machine.finish();
+  model.attach("stops", std::make_shared<mechanism::Clearance>(stops), {u});
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 
@@ -340,17 +340,17 @@ namespace
 /// n masses of 1 kg, each between elastic stops of its own.
 coupling::Machine rattling_masses(int n, double gap, double omega_contact)
 {
-  coupling::Machine                machine;
+  coupling::MachineModel           model;
   mechanism::Clearance::Parameters stops;
   stops.gap       = gap;
   stops.stiffness = omega_contact * omega_contact;
   for (int i = 0; i < n; ++i)
   {
     const std::string       number = std::to_string(i);
-    const coupling::Measure u      = {{machine.add_slider("x" + number, {1., 0., 0.}, 1., "ground"), 1.}};
-    machine.attach("stops " + number, std::make_shared<mechanism::Clearance>(stops), {u});
+    const coupling::Measure u      = {{model.add_slider("x" + number, {1., 0., 0.}, 1., "ground"), 1.}};
+    model.attach("stops " + number, std::make_shared<mechanism::Clearance>(stops), {u});
   }
-  machine.finish();
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 

@@ -20,14 +20,14 @@ constexpr double omega_base = 50., step = 1e-3;
 /// 1 kg on a spring of the base system, held besides by an element of stiffness c.
 coupling::Machine held_mass(double c)
 {
-  coupling::Machine       machine;
-  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
-  machine.add_linear("spring", u, omega_base * omega_base, 0., 0., 0., "N");
+  coupling::MachineModel  model;
+  const coupling::Measure u = {{model.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+  model.add_linear("spring", u, {omega_base * omega_base, 0., 0., 0.}, "N");
 
   mechanism::CubicSpring::Parameters spring;
   spring.stiffness = c;
-  machine.attach("element", std::make_shared<mechanism::CubicSpring>(spring), {u});
-  machine.finish();
+  model.attach("element", std::make_shared<mechanism::CubicSpring>(spring), {u});
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 

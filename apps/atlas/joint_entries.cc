@@ -23,18 +23,18 @@ constexpr double length = 1., omega = 5.;
 /// 1 kg that goes round the origin at the end of a massless bar, without weight: x = length e^(i omega t).
 coupling::Machine revolving_mass()
 {
-  coupling::Machine               machine;
+  coupling::MachineModel          model;
   mechanism::IdealJoint::Equation bar;
-  machine.add_point("mass", 1., {length, 0., 0.});
-  const coupling::PlacedPoint place = machine.place("mass", {length, 0., 0.});
+  model.add_point("mass", 1., {length, 0., 0.});
+  const coupling::PlacedPoint place = model.place("mass", {length, 0., 0.});
   bar.name                          = "force";
   bar.measure.form                  = mechanism::RelativeMeasure::Form::distance;
   bar.offset                        = length;
-  machine.attach("bar",
-                 std::make_shared<mechanism::IdealJoint>(mechanism::Placement(), place.placement,
-                                                         std::vector<mechanism::IdealJoint::Equation>{bar}),
-                 place.measures);
-  machine.finish();
+  model.attach("bar",
+               std::make_shared<mechanism::IdealJoint>(mechanism::Placement(), place.placement,
+                                                       std::vector<mechanism::IdealJoint::Equation>{bar}),
+               place.measures);
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 

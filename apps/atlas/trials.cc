@@ -11,28 +11,28 @@ namespace gestell::apps
 
 coupling::Machine trial_frame(const std::vector<TrialMass> &masses)
 {
-  coupling::Machine machine;
+  coupling::MachineModel model;
   for (std::size_t i = 0; i < masses.size(); ++i)
   {
     const auto &[omega, zeta, mass] = masses[i];
     const std::string       number  = std::to_string(i);
-    const coupling::Measure u       = {{machine.add_slider("x" + number, {1., 0., 0.}, mass, "ground"), 1.}};
+    const coupling::Measure u       = {{model.add_slider("x" + number, {1., 0., 0.}, mass, "ground"), 1.}};
     if (omega > 0.)
-      machine.add_linear("spring " + number, u, mass * omega * omega, 2. * zeta * omega * mass, 0., 0., "N");
+      model.add_linear("spring " + number, u, {mass * omega * omega, 2. * zeta * omega * mass, 0., 0.}, "N");
   }
-  machine.finish();
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 
 coupling::Machine contact_oscillator(double omega)
 {
-  coupling::Machine       machine;
-  const coupling::Measure u = {{machine.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
+  coupling::MachineModel  model;
+  const coupling::Measure u = {{model.add_slider("x0", {1., 0., 0.}, 1., "ground"), 1.}};
 
   mechanism::CubicSpring::Parameters spring;
   spring.stiffness = omega * omega;
-  machine.attach("contact", std::make_shared<mechanism::CubicSpring>(spring), {u});
-  machine.finish();
+  model.attach("contact", std::make_shared<mechanism::CubicSpring>(spring), {u});
+  coupling::Machine machine(std::move(model));
   return machine;
 }
 

@@ -128,7 +128,7 @@ std::vector<coupling::Signal> choose_signals(const Scene &scene, coupling::Machi
   std::vector<coupling::Signal> all = scene_signals(scene, machine), chosen;
   if (all.empty())
     for (int i = 0; i < machine.size(); ++i)
-      if (i < machine.n_interface() || i >= machine.n_frame())
+      if (i < machine.model().n_interface() || i >= machine.model().n_frame())
       {
         coupling::Signal coordinate;
         coordinate.name = machine.coordinate_name(i);

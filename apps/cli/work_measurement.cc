@@ -278,9 +278,9 @@ MotionScales motion_scales(const WorkProblem &problem, const coupling::MethodOpt
 
   // Modes among themselves; the interface by its units; bodies each for itself, as a flywheel turns far.
   const coupling::Machine &machine     = problem.machine;
-  const int                n_interface = machine.n_interface();
+  const int                n_interface = machine.model().n_interface();
   std::vector<int>         metres, radians, modes;
-  for (int i = 0; i < machine.n_frame(); ++i)
+  for (int i = 0; i < machine.model().n_frame(); ++i)
   {
     const std::string name = machine.coordinate_name(i);
     if (i >= n_interface)
@@ -288,7 +288,7 @@ MotionScales motion_scales(const WorkProblem &problem, const coupling::MethodOpt
     else
       (name.size() > 3 && name.compare(name.size() - 3, 2, ".r") == 0 ? radians : metres).push_back(i);
   }
-  for (int i = machine.n_frame(); i < machine.size(); ++i)
+  for (int i = machine.model().n_frame(); i < machine.size(); ++i)
     for (Eigen::VectorXd *x : {&scales.q, &scales.v})
       share_scale(*x, {i});
   for (const auto *kind : {&metres, &radians, &modes})

@@ -92,7 +92,7 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
     const coupling::SweptCoordinate held = named("--hold", machine, name);
     if (held.coordinate < 0)
       throw std::invalid_argument("--hold " + name + ": only coordinates of bodies can be held, such as " +
-                                  machine.coordinate_name(machine.n_frame()));
+                                  machine.coordinate_name(machine.model().n_frame()));
     along.linearisation.fixed.push_back(held.coordinate);
     result.fixed += (result.fixed.empty() ? "" : ", ") + held.name;
   }

@@ -76,7 +76,7 @@ namespace
 {
 void add_warnings(const Scene &scene, PreparedMachine &prepared)
 {
-  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     prepared.warnings = frame->notes;
     if (scene.frame.source == FrameSource::matrices)
@@ -85,45 +85,53 @@ void add_warnings(const Scene &scene, PreparedMachine &prepared)
   }
   prepared.warnings.insert(prepared.warnings.end(), scene.warnings.begin(), scene.warnings.end());
 }
-} // namespace
 
-PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
+PreparedMachine on_full_frame(const Scene &scene, const coupling::Progress &progress)
 {
-  PreparedMachine prepared;
-  tell(progress, "frame");
+  auto [frame, reduced]       = unreduced_frame(scene, progress);
+  coupling::Machine companion = build_machine(scene, reduced);
+  if (frame.modal_damping_ratio.any())
+  {
+    const int n_reduced = static_cast<int>(reduced.omega0.size());
+    coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
+  }
+  return {build_machine(scene, std::move(frame)), std::move(companion), false, {}};
+}
+
+PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &progress)
+{
   switch (frame_path(scene))
   {
   case FramePath::none:
   case FramePath::dense:
-    prepared.machine = build_machine(scene);
-    break;
+    return {build_machine(scene), {}, false, {}};
   case FramePath::from_file:
-    prepared.machine = build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
-    break;
+    return {build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file)), {}, false, {}};
   case FramePath::reduce:
-    prepared.machine = build_machine(scene, reduced_frame(scene, progress, prepared.from_cache));
-    break;
-  case FramePath::sparse:
   {
-    auto [frame, reduced] = unreduced_frame(scene, progress);
-    prepared.companion    = build_machine(scene, reduced);
-    if (frame.modal_damping_ratio.any())
-    {
-      const int n_reduced = static_cast<int>(prepared.companion->reduced_frame()->omega0.size());
-      coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
-    }
-    prepared.machine = build_machine(scene, std::move(frame));
+    bool                   from_cache = false;
+    coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
+    return {build_machine(scene, std::move(frame)), {}, from_cache, {}};
+  }
+  case FramePath::sparse:
     break;
   }
-  }
+  return on_full_frame(scene, progress);
+}
+
+} // namespace
+
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
+{
+  tell(progress, "frame");
+  PreparedMachine prepared = without_warnings(scene, progress);
   add_warnings(scene, prepared);
   return prepared;
 }
 
 PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame)
 {
-  PreparedMachine prepared;
-  prepared.machine = build_machine(scene, frame);
+  PreparedMachine prepared{build_machine(scene, frame), {}, false, {}};
   add_warnings(scene, prepared);
   return prepared;
 }
@@ -131,10 +139,10 @@ PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFr
 Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 {
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(companion->size());
-  const auto      n_bodies  = machine.n_mechanism();
+  const auto      n_bodies  = machine.model().n_mechanism();
   projected.tail(n_bodies)  = state.tail(n_bodies);
-  for (const fem::Interface &interface : machine.full_frame()->interfaces)
-    for (const fem::Interface &other : companion->reduced_frame()->interfaces)
+  for (const fem::Interface &interface : machine.model().full_frame()->interfaces)
+    for (const fem::Interface &other : companion->model().reduced_frame()->interfaces)
       if (interface.name == other.name)
         for (int m = 0; m < 6; ++m)
           if (interface.coordinate[m] >= 0)
@@ -160,7 +168,7 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   ModelFacts facts;
   facts.dofs      = prepared.machine.size();
   facts.nonlinear = static_cast<int>(prepared.machine.forces().directions().cols());
-  if (const coupling::ReducedFrame *frame = prepared.small().reduced_frame())
+  if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     facts.interface  = frame->n_interface;
     const bool modes = frame->modal && !prepared.companion;
@@ -232,9 +240,10 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
-  for (const auto &warnings : {carried_warnings(scene, small), idle_bodies(scene, small), remote_joints(scene, small)})
+  for (const auto &warnings :
+       {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()), remote_joints(scene, small.model())})
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
-  if (const auto warning = free_frame(scene, small, result.coupled_modes); command == "run" && !warning.empty())
+  if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
   add_poles(scene, small, q, how, result);
   result.scenery = scenery_of(small);

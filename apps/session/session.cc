@@ -144,7 +144,7 @@ Result Session::run()
 {
   check_run();
   PreparedMachine &prepared = machine();
-  require_stress(scene_, prepared.machine.reduced_frame());
+  require_stress(scene_, prepared.machine.model().reduced_frame());
   const auto signals = scene_signals(scene_, prepared.machine);
   progress()("start", -1.);
   std::string                  failure;
@@ -157,7 +157,7 @@ Result Session::run()
   progress()("results", -1.);
   states_for_pictures(prepared, *result.run);
   if (scene_.stress.given && !result.run->rows.empty())
-    result.stress = stress_answer(scene_, *prepared.machine.reduced_frame(), *result.run, result.warnings);
+    result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);
   return finished(std::move(result));
 }
 

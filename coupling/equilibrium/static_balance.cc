@@ -24,7 +24,7 @@ StaticBalance::StaticBalance(Machine &machine, const InitialState &from, const K
     load_ = machine.linear().excitation().constant();
   else
     machine.linear().excitation().at(t_, load_);
-  for (int i = machine.n_frame(); held && i < n_; ++i)
+  for (int i = machine.model().n_frame(); held && i < n_; ++i)
     if (held->q_given[i])
       given_.push_back(i);
   n_g_ = held ? int(given_.size() + held->measures.size() + held->spins.size()) : 0;
@@ -108,7 +108,7 @@ void StaticBalance::hold(const VectorXd &q, MatrixXd &A, VectorXd &open)
   VectorXd gradient;
   for (const auto &[name, value] : held_->measures)
   {
-    open[row]    = machine_.measure(name).evaluate(q, zero_, &gradient).s - value;
+    open[row]    = machine_.model().measure(name).evaluate(q, zero_, &gradient).s - value;
     A.row(row++) = gradient.transpose();
   }
   for (const KnownSpin &spin : held_->spins)
@@ -136,7 +136,7 @@ constexpr double takes_part = 0.01; // of the kinetic energy of a motion
 double share_of_frame(const Machine &machine, const VectorXd &motion)
 {
   const MatrixXd M     = dense_mass(machine);
-  const int      n     = machine.n_frame();
+  const int      n     = machine.model().n_frame();
   const double   whole = motion.dot(M * motion);
   return whole > 0. ? motion.head(n).dot(M.topLeftCorner(n, n) * motion.head(n)) / whole : 0.;
 }
@@ -145,7 +145,7 @@ double share_of_frame(const Machine &machine, const VectorXd &motion)
 
 std::string mechanism_mode_text(const Machine &machine, const VectorXd &motion)
 {
-  const ReducedFrame *frame = machine.reduced_frame();
+  const ReducedFrame *frame = machine.model().reduced_frame();
   if (frame && !frame->facts.free_motions.empty() && share_of_frame(machine, motion) > takes_part)
   {
     std::string free;

@@ -363,7 +363,7 @@ private:
     if (!way.allFinite())
       return std::numeric_limits<double>::infinity();
     VectorXd most = VectorXd::Constant(n_, way_of_step);
-    for (const Body &body : machine_.bodies())
+    for (const Body &body : machine_.model().bodies())
     {
       const int lengths = body.kind == BodyKind::rotor    ? 0
                           : body.kind == BodyKind::slider ? 1
@@ -426,7 +426,7 @@ private:
 
 InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift, Floating floating)
 {
-  if (machine.full_frame())
+  if (machine.model().full_frame())
     throw std::invalid_argument(
         "a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
   Equilibrium equilibrium(machine, assembled);

@@ -11,14 +11,14 @@ namespace
 std::vector<std::pair<int, int>> matching_interfaces(const Machine &full, const Machine &reduced)
 {
   std::vector<std::pair<int, int>> pairs;
-  const auto                      &theirs = reduced.reduced_frame()->interfaces;
-  for (const fem::Interface &mine : full.full_frame()->interfaces)
+  const auto                      &theirs = reduced.model().reduced_frame()->interfaces;
+  for (const fem::Interface &mine : full.model().full_frame()->interfaces)
     for (const fem::Interface &other : theirs)
       if (other.name == mine.name)
         for (int i = 0; i < 6; ++i)
           if (mine.coordinate[i] >= 0)
             pairs.emplace_back(mine.coordinate[i], other.coordinate[i]);
-  if (static_cast<int>(pairs.size()) != full.n_interface() || full.n_interface() != reduced.n_interface())
+  if (static_cast<int>(pairs.size()) != full.model().n_interface() || full.model().n_interface() != reduced.model().n_interface())
     throw std::invalid_argument("expand_statically: the two frames do not have the same interfaces");
   return pairs;
 }
@@ -28,9 +28,9 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
 {
   InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size()), state.settled,
                         state.notes};
-  const int    n_frame      = full.n_frame();
-  const auto  &C            = full.full_frame()->C;
-  const int    n_bodies     = full.n_mechanism();
+  const int    n_frame      = full.model().n_frame();
+  const auto  &C            = full.model().full_frame()->C;
+  const int    n_bodies     = full.model().n_mechanism();
   expanded.q.tail(n_bodies) = state.q.tail(n_bodies);
   expanded.v.tail(n_bodies) = state.v.tail(n_bodies);
 

@@ -61,7 +61,7 @@ VectorXd motion_scale(const Machine &machine)
 {
   const MatrixXd M     = dense_mass(machine);
   VectorXd       scale = VectorXd::Zero(machine.size());
-  for (int i = machine.n_frame(); i < machine.size(); ++i)
+  for (int i = machine.model().n_frame(); i < machine.size(); ++i)
     scale[i] = M(i, i) > 0. ? 1. / std::sqrt(M(i, i)) : 1.;
   for (const int i : machine.linear().virtual_coordinates())
     scale[i] = 0.;
@@ -99,14 +99,14 @@ Demands given_demands(const Machine &machine, const KnownStart &known, const Vec
     speeds.push_back(speed);
     accelerations.push_back(acceleration);
   };
-  for (int i = machine.n_frame(); i < n; ++i)
+  for (int i = machine.model().n_frame(); i < n; ++i)
     if (known.v_given[i])
       add(VectorXd::Unit(n, i), known.state.v[i], 0.);
   VectorXd gradient;
   for (const auto &[name, rate] : known.rates)
   {
-    machine.measure(name).evaluate(q, v, &gradient);
-    add(gradient, rate, -machine.measure(name).acceleration(q, v, VectorXd::Zero(n)));
+    machine.model().measure(name).evaluate(q, v, &gradient);
+    add(gradient, rate, -machine.model().measure(name).acceleration(q, v, VectorXd::Zero(n)));
   }
   for (const KnownSpin &spin : known.spins)
     add(spin_gradient(machine, spin, q), spin.value, 0.);

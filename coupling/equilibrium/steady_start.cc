@@ -43,18 +43,18 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   const int  n = machine.size();
   Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
   auto      &q = result.state.q, &v = result.state.v;
-  for (const Body &body : machine.bodies()) // other rotors stand in line with the first one given
+  for (const Body &body : machine.model().bodies()) // other rotors stand in line with the first one given
     if (body.kind == BodyKind::rotor && !start.angles.empty())
       q[body.coordinate] = start.angles.front().second;
   for (const auto &[name, angle] : start.angles)
   {
-    result.given[machine.body(name).coordinate] = true;
-    q[machine.body(name).coordinate]            = angle;
+    result.given[machine.model().body(name).coordinate] = true;
+    q[machine.model().body(name).coordinate]            = angle;
   }
   for (const auto &[name, speed] : start.speeds)
-    v[machine.body(name).coordinate] = speed;
+    v[machine.model().body(name).coordinate] = speed;
   if (!start.driver.empty())
-    result.driver = machine.body(start.driver).coordinate;
+    result.driver = machine.model().body(start.driver).coordinate;
   check_driver(start, result);
 
   close_chains(machine, q);
@@ -245,7 +245,7 @@ KnownStart held_at(const Machine &machine, const KnownStart &known, const Initia
   held.q_given    = known.v_given;
   held.measures.clear();
   for (const auto &rate : known.rates)
-    held.measures.emplace_back(rate.first, machine.measure(rate.first).evaluate(at.q, at.v).s);
+    held.measures.emplace_back(rate.first, machine.model().measure(rate.first).evaluate(at.q, at.v).s);
   return held;
 }
 
@@ -254,7 +254,7 @@ KnownStart held_at(const Machine &machine, const KnownStart &known, const Initia
 InitialState steady_start(Machine &machine, const KnownStart &known)
 {
   const bool given =
-      std::any_of(known.v_given.begin() + machine.n_frame(), known.v_given.end(), [](char g) { return g; });
+      std::any_of(known.v_given.begin() + machine.model().n_frame(), known.v_given.end(), [](char g) { return g; });
   if (!given && known.rates.empty() && known.spins.empty())
     throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
   InitialState     state = assemble(machine, known);

@@ -6,6 +6,7 @@
 #include "coupling/integration/propagation/propagation_method.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace gestell::coupling
@@ -53,9 +54,15 @@ const std::vector<const IntegrationMethod *> &integration_methods()
 
 const IntegrationMethod &integration_method(const std::string &name)
 {
-  for (const IntegrationMethod *method : integration_methods())
-    if (method->name() == name)
-      return *method;
+  static const std::map<std::string, const IntegrationMethod *> by_name = []
+  {
+    std::map<std::string, const IntegrationMethod *> methods;
+    for (const IntegrationMethod *method : integration_methods())
+      methods[method->name()] = method;
+    return methods;
+  }();
+  if (const auto found = by_name.find(name); found != by_name.end())
+    return *found->second;
   throw std::invalid_argument("there is no method of integration \"" + name + "\"");
 }
 

@@ -14,18 +14,28 @@
 namespace gestell::coupling
 {
 
-Machine::Machine() : parts_(std::make_unique<MachineParts>()), system_(std::make_unique<MachineSystem>(*parts_))
+MachineModel::MachineModel() : parts_(std::make_unique<MachineParts>())
 {
   Marker ground;
   ground.name               = "ground";
   parts_->markers["ground"] = ground;
 }
 
+MachineModel::~MachineModel()                                   = default;
+MachineModel::MachineModel(MachineModel &&) noexcept            = default;
+MachineModel &MachineModel::operator=(MachineModel &&) noexcept = default;
+
+Machine::Machine(MachineModel model)
+    : model_(std::move(model)), parts_(model_.parts_.get()), system_(std::make_unique<MachineSystem>(*parts_))
+{
+  parts_->finish();
+}
+
 Machine::~Machine()                              = default;
 Machine::Machine(Machine &&) noexcept            = default;
 Machine &Machine::operator=(Machine &&) noexcept = default;
 
-void Machine::set_frame(ReducedFrame frame)
+void MachineModel::set_frame(ReducedFrame frame)
 {
   parts_->n_frame     = static_cast<int>(frame.M.rows());
   parts_->n_interface = frame.n_interface;
@@ -33,7 +43,7 @@ void Machine::set_frame(ReducedFrame frame)
   parts_->reduced = std::make_unique<ReducedFrame>(std::move(frame));
 }
 
-void Machine::set_frame(fem::FrameMatrices frame)
+void MachineModel::set_frame(fem::FrameMatrices frame)
 {
   parts_->n_frame     = static_cast<int>(frame.M.rows());
   parts_->n_interface = static_cast<int>(frame.interface_coordinates().size());
@@ -41,14 +51,15 @@ void Machine::set_frame(fem::FrameMatrices frame)
   parts_->full = std::make_unique<fem::FrameMatrices>(std::move(frame));
 }
 
-void Machine::set_gravity(const Vector3 &g)
+void MachineModel::set_gravity(const Vector3 &g)
 {
   parts_->gravity = g;
 }
 
-void Machine::add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
-                         double rest, const std::string &force_unit)
+void MachineModel::add_linear(const std::string &name, const Measure &u, const LinearLaw &law,
+                              const std::string &force_unit)
 {
+  const auto &[stiffness, damping, preload, rest] = law;
   parts_->add_dyad(parts_->C, stiffness, u);
   parts_->add_dyad(parts_->B, damping, u);
   for (const auto &[coordinate, weight] : u)
@@ -56,8 +67,8 @@ void Machine::add_linear(const std::string &name, const Measure &u, double stiff
   parts_->linear.push_back({name, u, stiffness, damping, preload - stiffness * rest, force_unit});
 }
 
-void Machine::add_load(const std::string &name, const Measure &u, double constant,
-                       const std::vector<Oscillation> &oscillations, const std::string &force_unit)
+void MachineModel::add_load(const std::string &name, const Measure &u, double constant,
+                            const std::vector<Oscillation> &oscillations, const std::string &force_unit)
 {
   for (const Oscillation &part : oscillations)
     if (!(part.omega > 0.))
@@ -68,7 +79,7 @@ void Machine::add_load(const std::string &name, const Measure &u, double constan
   parts_->loads.push_back({name, force_unit, u, constant, oscillations});
 }
 
-int Machine::add_lag(const std::string &name, double time_constant)
+int MachineModel::add_lag(const std::string &name, double time_constant)
 {
   if (!(time_constant > 0.) || !std::isfinite(time_constant))
     throw std::invalid_argument("lag \"" + name + "\": time constant " + std::to_string(time_constant) +
@@ -81,7 +92,7 @@ int Machine::add_lag(const std::string &name, double time_constant)
   return x;
 }
 
-void Machine::attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
+void MachineModel::attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
                      const std::vector<Measure> &measures, MeasureKind kind)
 {
   if (static_cast<int>(measures.size()) != element->n_measures())
@@ -90,7 +101,7 @@ void Machine::attach(const std::string &name, std::shared_ptr<mechanism::Element
   parts_->elements.push_back({name, std::move(element), measures, -1, kind});
 }
 
-void Machine::attach_friction(std::shared_ptr<mechanism::ForceLaw> element, const std::vector<Measure> &measures)
+void MachineModel::attach_friction(std::shared_ptr<mechanism::ForceLaw> element, const std::vector<Measure> &measures)
 {
   const int joint = static_cast<int>(parts_->elements.size()) - 1;
   assert(joint >= 0 && parts_->elements[joint].element->ideal_joint());
@@ -98,12 +109,7 @@ void Machine::attach_friction(std::shared_ptr<mechanism::ForceLaw> element, cons
   parts_->elements.back().joint = joint;
 }
 
-void Machine::finish()
-{
-  parts_->finish();
-}
-
-const Marker &Machine::marker(const std::string &name) const
+const Marker &MachineModel::marker(const std::string &name) const
 {
   const auto found = parts_->markers.find(name);
   if (found != parts_->markers.end())
@@ -114,7 +120,7 @@ const Marker &Machine::marker(const std::string &name) const
   throw std::invalid_argument("there is no body or interface \"" + name + "\"" + suggestion(name, names));
 }
 
-const Body &Machine::body(const std::string &name) const
+const Body &MachineModel::body(const std::string &name) const
 {
   std::vector<std::string> names;
   for (const Body &body : parts_->bodies)
@@ -127,51 +133,47 @@ const Body &Machine::body(const std::string &name) const
                               (names.empty() ? std::string("; the scene has none") : suggestion(name, names)));
 }
 
-const std::vector<Body> &Machine::bodies() const
+const std::vector<Body> &MachineModel::bodies() const
 {
   return parts_->bodies;
 }
-const std::vector<DrawnRod> &Machine::rods() const
+const std::vector<DrawnRod> &MachineModel::rods() const
 {
   return parts_->rods;
 }
-const std::vector<DrawnBar> &Machine::bars() const
+const std::vector<DrawnBar> &MachineModel::bars() const
 {
   return parts_->bars;
 }
-const std::vector<DrawnPin> &Machine::pins() const
+const std::vector<DrawnPin> &MachineModel::pins() const
 {
   return parts_->pins;
 }
-const std::vector<ElementPlacement> &Machine::elements() const
+const std::vector<ElementPlacement> &MachineModel::elements() const
 {
   return parts_->elements;
 }
-const std::vector<Switch> &Machine::switches() const
+const std::vector<Switch> &MachineModel::switches() const
 {
   return parts_->switch_requests;
 }
-const ReducedFrame *Machine::reduced_frame() const
+const ReducedFrame *MachineModel::reduced_frame() const
 {
   return parts_->reduced.get();
 }
-const fem::FrameMatrices *Machine::full_frame() const
+const fem::FrameMatrices *MachineModel::full_frame() const
 {
   return parts_->full.get();
 }
-const LinearBase &Machine::base() const
-{
-  return *parts_->base;
-}
-int Machine::n_frame() const
+int MachineModel::n_frame() const
 {
   return parts_->n_frame;
 }
-int Machine::n_mechanism() const
+int MachineModel::n_mechanism() const
 {
   return static_cast<int>(parts_->coordinate_names.size());
 }
-int Machine::n_interface() const
+int MachineModel::n_interface() const
 {
   return parts_->n_interface;
 }
@@ -224,7 +226,7 @@ std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
   return closed;
 }
 
-int Machine::size() const
+int MachineModel::size() const
 {
   return parts_->size();
 }
@@ -253,7 +255,7 @@ const EnergyAccount &Machine::energy() const
   return system_->energy;
 }
 
-std::string Machine::coordinate_name(int i) const
+std::string MachineModel::coordinate_name(int i) const
 {
   return parts_->coordinate_name(i);
 }

@@ -18,21 +18,20 @@ struct MachineParts;
 struct MachineSystem;
 
 /**
- * The coupled machine: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
- * couplings that join the base system, and nonlinear elements.
+ * What a machine consists of: a frame (reduced, or unreduced and sparse, or none), bodies with few coordinates, linear
+ * couplings that join the base system, nonlinear elements, joints, switches, and how they are drawn.
  *
  * Coordinates: those of the frame first (q1, then modes), then those of the bodies and the lags in the order they were
- * added.  Call set_frame() first, finish() last; then it is a SecondOrderSystem.
+ * added.  set_frame() comes first; a Machine is made of it when it is complete.
  */
-class Machine : public SecondOrderSystem
+class MachineModel
 {
 public:
-  Machine();
-  ~Machine() override;
-  Machine(Machine &&) noexcept;
-  Machine &operator=(Machine &&) noexcept;
+  MachineModel();
+  ~MachineModel();
+  MachineModel(MachineModel &&) noexcept;
+  MachineModel &operator=(MachineModel &&) noexcept;
 
-  // --- building
   void set_frame(ReducedFrame frame);       ///< dense
   void set_frame(fem::FrameMatrices frame); ///< unreduced: every coordinate of the frame is one of the machine's
   void set_gravity(const Vector3 &g);       ///< [m/s^2], acts on the frame and on all bodies
@@ -74,8 +73,7 @@ public:
 
   /// Linear spring, damper and constant force on a measure u, joining the base system: acts with
   /// -(c (u - u0) + b u' + F0) on u.  Signal quantities "force", "displacement", "rate".
-  void add_linear(const std::string &name, const Measure &u, double stiffness, double damping, double preload,
-                  double rest, const std::string &force_unit);
+  void add_linear(const std::string &name, const Measure &u, const LinearLaw &law, const std::string &force_unit);
 
   /// External load on a measure u:  f(t) = constant + sum amplitude sin(omega t + phase), with +f on u.  Signal
   /// quantity "force" (and "torque" in N m).  @throws std::invalid_argument if an omega is not positive
@@ -101,14 +99,7 @@ public:
   /// name.
   void attach_friction(std::shared_ptr<mechanism::ForceLaw> element, const std::vector<Measure> &measures);
 
-  /// Signals that will be read: whether any tells the force of an ideal joint, or an acceleration, which follows from
-  /// these forces.
-  void will_read(const std::vector<Signal> &signals);
-
-  /// Ends building: assembles the base system and W.
-  void finish();
-
-  // --- looking up, valid while building; all throw std::invalid_argument with the nearest name
+  // --- looking up; all throw std::invalid_argument with the nearest name
   const Marker &marker(const std::string &name) const; ///< "ground", "crank", "frame.crown"
   const Body   &body(const std::string &name) const;
   int           coordinate(const std::string &name) const; ///< of a body, or "frame.crown.uz"
@@ -128,7 +119,36 @@ public:
   const LinearBase                    &base() const;
   int                                  n_frame() const; ///< coordinates of the frame
   int                                  n_interface() const;
-  int                                  n_mechanism() const; ///< coordinates of the bodies and lags
+  int                                  n_mechanism() const;          ///< coordinates of the bodies and lags
+  int                                  size() const;                 ///< coordinates of frame and mechanism
+  std::string                          coordinate_name(int i) const; ///< for messages
+
+private:
+  friend class Machine;
+
+  void refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const;
+
+  std::unique_ptr<MachineParts> parts_;
+};
+
+/// A model assembled into the base system and W: a SecondOrderSystem.
+class Machine : public SecondOrderSystem
+{
+public:
+  Machine(MachineModel model);
+  ~Machine() override;
+  Machine(Machine &&) noexcept;
+  Machine &operator=(Machine &&) noexcept;
+
+  const MachineModel &model() const { return model_; }
+  int                 size() const { return model_.size(); }
+  std::string         coordinate_name(int i) const { return model_.coordinate_name(i); }
+  /// MachineModel::signal()
+  Signal signal(const std::string &name, const std::string &path) const { return model_.signal(name, path); }
+
+  /// Signals that will be read: whether any tells the force of an ideal joint, or an acceleration, which follows from
+  /// these forces.
+  void will_read(const std::vector<Signal> &signals);
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
   Eigen::MatrixXd translation_loads() const;
 
@@ -149,10 +169,6 @@ public:
   void gather(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,
               LocalState &local) const;
 
-  int         size() const;                 ///< coordinates of frame and mechanism
-  std::string coordinate_name(int i) const; ///< for messages
-
-  // --- SecondOrderSystem, after finish()
   const LinearSystem  &linear() const override;
   const LocalForces   &forces() const override;
   const IdealJoints   &joints() const override;
@@ -161,9 +177,8 @@ public:
   const EnergyAccount &energy() const override;
 
 private:
-  void refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const;
-
-  std::unique_ptr<MachineParts>  parts_;
+  MachineModel                   model_;
+  MachineParts                  *parts_; ///< of the model
   std::unique_ptr<MachineSystem> system_;
 };
 

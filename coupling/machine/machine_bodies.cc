@@ -40,8 +40,8 @@ void require_mass(double mass, const std::string &what)
 }
 } // namespace
 
-int Machine::add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass,
-                       const std::string &carrier)
+int MachineModel::add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass,
+                            const std::string &carrier)
 {
   if (!(inertia > 0.))
     throw std::invalid_argument("rotor \"" + name + "\": inertia " + std::to_string(inertia) +
@@ -63,7 +63,7 @@ int Machine::add_rotor(const std::string &name, const Vector3 &axis, double iner
   return phi;
 }
 
-int Machine::add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide)
+int MachineModel::add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide)
 {
   check_mass(mass, "slider \"" + name + "\": mass [kg]");
   if (mass == 0.)
@@ -87,7 +87,7 @@ int Machine::add_slider(const std::string &name, const Vector3 &axis, double mas
   return x;
 }
 
-int Machine::add_point(const std::string &name, double mass, const Vector3 &position)
+int MachineModel::add_point(const std::string &name, double mass, const Vector3 &position)
 {
   require_mass(mass, "point \"" + name + "\": mass [kg]");
   const int first = parts_->add_coordinates(name, {name + ".ux", name + ".uy", name + ".uz"});
@@ -143,8 +143,8 @@ std::array<std::string, 3> planar_coordinates(const std::string &name, const Vec
   return {name + (axis == 0 ? ".uy" : ".ux"), name + (axis == 2 ? ".uy" : ".uz"), name + ".angle"};
 }
 
-int Machine::add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia,
-                        const Vector3 &position)
+int MachineModel::add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia,
+                             const Vector3 &position)
 {
   require_mass(mass, "planar body \"" + name + "\": mass [kg]");
   require_mass(inertia, "planar body \"" + name + "\": inertia [kg m^2]");
@@ -165,7 +165,7 @@ int Machine::add_planar(const std::string &name, const Vector3 &normal, double m
   return first;
 }
 
-PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
+PlacedPoint MachineModel::place(const std::string &name, const Vector3 &at) const
 {
   using mechanism::Placement, mechanism::Vector3d;
   const auto    vector = [](const Vector3 &a) { return Vector3d(a[0], a[1], a[2]); };
@@ -229,7 +229,7 @@ PlacedPoint Machine::place(const std::string &name, const Vector3 &at) const
 }
 
 /// A carrier's rotation is taken as small: one that turns by any angle would stretch what it carries.
-void Machine::refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const
+void MachineModel::refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const
 {
   for (const Body &body : parts_->bodies)
   {
@@ -246,7 +246,7 @@ void Machine::refuse_far_turning(const std::string &name, const std::array<Measu
   }
 }
 
-Vector3 Machine::position(const std::string &name) const
+Vector3 MachineModel::position(const std::string &name) const
 {
   marker(name); // throws with the nearest name
   for (const Body &body : parts_->bodies)
@@ -255,12 +255,12 @@ Vector3 Machine::position(const std::string &name) const
   return parts_->position_of(name);
 }
 
-void Machine::add_measure(NamedMeasure measure)
+void MachineModel::add_measure(NamedMeasure measure)
 {
   parts_->measures.push_back(std::move(measure));
 }
 
-void Machine::add_place(const std::string &name, const PlacedPoint &place)
+void MachineModel::add_place(const std::string &name, const PlacedPoint &place)
 {
   const auto &start = place.placement.point();
   parts_->places.push_back({name, int(parts_->measures.size()), {start[0], start[1], start[2]}});
@@ -311,16 +311,17 @@ mechanism::RelativeMeasure::Value NamedMeasure::evaluate(const Eigen::VectorXd &
   return value;
 }
 
-void Machine::add_point_mass(const std::string &name, const std::string &marker_name, double mass,
-                             const Vector3 &inertia, const Vector3 &offset)
+void MachineModel::add_point_mass(const std::string &name, const std::string &marker_name, double mass,
+                                  const Vector3 &inertia, const Vector3 &offset)
 {
   check_mass(mass, "point mass \"" + name + "\": mass [kg]");
   const Marker &at = marker(marker_name);
   for (const Body &body : parts_->bodies)
     if (body.name == marker_name && body.kind == BodyKind::planar && offset != Vector3{})
-      throw std::invalid_argument("point mass \"" + name + "\": an offset on \"" + marker_name +
-                                  "\" would turn with it, which a constant mass matrix cannot describe; give the body this "
-                                  "mass and inertia, or declare a body of its own with a rigid joint");
+      throw std::invalid_argument(
+          "point mass \"" + name + "\": an offset on \"" + marker_name +
+          "\" would turn with it, which a constant mass matrix cannot describe; give the body this "
+          "mass and inertia, or declare a body of its own with a rigid joint");
   parts_->add_mass(mass, parts_->moved_point(at, offset));
   for (int d = 0; d < 3; ++d)
     check_mass(inertia[d], "point mass \"" + name + "\": inertia [kg m^2]");
@@ -332,7 +333,7 @@ void Machine::add_point_mass(const std::string &name, const std::string &marker_
       parts_->add_dyad(parts_->M, inertia[d], at.rotation[d]);
 }
 
-void Machine::draw(const std::string &body_name, const Vector3 &position, double radius, const Vector3 &size)
+void MachineModel::draw(const std::string &body_name, const Vector3 &position, double radius, const Vector3 &size)
 {
   for (Body &body : parts_->bodies)
     if (body.name == body_name)
@@ -348,22 +349,22 @@ void Machine::draw(const std::string &body_name, const Vector3 &position, double
   body(body_name); // throws with the nearest name
 }
 
-void Machine::draw_rod(const DrawnRod &rod)
+void MachineModel::draw_rod(const DrawnRod &rod)
 {
   parts_->rods.push_back(rod);
 }
 
-void Machine::draw_bar(const DrawnBar &bar)
+void MachineModel::draw_bar(const DrawnBar &bar)
 {
   parts_->bars.push_back(bar);
 }
 
-void Machine::draw_pin(const DrawnPin &pin)
+void MachineModel::draw_pin(const DrawnPin &pin)
 {
   parts_->pins.push_back(pin);
 }
 
-void Machine::draw_point(const std::string &name, const Vector3 &at)
+void MachineModel::draw_point(const std::string &name, const Vector3 &at)
 {
   for (Body &body : parts_->bodies)
     if (body.name == name)

@@ -95,6 +95,12 @@ struct DrawnPin
   Vector3     axis{}; ///< unit vector
 };
 
+/// Spring, damper and constant force on a measure u:  -(stiffness (u - rest) + damping u' + preload).
+struct LinearLaw
+{
+  double stiffness, damping, preload, rest;
+};
+
 /// amplitude sin(omega t + phase), omega > 0 [rad/s].
 struct Oscillation
 {

@@ -25,7 +25,8 @@ std::string listed(const Eigen::Vector3d &moments)
 }
 } // namespace
 
-int Machine::add_rigid(const std::string &name, double mass, const Eigen::Matrix3d &inertia, const Vector3 &position)
+int MachineModel::add_rigid(const std::string &name, double mass, const Eigen::Matrix3d &inertia,
+                            const Vector3 &position)
 {
   const std::string what = "rigid body \"" + name + "\"";
   if (!(mass > 0.) || !std::isfinite(mass))

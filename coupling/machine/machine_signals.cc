@@ -229,7 +229,7 @@ std::map<std::string, Signal> MachineParts::signals() const
   return SignalList(*this).all();
 }
 
-std::vector<std::string> Machine::signal_paths() const
+std::vector<std::string> MachineModel::signal_paths() const
 {
   std::vector<std::string> paths;
   for (const auto &entry : parts_->signals())
@@ -257,7 +257,7 @@ Signal MachineParts::signal(const std::string &path) const
   return signal;
 }
 
-Signal Machine::signal(const std::string &name, const std::string &path) const
+Signal MachineModel::signal(const std::string &name, const std::string &path) const
 {
   try
   {
@@ -271,7 +271,7 @@ Signal Machine::signal(const std::string &name, const std::string &path) const
   }
 }
 
-int Machine::coordinate(const std::string &name) const
+int MachineModel::coordinate(const std::string &name) const
 {
   std::vector<std::string> names;
   for (int i = 0; i < size(); ++i)

@@ -56,7 +56,7 @@ Signal MachineParts::watched_signal(const Switch &request) const
   }
 }
 
-void Machine::add_switch(const Switch &request)
+void MachineModel::add_switch(const Switch &request)
 {
   parts_->watched_signal(request);
   std::vector<std::string> names;
@@ -314,7 +314,7 @@ void Machine::will_read(const std::vector<Signal> &signals)
   parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
 }
 
-const NamedMeasure &Machine::measure(const std::string &name) const
+const NamedMeasure &MachineModel::measure(const std::string &name) const
 {
   std::vector<std::string> names;
   for (const NamedMeasure &measure : parts_->measures)

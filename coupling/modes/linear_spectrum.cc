@@ -56,7 +56,7 @@ Eigen::SparseMatrix<double> stiffest_of_measures(const Machine &machine, const E
   const Eigen::VectorXd               u = machine.forces().directions().transpose() * q;
   std::vector<Eigen::Triplet<double>> entries;
   int                                 first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int       k = placement.element->n_measures();
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
@@ -119,7 +119,7 @@ std::vector<LargeMode> modes_of_large(const Machine &machine, const Eigen::Vecto
 bool is_large(const Machine &machine)
 {
   Eigen::MatrixXd M, B, C;
-  return machine.full_frame() || !machine.linear().dense_matrices(M, B, C);
+  return machine.model().full_frame() || !machine.linear().dense_matrices(M, B, C);
 }
 
 LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start)

@@ -120,7 +120,7 @@ double refined_hz(const ReducedFrame &frame, Eigen::Index j)
 
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 {
-  const ReducedFrame *frame = machine.reduced_frame();
+  const ReducedFrame *frame = machine.model().reduced_frame();
   if (!frame)
     return {};
   std::vector<Mode> modes =
@@ -162,7 +162,7 @@ void require_finite(const Machine &machine, const Linear &linear)
 
 Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation)
 {
-  if (machine.full_frame())
+  if (machine.model().full_frame())
     throw std::invalid_argument("modes: the machine has " + std::to_string(machine.size()) +
                                 " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
   Linear linear;
@@ -226,7 +226,7 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
   const auto           &lags      = machine.linear().virtual_coordinates(); // ascending
   Drives                found;
   int                   first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const mechanism::Element &element = *placement.element;
     const int                 k       = element.n_measures();

@@ -32,7 +32,7 @@ public:
       : machine_(machine), coordinate_(coordinate), options_(options),
         step_((options.to - options.from) / (options.positions - 1)), mass_(dense_mass(machine))
   {
-    for (const Body &body : machine.bodies())
+    for (const Body &body : machine.model().bodies())
       slides_ = slides_ || (body.kind == BodyKind::slider && body.coordinate == coordinate.coordinate);
   }
 
@@ -129,7 +129,7 @@ private:
   /// With the frame undeformed.
   InitialState relaxed(InitialState state, double x)
   {
-    state.q.head(machine_.n_frame()).setZero();
+    state.q.head(machine_.model().n_frame()).setZero();
     state = assemble(machine_, position_at(machine_, coordinate_, state, x));
     if (!slides_)
       close_chains(machine_, state.q);
@@ -142,7 +142,7 @@ private:
     Position last{start, {}};
     last.modes.x = swept_value(machine_, coordinate_, start.q);
     if (options_.configuration == Configuration::undeformed)
-      last.state.q.head(machine_.n_frame()).setZero();
+      last.state.q.head(machine_.model().n_frame()).setZero();
     const double way   = options_.from - last.modes.x;
     const int    parts = int(std::abs(way / step_));
     try
@@ -187,7 +187,7 @@ private:
   {
     const auto is_rotor = [](const Body &body) { return body.kind == BodyKind::rotor; };
     const auto swept    = [this](const Body &body) { return body.coordinate == coordinate_.coordinate; };
-    const auto bodies   = machine_.bodies();
+    const auto bodies   = machine_.model().bodies();
     if (std::none_of(bodies.begin(), bodies.end(), [&](const Body &body) { return is_rotor(body) && swept(body); }))
       return;
     for (const Body &body : bodies)

@@ -29,7 +29,7 @@ std::vector<SweptCoordinate> of_bodies(const Machine &machine)
     own.coordinate = coordinate;
     all.push_back(own);
   };
-  for (const Body &body : machine.bodies())
+  for (const Body &body : machine.model().bodies())
     switch (body.kind)
     {
     case BodyKind::rotor:
@@ -52,9 +52,9 @@ std::vector<SweptCoordinate> all_swept(const Machine &machine)
 {
   std::vector<SweptCoordinate> all = of_bodies(machine);
   int                          row = 0;
-  for (std::size_t e = 0; e < machine.elements().size(); ++e)
+  for (std::size_t e = 0; e < machine.model().elements().size(); ++e)
   {
-    const ElementPlacement &placement = machine.elements()[e];
+    const ElementPlacement &placement = machine.model().elements()[e];
     if (const ConstraintElement *joint = driven_joint(placement))
     {
       const bool      turns = joint->quantities().front().unit == "N m";
@@ -66,7 +66,7 @@ std::vector<SweptCoordinate> all_swept(const Machine &machine)
     }
     row += n_constraints(*placement.element);
   }
-  for (const std::string &path : machine.signal_paths())
+  for (const std::string &path : machine.model().signal_paths())
     if (const Signal signal = machine.signal(path, path); signal.measure >= 0 && signal.quantity == 0)
     {
       SweptCoordinate own{path, signal.unit};
@@ -80,9 +80,9 @@ Eigen::VectorXd measures_of(const Machine &machine, int element, const Eigen::Ve
 {
   int first = 0;
   for (int e = 0; e < element; ++e)
-    first += machine.elements()[std::size_t(e)].element->n_measures();
+    first += machine.model().elements()[std::size_t(e)].element->n_measures();
   return (machine.forces().directions().transpose() * q)
-      .segment(first, machine.elements()[std::size_t(element)].element->n_measures());
+      .segment(first, machine.model().elements()[std::size_t(element)].element->n_measures());
 }
 
 } // namespace
@@ -102,7 +102,7 @@ SweptCoordinate swept_coordinate(const Machine &machine, const std::string &name
     for (const char *end : {".angle", ".displacement", ".value"})
       if (one.name == name + end && (one.coordinate < 0 || machine.coordinate_name(one.coordinate) == name))
         return one;
-  for (const Body &body : machine.bodies())
+  for (const Body &body : machine.model().bodies())
     if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
       names.push_back(body.name);
   for (const SweptCoordinate &one : all)
@@ -119,9 +119,9 @@ double swept_value(const Machine &machine, const SweptCoordinate &coordinate, co
   if (coordinate.coordinate >= 0)
     return q[coordinate.coordinate];
   if (coordinate.joint < 0)
-    return machine.measure(coordinate.measure).evaluate(q, Eigen::VectorXd::Zero(q.size())).s;
+    return machine.model().measure(coordinate.measure).evaluate(q, Eigen::VectorXd::Zero(q.size())).s;
   const Eigen::VectorXd u = measures_of(machine, coordinate.joint, q);
-  return driven_joint(machine.elements()[std::size_t(coordinate.joint)])->driven_value(u.data());
+  return driven_joint(machine.model().elements()[std::size_t(coordinate.joint)])->driven_value(u.data());
 }
 
 KnownStart position_at(Machine &machine, const SweptCoordinate &coordinate, const InitialState &state, double x)

@@ -3,12 +3,12 @@
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
+#include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/fast_forces.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
 #include "coupling/simulation/checks/hydraulic_limits.h"
 #include "coupling/simulation/checks/stiffness_check.h"
 #include "coupling/simulation/recorder.h"
-#include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 
@@ -178,58 +178,9 @@ void guard(const Machine &machine, const InitialState &initial, const RunOptions
   }
 }
 
-bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
+void add(const std::vector<std::string> &warnings, std::vector<std::string> &all)
 {
-  return std::any_of(events.begin(), events.end(),
-                     [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
-}
-
-/// The time from which the run begins tells a switch to act at the start, as meant.
-bool at_the_start(const Switch &own, double begin)
-{
-  return own.signal == "t" && own.level == begin;
-}
-
-/// Switches that never act, or act before anything has moved, are seldom meant.
-void warn_of_switches(const Machine &machine, double begin, RunResult &result)
-{
-  for (const Event &event : result.events)
-    if (event.kind == "switch" && event.t == begin &&
-        std::none_of(machine.switches().begin(), machine.switches().end(),
-                     [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
-      result.warnings.push_back("switch " + event.name +
-                                " was thrown at the start: its signal lay at the value or beyond it already");
-  if (!result.failure.empty() || result.interrupted)
-    return;
-  for (int i = 0; i < machine.events().n_guards(); ++i)
-    if (const ActiveGuard guard = machine.events().guard(i); guard.kind == "switch" && !happened(result.events, guard))
-      result.warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
-}
-
-/// Positions that are given may lie inside a stop, which then throws the body out.
-void warn_of_closed_contacts(const Machine &machine, const InitialState &initial, RunResult &result)
-{
-  LocalState local;
-  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
-  for (const std::string &contact : machine.closed_contacts(local))
-    result.warnings.push_back("the start lies inside the contact of " + contact +
-                              "; it pushes from the first instant on. If that is not meant, change the position or the "
-                              "play, or start with rule = \"static\"");
-}
-
-/// Taken step by step, the sign of a friction is that of the last step: it may hold what it cannot.
-void warn_of_friction(const Machine &machine, const RunOptions &options, RunResult &result)
-{
-  if (options.events)
-    return;
-  for (const ElementPlacement &placement : machine.elements())
-    if (law_of<mechanism::CoulombFriction>(placement))
-    {
-      result.warnings.push_back("run.events = false, but the dry friction of \"" + placement.name +
-                                "\" is made for located events: without them it may hold more than its limit, or "
-                                "chatter; leave run.events true, or take the type \"friction\"");
-      return;
-    }
+  all.insert(all.end(), warnings.begin(), warnings.end());
 }
 
 /// Ends a run whose controlled steps have become so short that it would never end.
@@ -285,7 +236,7 @@ std::string advice(const Machine &machine, const MethodOptions &method, const In
     text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
             " is about to follow from the other joints; keep it off there, or make a joint compliant";
   bool rubs = false;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
     rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
   if (rubs && controlled(method))
     text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
@@ -295,7 +246,7 @@ std::string advice(const Machine &machine, const MethodOptions &method, const In
 
 void warn_of_fast_loads(const Machine &machine, RunResult &result)
 {
-  const ReducedFrame *frame = machine.reduced_frame();
+  const ReducedFrame *frame = machine.model().reduced_frame();
   if (!frame || !(frame->frequency_limit_hz > 0.))
     return;
   const double fastest = fastest_load(machine) / (2. * M_PI);
@@ -412,7 +363,8 @@ void Run::finish(const InitialState &initial)
 {
   recorder_.finish();
   result_.events = driver_.events();
-  warn_of_switches(machine_, options_.begin, result_);
+  add(switch_warnings(machine_, options_.begin, result_.events, result_.failure.empty() && !result_.interrupted),
+      result_.warnings);
   take_work(integrator_->work(), driver_, options_, result_);
   const Eigen::VectorXd   &v        = integrator_->instant().v;
   std::vector<std::string> warnings = cylinders_->warnings();
@@ -420,7 +372,7 @@ void Run::finish(const InitialState &initial)
     warnings.push_back(std::move(warning));
   for (const std::string &warning : tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v))
     warnings.push_back(warning);
-  result_.warnings.insert(result_.warnings.end(), warnings.begin(), warnings.end());
+  add(warnings, result_.warnings);
 }
 
 } // namespace
@@ -438,10 +390,11 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   const auto wall_start = std::chrono::steady_clock::now();
   result.method         = method_name(method);
   warn_of_fast_loads(machine, result);
-  result.warnings.insert(result.warnings.end(), initial.notes.begin(), initial.notes.end());
+  add(initial.notes, result.warnings);
   if (!initial.settled)
-    warn_of_closed_contacts(machine, initial, result);
-  warn_of_friction(machine, options, result);
+    add(closed_contact_warnings(machine, initial), result.warnings);
+  if (!options.events)
+    add(unlocated_friction_warnings(machine), result.warnings);
   std::unique_ptr<Run> run;
   try
   {

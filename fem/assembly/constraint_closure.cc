@@ -2,6 +2,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -27,6 +28,17 @@ void require_end(int tie, const std::vector<int> &tie_of, const std::vector<Comb
   state[tie] = 2;
 }
 
+/// No value of it is held or tied.
+bool ends_free(const Combination &tie, const std::vector<char> &held, const std::vector<int> &tie_of)
+{
+  return std::none_of(tie.begin(), tie.end(),
+                      [&](const auto &entry)
+                      {
+                        const std::size_t value = std::size_t(entry.first);
+                        return value < held.size() && (held[value] != 0 || tie_of[value] >= 0);
+                      });
+}
+
 } // namespace
 
 std::vector<Combination> closed_ties(const std::vector<char> &held, const std::vector<int> &tie_of,
@@ -49,11 +61,14 @@ std::vector<Combination> closed_ties(const std::vector<char> &held, const std::v
       constraints.add_line(i);
   constraints.close();
 
-  std::vector<Combination> closed(ties.size());
+  std::vector<Combination> closed = ties; // in their own order where nothing is put in
   for (std::size_t i = 0; i < tie_of.size(); ++i)
-    if (tie_of[i] >= 0)
+    if (tie_of[i] >= 0 && !ends_free(ties[tie_of[i]], held, tie_of))
+    {
+      closed[tie_of[i]].clear();
       for (const auto &[value, weight] : *constraints.get_constraint_entries(i))
         closed[tie_of[i]].emplace_back(static_cast<int>(value), weight);
+    }
   return closed;
 }
 

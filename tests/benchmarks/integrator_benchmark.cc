@@ -72,7 +72,7 @@ coupling::MethodOptions exact(ForceRule force)
 void plain_condensed_bdf2(benchmark::State &state)
 {
   coupling::Machine machine = frame(static_cast<int>(state.range(0)));
-  const int         n = machine.size(), n_N = machine.n_interface(), n_L = n - n_N;
+  const int         n = machine.size(), n_N = machine.model().n_interface(), n_L = n - n_N;
   MatrixXd          M, B, C;
   machine.linear().dense_matrices(M, B, C);
   const double   b          = 2. / 3. * h;

@@ -18,8 +18,9 @@ constexpr double growth = 100.;
 
 coupling::MethodOptions random_method(Dice &dice, bool jointed)
 {
-  static const Method free[] = {"bdf", "bdf", "newmark", "wilson", "hht", "generalised-alpha", "central-difference"};
-  static const Method held[] = {"bdf", "bdf", "hht", "generalised-alpha"};
+  static const char *const free[] = {
+      "bdf", "bdf", "newmark", "wilson", "hht", "generalised-alpha", "central-difference"};
+  static const char *const held[] = {"bdf", "bdf", "hht", "generalised-alpha"};
 
   coupling::MethodOptions options;
   options.method = jointed ? held[dice.whole(4)] : free[dice.whole(7)];

@@ -19,7 +19,7 @@ constexpr double too_open   = 0.1;  ///< share of the energy exchanged: steps ar
 constexpr double affordable = 1.;   ///< [s] of CPU time for fixed steps, before they are divided by four
 constexpr int    dense_rows = 20000, most_tries = 3;
 
-coupling::MethodOptions controlled(coupling::Method method, int order, double tolerance)
+coupling::MethodOptions controlled(const std::string &method, int order, double tolerance)
 {
   coupling::MethodOptions options;
   options.method    = method;
@@ -28,7 +28,7 @@ coupling::MethodOptions controlled(coupling::Method method, int order, double to
   return options;
 }
 
-coupling::MethodOptions fixed(coupling::Method method, int order)
+coupling::MethodOptions fixed(const std::string &method, int order)
 {
   coupling::MethodOptions options;
   options.method = method;

@@ -15,6 +15,7 @@ namespace gestell::tests
 
 /// Mechanisms in the plane z = 0 with ideal joints, of the reference tables in tests/reference/numerics/dae.
 using coupling::Machine;
+using coupling::MachineModel;
 using coupling::Vector3;
 using mechanism::RelativeMeasure;
 using mechanism::Vector3d;
@@ -30,12 +31,13 @@ inline PlanePoint operator+(const PlanePoint &a, const PlanePoint &b)
   return {a.x + b.x, a.y + b.y};
 }
 
-inline int add_planar(Machine &machine, const std::string &name, double mass, double inertia, const PlanePoint &centre)
+inline int add_planar(MachineModel &machine, const std::string &name, double mass, double inertia,
+                      const PlanePoint &centre)
 {
   return machine.add_planar(name, {0., 0., 1.}, mass, inertia, centre.vector());
 }
 
-inline void add_joint(Machine &machine, const std::string &name, const std::string &from, const std::string &to,
+inline void add_joint(MachineModel &machine, const std::string &name, const std::string &from, const std::string &to,
                       const PlanePoint &at, const std::vector<mechanism::IdealJoint::Equation> &equations)
 {
   const auto first = machine.place(from, at.vector()), second = machine.place(to, at.vector());
@@ -53,14 +55,14 @@ inline mechanism::IdealJoint::Equation along(const std::string &name, const Vect
 }
 
 /// `to` is held at the point `at` of `from`; fx, fy act on `to`.
-inline void revolute(Machine &machine, const std::string &name, const std::string &from, const std::string &to,
+inline void revolute(MachineModel &machine, const std::string &name, const std::string &from, const std::string &to,
                      const PlanePoint &at)
 {
   add_joint(machine, name, from, to, at, {along("fx", Vector3d::UnitX()), along("fy", Vector3d::UnitY())});
 }
 
 /// Spring of stiffness c and free length l0 between two points.
-inline void spring(Machine &machine, const std::string &name, const std::string &from, const PlanePoint &at_from,
+inline void spring(MachineModel &machine, const std::string &name, const std::string &from, const PlanePoint &at_from,
                    const std::string &to, const PlanePoint &at_to, double c, double l0)
 {
   const auto first = machine.place(from, at_from.vector()), second = machine.place(to, at_to.vector());
@@ -80,42 +82,42 @@ inline void spring(Machine &machine, const std::string &name, const std::string 
 /// A01: a point of 1 kg on a rod of 1 m, level at first; "rod.force" is the push, minus the tension.
 inline Machine pendulum()
 {
-  Machine machine;
-  machine.set_gravity({0., -9.81, 0.});
-  machine.add_point("bob", 1., {-1., 0., 0.});
-  const auto ground = machine.place("ground", {0., 0., 0.}), bob = machine.place("bob", {-1., 0., 0.});
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
+  model.add_point("bob", 1., {-1., 0., 0.});
+  const auto                      ground = model.place("ground", {0., 0., 0.}), bob = model.place("bob", {-1., 0., 0.});
   mechanism::IdealJoint::Equation rod;
   rod.name         = "force";
   rod.measure.form = RelativeMeasure::Form::distance;
   rod.offset       = 1.;
-  machine.attach("rod",
-                 std::make_shared<mechanism::IdealJoint>(ground.placement, bob.placement,
-                                                         std::vector<mechanism::IdealJoint::Equation>{rod}),
-                 bob.measures);
-  machine.finish();
+  model.attach("rod",
+               std::make_shared<mechanism::IdealJoint>(ground.placement, bob.placement,
+                                                       std::vector<mechanism::IdealJoint::Equation>{rod}),
+               bob.measures);
+  Machine machine(std::move(model));
   return machine;
 }
 
 /// A02: N windows of uniform rods, 1 kg and 1 m each, upright; body "crank i" i = 0..N, "coupler i" i = 1..N.
 inline Machine n_four_bar(int N)
 {
-  Machine machine;
-  machine.set_gravity({0., -9.81, 0.});
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
   const double J = 1. / 12.;
   for (int i = 0; i <= N; ++i)
   {
     const std::string crank = "crank " + std::to_string(i);
-    add_planar(machine, crank, 1., J, {double(i), 0.5});
-    revolute(machine, "foot " + std::to_string(i), "ground", crank, {double(i), 0.});
+    add_planar(model, crank, 1., J, {double(i), 0.5});
+    revolute(model, "foot " + std::to_string(i), "ground", crank, {double(i), 0.});
   }
   for (int i = 1; i <= N; ++i)
   {
     const std::string coupler = "coupler " + std::to_string(i), left = "crank " + std::to_string(i - 1);
-    add_planar(machine, coupler, 1., J, {i - 0.5, 1.});
-    revolute(machine, "left " + std::to_string(i), left, coupler, {i - 1., 1.});
-    revolute(machine, "right " + std::to_string(i), coupler, "crank " + std::to_string(i), {double(i), 1.});
+    add_planar(model, coupler, 1., J, {i - 0.5, 1.});
+    revolute(model, "left " + std::to_string(i), left, coupler, {i - 1., 1.});
+    revolute(model, "right " + std::to_string(i), coupler, "crank " + std::to_string(i), {double(i), 1.});
   }
-  machine.finish();
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -123,7 +125,7 @@ inline Machine n_four_bar(int N)
 inline Eigen::VectorXd swinging_four_bars(const Machine &machine)
 {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(machine.size());
-  for (const auto &body : machine.bodies())
+  for (const auto &body : machine.model().bodies())
   {
     const bool crank       = body.name[1] == 'r';
     v[body.coordinate]     = crank ? 0.5 : 1.;
@@ -156,23 +158,23 @@ inline Machine andrews_squeezer()
                                 {xa + ta * c(delta) - tb * s(delta), ya + ta * s(delta) + tb * c(delta)},
                                 {xa + u * s(epsilon) + (zf - fa) * c(Oe), ya - u * c(epsilon) + (zf - fa) * s(Oe)},
                                 {xa + ua * s(epsilon) - ub * c(epsilon), ya - ua * c(epsilon) - ub * s(epsilon)}};
-  Machine          machine;
+  MachineModel     model;
   for (int i = 0; i < 7; ++i)
-    add_planar(machine, "K" + std::to_string(i + 1), m[i], I[i], centres[i]);
-  revolute(machine, "O", "ground", "K1", O);
-  revolute(machine, "pin", "K1", "K2", pin);
-  revolute(machine, "B0", "ground", "K3", B0);
-  revolute(machine, "A5", "ground", "K5", A);
-  revolute(machine, "A7", "ground", "K7", A);
-  revolute(machine, "F", "K5", "K4", A + PlanePoint{zt * c(delta), zt * s(delta)});
-  revolute(machine, "H", "K7", "K6", A + PlanePoint{u * s(epsilon), -u * c(epsilon)});
-  revolute(machine, "B23", "K3", "K2", B);
-  revolute(machine, "B24", "K4", "K2", B);
-  revolute(machine, "B26", "K6", "K2", B);
-  spring(machine, "spring", "K3", B0 + PlanePoint{sc * s(gamma) + sd * c(gamma), -sc * c(gamma) + sd * s(gamma)},
+    add_planar(model, "K" + std::to_string(i + 1), m[i], I[i], centres[i]);
+  revolute(model, "O", "ground", "K1", O);
+  revolute(model, "pin", "K1", "K2", pin);
+  revolute(model, "B0", "ground", "K3", B0);
+  revolute(model, "A5", "ground", "K5", A);
+  revolute(model, "A7", "ground", "K7", A);
+  revolute(model, "F", "K5", "K4", A + PlanePoint{zt * c(delta), zt * s(delta)});
+  revolute(model, "H", "K7", "K6", A + PlanePoint{u * s(epsilon), -u * c(epsilon)});
+  revolute(model, "B23", "K3", "K2", B);
+  revolute(model, "B24", "K4", "K2", B);
+  revolute(model, "B26", "K6", "K2", B);
+  spring(model, "spring", "K3", B0 + PlanePoint{sc * s(gamma) + sd * c(gamma), -sc * c(gamma) + sd * s(gamma)},
          "ground", C, 4530., .07785);
-  machine.add_load("motor", machine.marker("K1").about({0., 0., 1.}), 0.033, {}, "N m");
-  machine.finish();
+  model.add_load("motor", model.marker("K1").about({0., 0., 1.}), 0.033, {}, "N m");
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -192,27 +194,26 @@ inline SliderCrankParameters slider_crank_case(const std::string &name)
 /// [N m] on the crank of so much in motion and twelve times that at rest.
 inline Machine slider_crank(const SliderCrankParameters &p, double friction = 0.)
 {
-  Machine machine;
-  machine.set_gravity({0., -9.81, 0.});
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
   const double     psi = -std::asin(p.r * std::sin(p.phi) / p.l);
   const PlanePoint pin{p.r * std::cos(p.phi), p.r * std::sin(p.phi)};
   const PlanePoint end{pin.x + p.l * std::cos(psi), 0.};
-  add_planar(machine, "crank", p.m1, p.J1, {p.centre_1 * pin.x, p.centre_1 * pin.y});
-  add_planar(machine, "rod", p.m2, p.J2, {pin.x + p.centre_2 * (end.x - pin.x), pin.y + p.centre_2 * (end.y - pin.y)});
-  machine.add_point("slider", p.m3, end.vector());
-  revolute(machine, "bearing", "ground", "crank", {});
-  revolute(machine, "crank pin", "crank", "rod", pin);
-  revolute(machine, "slider pin", "slider", "rod", end);
-  add_joint(machine, "guide", "ground", "slider", end,
-            {along("fy", Vector3d::UnitY()), along("fz", Vector3d::UnitZ())});
+  add_planar(model, "crank", p.m1, p.J1, {p.centre_1 * pin.x, p.centre_1 * pin.y});
+  add_planar(model, "rod", p.m2, p.J2, {pin.x + p.centre_2 * (end.x - pin.x), pin.y + p.centre_2 * (end.y - pin.y)});
+  model.add_point("slider", p.m3, end.vector());
+  revolute(model, "bearing", "ground", "crank", {});
+  revolute(model, "crank pin", "crank", "rod", pin);
+  revolute(model, "slider pin", "slider", "rod", end);
+  add_joint(model, "guide", "ground", "slider", end, {along("fy", Vector3d::UnitY()), along("fz", Vector3d::UnitZ())});
   if (p.torque != 0.)
-    machine.add_load("motor", machine.marker("crank").about({0., 0., 1.}), p.torque, {}, "N m");
+    model.add_load("motor", model.marker("crank").about({0., 0., 1.}), p.torque, {}, "N m");
   if (friction > 0.)
-    machine.attach("brake",
-                   std::make_shared<mechanism::CoulombFriction>(
-                       mechanism::CoulombFriction::Parameters{friction, 12. * friction, 0.}),
-                   {{{machine.coordinate("crank.angle"), 1.}}});
-  machine.finish();
+    model.attach("brake",
+                 std::make_shared<mechanism::CoulombFriction>(
+                     mechanism::CoulombFriction::Parameters{friction, 12. * friction, 0.}),
+                 {{{model.coordinate("crank.angle"), 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 

@@ -7,21 +7,21 @@ namespace gestell::apps
 Scenery scenery_of(const coupling::Machine &machine)
 {
   Scenery scenery;
-  scenery.n_frame = machine.n_frame();
-  scenery.bodies  = machine.bodies();
-  scenery.rods    = machine.rods();
-  scenery.bars    = machine.bars();
-  scenery.pins    = machine.pins();
+  scenery.n_frame = machine.model().n_frame();
+  scenery.bodies  = machine.model().bodies();
+  scenery.rods    = machine.model().rods();
+  scenery.bars    = machine.model().bars();
+  scenery.pins    = machine.model().pins();
 
   const auto take_interfaces = [&](const std::vector<fem::Interface> &interfaces)
   {
     for (const fem::Interface &interface : interfaces)
     {
-      scenery.interfaces.push_back(machine.marker("frame." + interface.name));
+      scenery.interfaces.push_back(machine.model().marker("frame." + interface.name));
       scenery.interface_positions.emplace_back(interface.name, interface.position);
     }
   };
-  if (const coupling::ReducedFrame *frame = machine.reduced_frame())
+  if (const coupling::ReducedFrame *frame = machine.model().reduced_frame())
   {
     scenery.points       = frame->points;
     scenery.triangles    = frame->triangles;
@@ -29,7 +29,7 @@ Scenery scenery_of(const coupling::Machine &machine)
     { return (frame->displacement * p.cast<float>()).cast<double>(); };
     take_interfaces(frame->interfaces);
   }
-  else if (const fem::FrameMatrices *frame = machine.full_frame())
+  else if (const fem::FrameMatrices *frame = machine.model().full_frame())
   {
     scenery.points       = frame->picture.points;
     scenery.triangles    = frame->picture.triangles;

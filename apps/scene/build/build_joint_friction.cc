@@ -18,7 +18,7 @@ using mechanism::RelativeMeasure;
 using mechanism::TransmittedElement;
 
 template <int k>
-void attach_smooth(coupling::Machine &machine, const Pair &pair, const JointFrictionRequest &request,
+void attach_smooth(coupling::MachineModel &machine, const Pair &pair, const JointFrictionRequest &request,
                    const mechanism::JointLoad &load, const std::array<RelativeMeasure, k> &motions,
                    const std::array<double, k> &radii)
 {
@@ -81,7 +81,7 @@ coupling::Measure constant_motion(const JointRequest &joint, const Pair &pair, c
 
 } // namespace
 
-void add_joint_friction(coupling::Machine &machine, const JointRequest &joint, const Pair &pair,
+void add_joint_friction(coupling::MachineModel &machine, const JointRequest &joint, const Pair &pair,
                         const std::vector<mechanism::IdealJoint::Equation> &equations)
 {
   const JointFrictionRequest &friction = *joint.friction;

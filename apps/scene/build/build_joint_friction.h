@@ -10,7 +10,7 @@ namespace gestell::apps
  *
  * @throws std::invalid_argument where the bodies have no such motion, or friction that sticks has no constant direction
  */
-void add_joint_friction(coupling::Machine &machine, const JointRequest &joint, const Pair &pair,
+void add_joint_friction(coupling::MachineModel &machine, const JointRequest &joint, const Pair &pair,
                         const std::vector<mechanism::IdealJoint::Equation> &equations);
 
 } // namespace gestell::apps

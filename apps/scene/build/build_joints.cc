@@ -106,7 +106,7 @@ void take_as_measures(Pair &pair, std::vector<CompliantJoint::Equation> &equatio
 }
 
 /// What a joint looks like: a bar, a pin; of others only the points where they hold.
-void draw_joint(coupling::Machine &machine, const JointRequest &joint, const Pair &pair)
+void draw_joint(coupling::MachineModel &machine, const JointRequest &joint, const Pair &pair)
 {
   draw_places(machine, joint.from, joint.to);
   if (joint.type == JointType::distance)
@@ -120,7 +120,7 @@ void draw_joint(coupling::Machine &machine, const JointRequest &joint, const Pai
 }
 
 /// What a switch compares its signal with is told in the unit of the signal.
-void check_level(const coupling::Machine &machine, const SwitchRequest &request, const Quantity &level,
+void check_level(const coupling::MachineModel &machine, const SwitchRequest &request, const Quantity &level,
                  const std::string &what)
 {
   const coupling::Signal signal = machine.signal(request.request.name, request.request.signal);
@@ -128,8 +128,8 @@ void check_level(const coupling::Machine &machine, const SwitchRequest &request,
     return;
   const Quantity unit = parse_quantity("1 " + signal.unit, [](const std::string &) { return std::nullopt; });
   if (!equal(unit.dimension, level.dimension))
-    throw std::invalid_argument("the signal \"" + request.request.signal + "\" is in " + signal.unit +
-                                ", but the " + what + " is " + describe(level.dimension));
+    throw std::invalid_argument("the signal \"" + request.request.signal + "\" is in " + signal.unit + ", but the " +
+                                what + " is " + describe(level.dimension));
   const Kind kind{what + " of a signal in " + signal.unit, "20 1/min", unit.dimension,
                   unit.counts == Counts::radians ? Counts::turns : Counts::nothing};
   value_as(level, kind, describe(level.dimension));
@@ -181,7 +181,7 @@ void demand(const JointRequest &joint, const Pair &pair, JointEquations &equatio
 
 } // namespace
 
-void add_joint(coupling::Machine &machine, const JointRequest &joint)
+void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
 {
   if (joint.type == JointType::measure)
   {
@@ -213,7 +213,7 @@ void add_joint(coupling::Machine &machine, const JointRequest &joint)
   draw_joint(machine, joint, pair);
 }
 
-void attach_between(coupling::Machine &machine, const ElementRequest &element)
+void attach_between(coupling::MachineModel &machine, const ElementRequest &element)
 {
   const PairRequest           &request = *element.pair;
   const Pair                   pair(machine, request.from, request.to);
@@ -236,7 +236,7 @@ void attach_between(coupling::Machine &machine, const ElementRequest &element)
     machine.draw_pin({placed(machine, request.to), *request.about});
 }
 
-void add_switch(coupling::Machine &machine, const SwitchRequest &request)
+void add_switch(coupling::MachineModel &machine, const SwitchRequest &request)
 {
   machine.add_switch(request.request); // refuses a signal that there is not, in words of its own
   check_level(machine, request, request.level, "level");

@@ -7,10 +7,10 @@ namespace gestell::apps
 {
 
 /// The joints and switches of a scene, in the machine; bodies and elements must be there.
-void add_joint(coupling::Machine &machine, const JointRequest &joint);
-void add_switch(coupling::Machine &machine, const SwitchRequest &request);
+void add_joint(coupling::MachineModel &machine, const JointRequest &joint);
+void add_switch(coupling::MachineModel &machine, const SwitchRequest &request);
 
 /// Attaches a law that acts between two places, on the measures of its PairRequest.
-void attach_between(coupling::Machine &machine, const ElementRequest &element);
+void attach_between(coupling::MachineModel &machine, const ElementRequest &element);
 
 } // namespace gestell::apps

@@ -26,7 +26,7 @@ auto placed(const std::string &place, Make make)
   }
 }
 
-void add_body(coupling::Machine &machine, const BodyRequest &body)
+void add_body(coupling::MachineModel &machine, const BodyRequest &body)
 {
   check_carrier(machine, body);
   switch (body.kind)
@@ -50,7 +50,7 @@ void add_body(coupling::Machine &machine, const BodyRequest &body)
   machine.draw(body.name, body.position, body.radius, body.size);
 }
 
-void fill(coupling::Machine &machine, const Scene &scene)
+void fill(coupling::MachineModel &machine, const Scene &scene)
 {
   for (const auto &body : scene.bodies)
     placed(body.place, [&] { add_body(machine, body); });
@@ -62,8 +62,8 @@ void fill(coupling::Machine &machine, const Scene &scene)
     placed(place(spring.name),
            [&]
            {
-             machine.add_linear(spring.name, measure_of(spring.u, machine), spring.stiffness, spring.damping,
-                                spring.preload, spring.rest, spring.force_unit);
+             machine.add_linear(spring.name, measure_of(spring.u, machine),
+                                {spring.stiffness, spring.damping, spring.preload, spring.rest}, spring.force_unit);
            });
   for (const auto &load : scene.loads)
     placed(place(load.name),
@@ -102,13 +102,12 @@ void fill(coupling::Machine &machine, const Scene &scene)
     placed(own.place, [&] { add_switch(machine, own); });
   for (const auto &rod : scene.rods)
     machine.draw_rod(rod);
-  machine.finish();
 }
 
 template <typename Frame>
 coupling::Machine machine_on(const Scene &scene, Frame frame)
 {
-  coupling::Machine machine;
+  coupling::MachineModel machine;
   machine.set_gravity(scene.gravity);
   machine.set_frame(std::move(frame));
   fill(machine, scene);
@@ -142,7 +141,7 @@ coupling::Machine build_machine(const Scene &scene)
     return machine_on(scene, placed(scene.frame.place, [&] { return coupling::dense_frame(scene.frame.matrices); }));
   if (scene.bodies.empty())
     throw std::invalid_argument(scene.file + ": has nothing that moves; declare a [frame] or at least one [body.NAME]");
-  coupling::Machine machine;
+  coupling::MachineModel machine;
   machine.set_gravity(scene.gravity);
   fill(machine, scene);
   return machine;

@@ -49,7 +49,7 @@ mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::
   return mesh;
 }
 
-Built<PlacedMeasure> build_placed(coupling::Machine &machine, const MeasureRequest &request)
+Built<PlacedMeasure> build_placed(coupling::MachineModel &machine, const MeasureRequest &request)
 {
   const auto                 first = placed(machine, request.first), second = placed(machine, request.second);
   mechanism::RelativeMeasure measure;
@@ -65,7 +65,7 @@ Built<PlacedMeasure> build_placed(coupling::Machine &machine, const MeasureReque
   return {{first.placement, second.placement, measure}, measures};
 }
 
-Built<PlacedMeasure> build_term(coupling::Machine &machine, const TermRequest &term)
+Built<PlacedMeasure> build_term(coupling::MachineModel &machine, const TermRequest &term)
 {
   if (term.placed)
     return build_placed(machine, *term.placed);
@@ -80,7 +80,7 @@ Built<PlacedMeasure> build_term(coupling::Machine &machine, const TermRequest &t
   return {PlacedMeasure::linear(), {u}};
 }
 
-Built<CombinedMeasure> build(coupling::Machine &machine, const MeasureRequest &request)
+Built<CombinedMeasure> build(coupling::MachineModel &machine, const MeasureRequest &request)
 {
   if (request.terms.empty())
   {
@@ -113,7 +113,7 @@ double described_value(const CombinedMeasure &measure)
 
 } // namespace
 
-coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine)
+coupling::Measure measure_of(const MotionMeasure &motion, const coupling::MachineModel &machine)
 {
   using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
   coupling::Measure u;
@@ -125,23 +125,23 @@ coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machin
   return u;
 }
 
-Vector3 point_of(const coupling::Machine &machine, const PlaceRequest &place)
+Vector3 point_of(const coupling::MachineModel &machine, const PlaceRequest &place)
 {
   return place.at ? *place.at : machine.position(place.marker);
 }
 
-coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place)
+coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place)
 {
   return machine.place(place.marker, point_of(machine, place));
 }
 
-void draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+void draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to)
 {
   for (const PlaceRequest *place : {&from, &to})
     machine.draw_point(place->marker, point_of(machine, *place));
 }
 
-void add_measures(coupling::Machine &machine, const Scene &scene)
+void add_measures(coupling::MachineModel &machine, const Scene &scene)
 {
   for (const MeasureRequest &request : scene.measures)
   {
@@ -157,7 +157,7 @@ void add_measures(coupling::Machine &machine, const Scene &scene)
   }
 }
 
-void add_measure_joint(coupling::Machine &machine, const JointRequest &joint)
+void add_measure_joint(coupling::MachineModel &machine, const JointRequest &joint)
 {
   const bool turns = joint.measure.unit == "rad";
   const auto built = build(machine, joint.measure);
@@ -170,7 +170,7 @@ void add_measure_joint(coupling::Machine &machine, const JointRequest &joint)
       built.measures);
 }
 
-void attach_on_measure(coupling::Machine &machine, const ElementRequest &element)
+void attach_on_measure(coupling::MachineModel &machine, const ElementRequest &element)
 {
   const auto attach = [&](const CombinedMeasure &measure, std::vector<coupling::Measure> measures, double rest)
   {

@@ -6,23 +6,23 @@
 namespace gestell::apps
 {
 
-coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machine &machine);
+coupling::Measure measure_of(const MotionMeasure &motion, const coupling::MachineModel &machine);
 
 inline mechanism::Vector3d vector(const Vector3 &a)
 {
   return {a[0], a[1], a[2]};
 }
-Vector3               point_of(const coupling::Machine &machine, const PlaceRequest &place);
-coupling::PlacedPoint placed(const coupling::Machine &machine, const PlaceRequest &place);
-void                  draw_places(coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to);
+Vector3               point_of(const coupling::MachineModel &machine, const PlaceRequest &place);
+coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place);
+void                  draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
 
 /// The measures of a scene, in the machine; bodies must be there.
-void add_measures(coupling::Machine &machine, const Scene &scene);
+void add_measures(coupling::MachineModel &machine, const Scene &scene);
 
 /// A joint of one equation on a measure of its own.
-void add_measure_joint(coupling::Machine &machine, const JointRequest &joint);
+void add_measure_joint(coupling::MachineModel &machine, const JointRequest &joint);
 
 /// Attaches a law of one measure, and virtual coordinates, that acts on a measure of the scene.
-void attach_on_measure(coupling::Machine &machine, const ElementRequest &element);
+void attach_on_measure(coupling::MachineModel &machine, const ElementRequest &element);
 
 } // namespace gestell::apps

@@ -20,7 +20,7 @@ Eigen::Vector3d vector(const Vector3 &a)
 }
 
 /// The carrier if it is a body that turns by any angle about an axis of its own.
-const coupling::Body *turning_carrier(const coupling::Machine &machine, const std::string &name)
+const coupling::Body *turning_carrier(const coupling::MachineModel &machine, const std::string &name)
 {
   for (const coupling::Body &body : machine.bodies())
     if (body.name == name && (body.kind == coupling::BodyKind::rotor || body.kind == coupling::BodyKind::planar))
@@ -45,7 +45,7 @@ double left_out(const coupling::Marker &carrier, const BodyRequest &body, const 
 
 } // namespace
 
-void check_carrier(const coupling::Machine &machine, const BodyRequest &body)
+void check_carrier(const coupling::MachineModel &machine, const BodyRequest &body)
 {
   const coupling::Body *carrier = turning_carrier(machine, body.carrier);
   if (!carrier)
@@ -64,7 +64,7 @@ void check_carrier(const coupling::Machine &machine, const BodyRequest &body)
                               (slider ? "prismatic joint" : "revolute joint at its position"));
 }
 
-std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Machine &machine)
+std::vector<std::string> carried_warnings(const Scene &scene, const coupling::MachineModel &machine)
 {
   Eigen::AlignedBox3d box;
   for (const BodyRequest &body : scene.bodies)

@@ -15,9 +15,9 @@ namespace gestell::apps
  *
  * @throws std::invalid_argument naming both and the way out
  */
-void check_carrier(const coupling::Machine &machine, const BodyRequest &body);
+void check_carrier(const coupling::MachineModel &machine, const BodyRequest &body);
 
 /// Where a mass counts at the reference point of an interface that turns, but is described far from it.
-std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Machine &machine);
+std::vector<std::string> carried_warnings(const Scene &scene, const coupling::MachineModel &machine);
 
 } // namespace gestell::apps

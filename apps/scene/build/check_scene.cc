@@ -47,9 +47,9 @@ std::vector<std::string> check_scene(const Scene &scene)
       initial_state(scene, machine);
   }
   for (const auto &[name, angle] : scene.start.steady.angles)
-    (void)angle, machine.body(name);
-  auto warnings = idle_bodies(scene, machine);
-  if (const auto remote = remote_joints(scene, machine); places_known(scene))
+    (void)angle, machine.model().body(name);
+  auto warnings = idle_bodies(scene, machine.model());
+  if (const auto remote = remote_joints(scene, machine.model()); places_known(scene))
     warnings.insert(warnings.end(), remote.begin(), remote.end());
   if (!scene.run.given)
     return warnings;
@@ -115,14 +115,14 @@ std::string floating_frame(const Scene &scene)
   if (!scene.run.given || path == FramePath::none || !places_known(scene))
     return "";
   auto machine = exists ? machine_to_check(scene) : build_machine(scene, rigid_stand_in(scene));
-  if (!may_float(*machine.reduced_frame()))
+  if (!may_float(*machine.model().reduced_frame()))
     return "";
   if (coupling::has_joints(machine) && scene.start.rule != StartRule::given) // such a start is found with the frame
     return "";
   try
   {
     const Eigen::VectorXd q = modes_configuration(scene, machine);
-    return free_frame(scene, machine, coupling::coupled_modes(machine, q, scene.modes.open, machine.size()));
+    return free_frame(scene, machine.model(), coupling::coupled_modes(machine, q, scene.modes.open, machine.size()));
   }
   catch (const coupling::ConvergenceFailure &)
   {

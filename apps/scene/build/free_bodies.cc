@@ -20,7 +20,7 @@ constexpr double takes_part = 0.01; ///< of the kinetic energy of a motion
 constexpr double rounding = 1e-6;
 
 /// Coordinates that elements, joints, springs, dampers and loads move by.
-std::set<int> coordinates_in_use(const Scene &scene, const coupling::Machine &machine)
+std::set<int> coordinates_in_use(const Scene &scene, const coupling::MachineModel &machine)
 {
   std::set<int> used;
   const auto    add = [&used](const coupling::Measure &u)
@@ -49,7 +49,7 @@ bool is_own(int coordinate, const coupling::Body &body)
 
 } // namespace
 
-std::vector<std::string> idle_bodies(const Scene &scene, const coupling::Machine &machine)
+std::vector<std::string> idle_bodies(const Scene &scene, const coupling::MachineModel &machine)
 {
   std::vector<std::string> warnings;
   const auto               used  = coordinates_in_use(scene, machine);
@@ -69,7 +69,7 @@ std::vector<std::string> idle_bodies(const Scene &scene, const coupling::Machine
 namespace
 {
 
-Eigen::Vector3d middle_of(const coupling::Machine &machine, const std::string &marker)
+Eigen::Vector3d middle_of(const coupling::MachineModel &machine, const std::string &marker)
 {
   return vector(machine.position(marker));
 }
@@ -80,7 +80,7 @@ bool has_place(const PlaceRequest &place)
 }
 
 /// Everything the scene places in space, but the joint itself.
-Eigen::AlignedBox3d extent_without(const JointRequest &joint, const Scene &scene, const coupling::Machine &machine)
+Eigen::AlignedBox3d extent_without(const JointRequest &joint, const Scene &scene, const coupling::MachineModel &machine)
 {
   Eigen::AlignedBox3d box;
   for (const coupling::Body &body : machine.bodies())
@@ -102,7 +102,7 @@ Eigen::AlignedBox3d extent_without(const JointRequest &joint, const Scene &scene
 
 } // namespace
 
-std::vector<std::string> remote_joints(const Scene &scene, const coupling::Machine &machine)
+std::vector<std::string> remote_joints(const Scene &scene, const coupling::MachineModel &machine)
 {
   std::vector<std::string> warnings;
   for (const JointRequest &joint : scene.joints)
@@ -130,7 +130,8 @@ bool may_float(const coupling::ReducedFrame &frame)
   return !frame.facts.free_motions.empty() || frame.n_rigid() > 0;
 }
 
-std::string free_frame(const Scene &scene, const coupling::Machine &machine, const std::vector<coupling::Mode> &modes)
+std::string free_frame(const Scene &scene, const coupling::MachineModel &machine,
+                       const std::vector<coupling::Mode> &modes)
 {
   const coupling::ReducedFrame *frame = machine.reduced_frame();
   if (!frame || !may_float(*frame))

@@ -20,7 +20,7 @@ namespace
 /// Adds `value` for a coordinate of a body, or for a motion of an interface: q[coordinate] = sign * motion.
 int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::Machine &machine)
 {
-  for (int i = machine.n_frame(); i < machine.size(); ++i)
+  for (int i = machine.model().n_frame(); i < machine.size(); ++i)
     if (machine.coordinate_name(i) == value.name)
     {
       x[i] = value.value;
@@ -29,9 +29,9 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
   static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
   const auto                            dot = value.name.rfind('.');
   const auto motion     = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
-  const auto interfaces = machine.reduced_frame() ? machine.reduced_frame()->interfaces
-                          : machine.full_frame()  ? machine.full_frame()->interfaces
-                                                  : std::vector<fem::Interface>{};
+  const auto interfaces = machine.model().reduced_frame() ? machine.model().reduced_frame()->interfaces
+                          : machine.model().full_frame()  ? machine.model().full_frame()->interfaces
+                                                          : std::vector<fem::Interface>{};
   for (const auto &interface : interfaces)
     if ("frame." + interface.name == value.name.substr(0, dot) && motion < 6)
     {
@@ -52,7 +52,7 @@ const coupling::Body *turning_body(const coupling::Machine &machine, const std::
   if (dot == std::string::npos || name.size() != dot + 3 || name[dot + 1] != letter)
     return nullptr;
   axis = name[dot + 2] - 'x';
-  for (const coupling::Body &body : machine.bodies())
+  for (const coupling::Body &body : machine.model().bodies())
     if (body.kind == coupling::BodyKind::rigid && body.name == name.substr(0, dot))
       return &body;
   return nullptr;

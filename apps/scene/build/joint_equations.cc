@@ -102,7 +102,7 @@ RelativeMeasure seen_from_first(const Vector3d &a)
 
 // --- Pair
 
-Pair::Pair(const coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to)
+Pair::Pair(const coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to)
     : n_frame(machine.n_frame())
 {
   const auto a = placed(machine, from), b = placed(machine, to);

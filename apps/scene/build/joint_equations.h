@@ -13,7 +13,7 @@ namespace gestell::apps
 /// Two places with the measures of both.
 struct Pair
 {
-  Pair(const coupling::Machine &machine, const PlaceRequest &from, const PlaceRequest &to);
+  Pair(const coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
 
   const coupling::Body *planar() const;    ///< one of the two, if it is
   bool                  in_space() const;  ///< one of the two turns freely

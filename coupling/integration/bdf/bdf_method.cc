@@ -3,7 +3,7 @@
 #include "coupling/integration/bdf/bdf.h"
 #include "coupling/integration/bdf/bdf_controlled.h"
 #include "coupling/integration/bdf/bdf_formula.h"
-#include "coupling/integration/stability/golden_section.h"
+#include "coupling/integration/system/golden_section.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "coupling/integration/stability/stability.h"
 
 #include "coupling/integration/integration_methods.h"
-#include "coupling/integration/stability/golden_section.h"
+#include "coupling/integration/system/golden_section.h"
 
 #include <algorithm>
 #include <cmath>

@@ -108,7 +108,7 @@ private:
       }
       else
       {
-        const auto measured = machine_.measure(demand.measure).evaluate(state_.q, state_.v, &gradient);
+        const auto measured = machine_.model().measure(demand.measure).evaluate(state_.q, state_.v, &gradient);
         value               = rates ? measured.rate : measured.s;
       }
       residual[n_c_ + Eigen::Index(i)] = value - demand.value;
@@ -135,7 +135,7 @@ private:
   /// Bodies begin with the rotation they are given.
   void guess_spins()
   {
-    for (const Body &body : machine_.bodies())
+    for (const Body &body : machine_.model().bodies())
     {
       Eigen::Vector3d omega = Eigen::Vector3d::Zero();
       for (const KnownSpin &known : known_.spins)
@@ -153,7 +153,7 @@ private:
   Eigen::VectorXd change(const Eigen::VectorXd &residual, const Eigen::MatrixXd &rows, const std::vector<char> &given)
   {
     std::vector<int> free;
-    for (int i = machine_.n_frame(); i < machine_.size(); ++i)
+    for (int i = machine_.model().n_frame(); i < machine_.size(); ++i)
       if (!given[i])
         free.push_back(i);
     Eigen::VectorXd delta = Eigen::VectorXd::Zero(machine_.size());
@@ -276,7 +276,7 @@ InitialState assemble(Machine &machine, const KnownStart &known)
 /// e . omega = 1/2 sum d_i' . (e x d_i)
 Eigen::VectorXd spin_gradient(const Machine &machine, const KnownSpin &spin, const Eigen::VectorXd &q)
 {
-  const int             first    = machine.body(spin.body).coordinate + 3;
+  const int             first    = machine.model().body(spin.body).coordinate + 3;
   const Eigen::Vector3d e        = Eigen::Vector3d::Unit(spin.axis);
   Eigen::VectorXd       gradient = Eigen::VectorXd::Zero(machine.size());
   for (int i = 0; i < 3; ++i)
@@ -288,7 +288,7 @@ std::vector<CompliantPlace> compliant_joints(const Machine &machine)
 {
   std::vector<CompliantPlace> found;
   int                         first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     if (const auto *joint = dynamic_cast<const mechanism::CompliantJoint *>(placement.element.get()))
       found.push_back({joint, first});

@@ -52,7 +52,7 @@ ConstraintRank::ConstraintRank(const Machine &machine, Eigen::MatrixXd rows) : m
     if (const double size = rows_.row(i).norm(); size > 0.)
       rows_.row(i) /= size;
   int first = 0; // bodies are rigid whatever the joints are: their rows are the longer ones and come first
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int n = n_constraints(*placement.element);
     if (makes_rigid(placement))
@@ -78,7 +78,7 @@ ConstraintRank ConstraintRank::at(const Machine &machine, double t, const Eigen:
 
 std::string ConstraintRank::joint_of(int row) const
 {
-  for (const ElementPlacement &placement : machine_.elements())
+  for (const ElementPlacement &placement : machine_.model().elements())
   {
     const int n = n_constraints(*placement.element);
     if (row < n)
@@ -96,8 +96,8 @@ std::vector<std::string> ConstraintRank::bodies_of(int row) const
     if (!(std::abs(rows_(row, i)) > taken_part))
       continue;
     std::string body = "the frame";
-    for (const Body &candidate : machine_.bodies())
-      if (i >= machine_.n_frame() && candidate.coordinate <= i)
+    for (const Body &candidate : machine_.model().bodies())
+      if (i >= machine_.model().n_frame() && candidate.coordinate <= i)
         body = "\"" + candidate.name + "\"";
     add_once(bodies, body);
   }

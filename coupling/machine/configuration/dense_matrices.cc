@@ -56,7 +56,7 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
   stiffness.setZero(n, n);
   damping.setZero(n, n);
   int first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int       k = placement.element->n_measures();
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
@@ -74,7 +74,7 @@ void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const st
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping)
 {
   std::vector<std::string> names;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
     names.push_back(placement.name);
   for (const std::string &name : open)
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -136,7 +136,7 @@ Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u
 {
   Eigen::VectorXd acts  = Eigen::VectorXd::Ones(u.size());
   int             first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int k = placement.element->n_measures();
     if (acting == Acting::structure && !placement.element->ideal_joint() &&
@@ -168,7 +168,7 @@ void add_turning_closures(const Machine &machine, const LocalState &state, Eigen
   Eigen::VectorXd p = Eigen::VectorXd::Zero(state.u.size());
   machine.forces().force(state, p);
   int first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int                   k    = placement.element->n_measures();
     const Eigen::VectorXd       rest = Eigen::VectorXd::Zero(k);

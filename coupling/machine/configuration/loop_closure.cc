@@ -13,7 +13,7 @@ constexpr int most_iterations = 20;
 std::vector<int> slider_coordinates(const Machine &machine)
 {
   std::vector<int> sliders;
-  for (const Body &body : machine.bodies())
+  for (const Body &body : machine.model().bodies())
     if (body.kind == BodyKind::slider)
       sliders.push_back(body.coordinate);
   return sliders;
@@ -28,7 +28,7 @@ Closures closures(const Machine &machine, const Eigen::VectorXd &q, const Eigen:
   std::vector<double>          values, curvatures;
   std::vector<Eigen::VectorXd> rows;
   int                          first = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int                   k = placement.element->n_measures();
     std::vector<double>         gradient(k);

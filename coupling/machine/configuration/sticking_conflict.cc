@@ -48,7 +48,7 @@ struct Holding
 
 std::string element_of(const Machine &machine, int measure)
 {
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
     if (measure -= placement.element->n_measures(); measure < 0)
       return placement.name;
   return "";
@@ -62,7 +62,7 @@ Holding held_by_joints(const Machine &machine, const LocalState &local)
   machine.joints().constraints(local, g, G);
   const Eigen::MatrixXd rows = joint_jacobian(machine, G);
   int                   row  = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
     for (int i = 0; i < n_constraints(*placement.element); ++i, ++row)
       if (const double size = rows.row(row).norm(); size > 0.)
         holding.add(rows.row(row).transpose() / size, placement.name);

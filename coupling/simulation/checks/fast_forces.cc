@@ -75,16 +75,16 @@ MatrixXd beside_frame(MatrixXd base, const MatrixXd &frame)
 
 FastForces::FastForces(const Machine &machine, const TimeIntegrator &integrator) : integrator_(integrator)
 {
-  const ReducedFrame *frame = machine.reduced_frame();
+  const ReducedFrame *frame = machine.model().reduced_frame();
   if (!frame || !frame->modal || !(frame->frequency_limit_hz > 0.))
     return;
   limit_             = frame->frequency_limit_hz;
-  const int      n_f = machine.n_frame(), n_b = machine.size() - n_f;
+  const int      n_f = machine.model().n_frame(), n_b = machine.size() - n_f;
   const MatrixXd W       = MatrixXd(machine.forces().directions()).topRows(n_f);
   const MatrixXd springs = beside_frame(dense_stiffness(machine), frame->C),
                  dampers = beside_frame(dense_damping(machine), frame->B);
   int i                  = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
     for (int k = 0; k < placement.element->n_measures(); ++k, ++i)
       if (!W.col(i).isZero(0.))
         places_.push_back({placement.name, W.col(i), i});

@@ -26,9 +26,9 @@ Eigen::VectorXd rotation_about(const Machine &machine, const Marker &marker, con
 std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v)
 {
   std::vector<std::string> warnings;
-  if (machine.full_frame())
+  if (machine.model().full_frame())
     return warnings; // to factorise that would take longer than many a run
-  for (const Body &body : machine.bodies())
+  for (const Body &body : machine.model().bodies())
   {
     const double speed = body.kind == BodyKind::rotor ? std::abs(v[body.coordinate]) : 0.;
     const auto [a, b]  = plane_across(body.axis);

@@ -17,7 +17,7 @@ constexpr double last_part = 0.01; // of both oil columns together: as near to a
 HydraulicLimits::HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator)
     : machine_(machine), integrator_(integrator)
 {
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
     if (!cylinder)

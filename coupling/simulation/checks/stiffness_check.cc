@@ -37,7 +37,7 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
     return;
   const StepWeights w     = *weights;
   int               first = 0, row = 0;
-  for (const ElementPlacement &placement : machine.elements())
+  for (const ElementPlacement &placement : machine.model().elements())
   {
     const int k = placement.element->n_measures();
     if (stiffens(*placement.element))

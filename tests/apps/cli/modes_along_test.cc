@@ -312,9 +312,9 @@ TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
 {
   coupling::Machine machine = apps::build_machine(press());
   Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), zero = q;
-  q[machine.coordinate("crank")] = 1.; // far above the sheet
+  q[machine.model().coordinate("crank")] = 1.; // far above the sheet
   coupling::close_chains(machine, q);
-  q[machine.coordinate("slide")] -= 1e-3;
+  q[machine.model().coordinate("slide")] -= 1e-3;
   coupling::LocalState local;
   local.resize(machine);
   machine.gather(0., q, zero, zero, local);

@@ -199,7 +199,7 @@ w = "crank.speed"
 
 TEST(Lag, NeedsATimeConstant)
 {
-  coupling::Machine machine;
+  coupling::MachineModel machine;
   EXPECT_THROW(machine.add_lag("motor.torque", 0.), std::invalid_argument);
   EXPECT_EQ(machine.add_lag("motor.torque", 1e-3), 0);
 }

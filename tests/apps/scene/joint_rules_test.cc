@@ -278,7 +278,7 @@ TEST(JointRules, AMassFarFromItsInterfaceIsWarnedOf)
                                 " = 1 }\nposition = [0, 0, 0]\n[body.r]\ntype = \"slider\"\naxis = [1, 0, 0]\n"
                                       "guide = \"frame.a\"\nmass = 90\nposition = " +
                                 position + "\n"));
-    return apps::carried_warnings(scene, apps::build_machine(scene));
+    return apps::carried_warnings(scene, apps::build_machine(scene).model());
   };
   ASSERT_EQ(warnings("ry", "[1, 0, 0]").size(), 1u);
   EXPECT_NE(warnings("ry", "[1, 0, 0]")[0].find("1 m beside"), std::string::npos) << warnings("ry", "[1, 0, 0]")[0];

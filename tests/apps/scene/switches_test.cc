@@ -400,10 +400,10 @@ TEST(Switches, RefuseWhatCannotBe)
   refuses("when = \"t\"\ntell = \"push\"\norder = \"off\"\n", "needs 'above', 'below' or 'crosses'");
   refuses("when = \"slide.velocty\"\nabove = 1\ntell = \"push\"\norder = \"off\"\n",
           "when: there is no \"slide.velocty\"; did you mean 'slide.velocity'?");
-  refuses("when = \"t\"\nabove = \"1 m\"\ntell = \"push\"\norder = \"off\"\n", "told in s, but the level is");
+  refuses("when = \"t\"\nabove = \"1 m\"\ntell = \"push\"\norder = \"off\"\n", "is in s, but the level is");
   refuses("when = \"slide.velocity\"\nabove = \"1 m/s\"\nrepeat = true\nhysteresis = \"1 m\"\ntell = \"push\"\n"
           "order = \"off\"\n",
-          "told in m/s, but the hysteresis is");
+          "is in m/s, but the hysteresis is");
   expect_complaint(slider(2., "1 s") + push + "initially = \"of\"\n", "element.push.initially");
   expect_complaint(machine + "initially = \"off\"\n", "cannot be switched");
 }

@@ -17,9 +17,9 @@ TEST(Benchmark, KeepsTheModesApartFromTheInterface)
         apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/benchmark/m" + std::to_string(m) + ".toml");
     const coupling::Machine machine = apps::build_machine(scene);
     EXPECT_EQ(machine.size(), 12 + m);
-    EXPECT_EQ(machine.n_interface(), 12);
-    ASSERT_TRUE(machine.reduced_frame()->modal);
-    const auto &omega = machine.reduced_frame()->omega0;
+    EXPECT_EQ(machine.model().n_interface(), 12);
+    ASSERT_TRUE(machine.model().reduced_frame()->modal);
+    const auto &omega = machine.model().reduced_frame()->omega0;
     ASSERT_EQ(omega.size(), m);
     EXPECT_NEAR(omega[0], 2. * M_PI * 20., 1e-9);
     EXPECT_NEAR(omega[m - 1], 2. * M_PI * 5000., 1e-7);

@@ -172,7 +172,7 @@ TEST(CompliantJoint, APinOfPlanarBodiesHasFourMeasures)
                                              compliant("1 kN/mm", "2 kN s/m"));
   const coupling::Machine machine = apps::build_machine(scene);
   for (const auto &[joint, n] : {std::pair{"B", 4}, {"B again", 4}, {"B0", 3}})
-    for (const coupling::ElementPlacement &element : machine.elements())
+    for (const coupling::ElementPlacement &element : machine.model().elements())
       if (element.name == joint)
       {
         EXPECT_EQ(element.element->n_measures(), n) << joint;
@@ -205,7 +205,7 @@ TEST(CompliantJoint, AMountOfABodyInSpaceHasThreeMeasures)
   const test::SceneFolder folder;
   const coupling::Machine machine = apps::build_machine(apps::read_scene(folder.write("scene.toml", scene)));
   int                     mounts  = 0;
-  for (const coupling::ElementPlacement &element : machine.elements())
+  for (const coupling::ElementPlacement &element : machine.model().elements())
     if (element.name.rfind("mount", 0) == 0)
     {
       EXPECT_EQ(element.element->n_measures(), 3);

@@ -104,9 +104,9 @@ TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
                                                {"start.rule=\"static\"", "start.drift=true"});
   coupling::Machine machine = apps::build_machine(scene);
   const auto        start   = apps::initial_state(scene, machine);
-  const auto        lift    = machine.measure("q1").evaluate(start.q, start.v),
-             rope           = machine.measure("q3").evaluate(start.q, start.v);
-  const int pitch           = machine.coordinate("chassis.angle");
+  const auto        lift    = machine.model().measure("q1").evaluate(start.q, start.v),
+             rope           = machine.model().measure("q3").evaluate(start.q, start.v);
+  const int pitch           = machine.model().coordinate("chassis.angle");
   EXPECT_NEAR(lift.s, -0.0417471501960756, 1e-13);
   EXPECT_NEAR(start.q[pitch], -0.0110552957824447, 1e-13);
   EXPECT_NEAR(rope.s, 0., 1e-13);
@@ -127,7 +127,7 @@ TEST(Crane, NaturalFrequenciesAboutItsEquilibrium)
                                                 {2.60460937346, 2.59659464702923, 0.0783594082436467}};
   std::vector<coupling::Mode> vibrating; // the load moves freely out of the plane
   for (const auto &mode : modes)
-    if (mode.frequency_hz > 0.01 && std::abs(mode.shape[machine.coordinate("load.uy")]) < 1e-6)
+    if (mode.frequency_hz > 0.01 && std::abs(mode.shape[machine.model().coordinate("load.uy")]) < 1e-6)
       vibrating.push_back(mode);
   ASSERT_EQ(vibrating.size(), 3u);
   for (int j = 0; j < 3; ++j)

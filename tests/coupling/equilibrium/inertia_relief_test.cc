@@ -15,16 +15,16 @@ using namespace coupling;
 /// the ground of the stiffness given.
 Machine chain(double to_ground)
 {
-  Machine          machine;
+  MachineModel     model;
   std::vector<int> x;
   for (const double m : {1., 2., 3.})
-    x.push_back(machine.add_slider("m" + std::to_string(x.size()), {1., 0., 0.}, m, "ground"));
-  machine.add_linear("first", {{x[1], 1.}, {x[0], -1.}}, 1000., 0., 0., 0., "N");
-  machine.add_linear("second", {{x[2], 1.}, {x[1], -1.}}, 2000., 0., 0., 0., "N");
+    x.push_back(model.add_slider("m" + std::to_string(x.size()), {1., 0., 0.}, m, "ground"));
+  model.add_linear("first", {{x[1], 1.}, {x[0], -1.}}, {1000., 0., 0., 0.}, "N");
+  model.add_linear("second", {{x[2], 1.}, {x[1], -1.}}, {2000., 0., 0., 0.}, "N");
   if (to_ground > 0.)
-    machine.add_linear("ground", {{x[0], 1.}}, to_ground, 0., 0., 0., "N");
-  machine.add_load("pull", {{x[2], 1.}}, 12., {}, "N");
-  machine.finish();
+    model.add_linear("ground", {{x[0], 1.}}, {to_ground, 0., 0., 0.}, "N");
+  model.add_load("pull", {{x[2], 1.}}, 12., {}, "N");
+  Machine machine(std::move(model));
   return machine;
 }
 

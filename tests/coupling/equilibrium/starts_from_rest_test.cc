@@ -61,9 +61,9 @@ struct Random
 
 struct Trial
 {
-  Machine machine;
-  Vector  q, v;
-  double  end = 0., longest_step = 0., least = 0.; ///< [s], [s], [m]: smaller motions are none
+  std::shared_ptr<Machine> machine;
+  Vector                   q, v;
+  double                   end = 0., longest_step = 0., least = 0.; ///< [s], [s], [m]: smaller motions are none
 };
 
 std::function<double(double)> course(Load load, double F, double tau, double end)
@@ -92,7 +92,7 @@ Trial machine(Load load, unsigned seed, bool friction)
   Random random{std::mt19937(1000u * unsigned(load) + seed)};
   random.engine.discard(10);
   Trial               trial;
-  Machine            &m = trial.machine;
+  MachineModel        m;
   const int           n = random.whole(1, 5);
   std::vector<int>    x;
   std::vector<double> mass;
@@ -107,7 +107,7 @@ Trial machine(Load load, unsigned seed, bool friction)
   {
     const double  omega = slowest * random.over_decades(1., 10.), k = mass[i] * omega * omega;
     const Measure u = i == 0 || random.whole(0, 3) == 0 ? Measure{{x[i], 1.}} : Measure{{x[i], 1.}, {x[i - 1], -1.}};
-    m.add_linear("k" + std::to_string(i), u, k, 2. * random.over_decades(0.002, 0.1) * mass[i] * omega, 0., 0., "N");
+    m.add_linear("k" + std::to_string(i), u, {k, 2. * random.over_decades(0.002, 0.1) * mass[i] * omega, 0., 0.}, "N");
     stiffest = std::max(stiffest, k);
   }
   const double F = random.over_decades(1., 1e4), Omega = slowest * random.over_decades(0.3, 3.);
@@ -130,12 +130,12 @@ Trial machine(Load load, unsigned seed, bool friction)
     p.static_force  = p.kinetic_force * random.between(1., 1.4);
     m.attach("f" + std::to_string(i), std::make_shared<mechanism::CoulombFriction>(p), {{{x[i], 1.}}});
   }
-  m.finish();
   trial.least = 1e-9 * F / stiffest;
   trial.q = trial.v = Vector::Zero(m.size());
   if (load == Load::none)
     for (int i = 0; i < n; ++i)
       trial.v[x[i]] = random.between(-1., 1.) * F / (mass[i] * slowest);
+  trial.machine = std::make_shared<Machine>(std::move(m));
   return trial;
 }
 
@@ -152,10 +152,10 @@ Result run(Trial &trial, const MethodOptions &method, long most_steps = 100000)
   Result        result;
   try
   {
-    const auto   integrator = make_integrator(trial.machine, method);
+    const auto   integrator = make_integrator(*trial.machine, method);
     EventOptions events;
     events.end = trial.end;
-    EventDriver driver(trial.machine, *integrator, events);
+    EventDriver driver(*trial.machine, *integrator, events);
     Vector      q(trial.q), v(q);
     int         next = 0;
     result.q.setZero(q.size(), samples);
@@ -301,11 +301,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, Controlled,
 /// Two rotors on a shaft, held at 50 rad/s by a drive with an integral; `disturbance` is a torque on the far one.
 Trial driven_shaft(const std::function<double(double)> &disturbance)
 {
-  Trial     trial;
-  Machine  &m    = trial.machine;
-  const int near = m.add_rotor("near", {0., 1., 0.}, 0.5, 0., "ground"),
-            far  = m.add_rotor("far", {0., 1., 0.}, 2., 0., "ground");
-  m.add_linear("shaft", {{near, 1.}, {far, -1.}}, 4e3, 2., 0., 0., "N m");
+  Trial        trial;
+  MachineModel m;
+  const int    near = m.add_rotor("near", {0., 1., 0.}, 0.5, 0., "ground"),
+            far     = m.add_rotor("far", {0., 1., 0.}, 2., 0., "ground");
+  m.add_linear("shaft", {{near, 1.}, {far, -1.}}, {4e3, 2., 0., 0.}, "N m");
   mechanism::SpeedDrive::Parameters p;
   p.proportional_gain = 40.;
   p.integral_gain     = 300.;
@@ -314,11 +314,11 @@ Trial driven_shaft(const std::function<double(double)> &disturbance)
   const int  integral = m.add_lag("drive.integral", drive->lag());
   m.attach("drive", drive, {{{near, 1.}}, {{integral, 1.}}});
   m.attach("load", std::make_shared<TimeForce>(disturbance), {{{far, 1.}}});
-  m.finish();
   trial.q = trial.v = Vector::Zero(m.size());
   trial.v[near] = trial.v[far] = 50.;
   trial.end                    = 2.;
   trial.longest_step           = trial.end / 50.;
+  trial.machine                = std::make_shared<Machine>(std::move(m));
   return trial;
 }
 

@@ -24,7 +24,7 @@ Matrix one(double x)
 ModalPropagation::Options fixed(double h, ForceRule force = ForceRule::collocation, int order = 6)
 {
   ModalPropagation::Options options;
-  options.set("force", force_rule_name(force));
+  options.force = force;
   options.order = order;
   options.step  = h;
   return options;

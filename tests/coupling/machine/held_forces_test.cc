@@ -65,13 +65,13 @@ constexpr double stiffness = 400., F = 7., Omega = 3.;
 /// A mass that sticks for good, another of 1 kg that swings on it by x = 0.1 cos(20 t), and a load on the first one.
 Machine swinging_on_the_held()
 {
-  Machine   machine;
-  const int held = machine.add_slider("held", {1., 0., 0.}, 2., "ground");
-  const int free = machine.add_slider("free", {1., 0., 0.}, 1., "ground");
-  machine.add_linear("spring", {{free, 1.}, {held, -1.}}, stiffness, 0., 0., 0., "N");
-  machine.add_load("load", {{held, 1.}}, 0., {{Omega, F, 0.}}, "N");
-  machine.attach("brake", dry(1000., 1000.), {{{held, 1.}}});
-  machine.finish();
+  MachineModel model;
+  const int    held = model.add_slider("held", {1., 0., 0.}, 2., "ground");
+  const int    free = model.add_slider("free", {1., 0., 0.}, 1., "ground");
+  model.add_linear("spring", {{free, 1.}, {held, -1.}}, {stiffness, 0., 0., 0.}, "N");
+  model.add_load("load", {{held, 1.}}, 0., {{Omega, F, 0.}}, "N");
+  model.attach("brake", dry(1000., 1000.), {{{held, 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -142,11 +142,11 @@ constexpr double mass = 2., limit = 30., kinetic = 20., load = 30.03, w = 2. * M
 
 Machine loaded_beyond_its_limit()
 {
-  Machine   machine;
-  const int x = machine.add_slider("mass", {1., 0., 0.}, mass, "ground");
-  machine.add_load("load", {{x, 1.}}, 0., {{w, load, 0.}}, "N");
-  machine.attach("friction", dry(kinetic, limit), {{{x, 1.}}});
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("mass", {1., 0., 0.}, mass, "ground");
+  model.add_load("load", {{x, 1.}}, 0., {{w, load, 0.}}, "N");
+  model.attach("friction", dry(kinetic, limit), {{{x, 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -213,13 +213,13 @@ INSTANTIATE_TEST_SUITE_P(Methods, BriefOverload,
 TEST(HeldForces, OfADamperAreKnownInTheShortestSteps)
 {
   constexpr double d = 1e5, v = 0.01, h = 1e-12;
-  Machine          machine;
-  const int        held = machine.add_slider("held", {1., 0., 0.}, 2., "ground");
-  const int        free = machine.add_slider("free", {1., 0., 0.}, 1., "ground");
-  machine.attach("damper", std::make_shared<mechanism::SpringDamper>(mechanism::SpringDamper::Parameters{0., d}),
-                 {{{free, 1.}, {held, -1.}}});
-  machine.attach("brake", dry(2. * d * v, 2. * d * v), {{{held, 1.}}});
-  machine.finish();
+  MachineModel     model;
+  const int        held = model.add_slider("held", {1., 0., 0.}, 2., "ground");
+  const int        free = model.add_slider("free", {1., 0., 0.}, 1., "ground");
+  model.attach("damper", std::make_shared<mechanism::SpringDamper>(mechanism::SpringDamper::Parameters{0., d}),
+               {{{free, 1.}, {held, -1.}}});
+  model.attach("brake", dry(2. * d * v, 2. * d * v), {{{held, 1.}}});
+  Machine     machine(std::move(model));
   const auto  integrator = make_integrator(machine, fixed("bdf", h));
   EventDriver driver(machine, *integrator, EventOptions());
   driver.begin(0., Vector::Zero(2), v * Vector::Unit(2, 1));

@@ -235,11 +235,11 @@ TEST(IdealJoint, MethodsThatCannotHoldJointsSaySo)
 
 TEST(IdealJoint, JointsThatSayTheSameTwiceAreNamed)
 {
-  Machine machine;
-  add_planar(machine, "bar", 1., 1., {0.5, 0.});
-  revolute(machine, "left", "ground", "bar", {0., 0.});
-  revolute(machine, "right", "ground", "bar", {1., 0.});
-  machine.finish();
+  MachineModel model;
+  add_planar(model, "bar", 1., 1., {0.5, 0.});
+  revolute(model, "left", "ground", "bar", {0., 0.});
+  revolute(model, "right", "ground", "bar", {1., 0.});
+  Machine    machine(std::move(model));
   const auto integrator = coupling::make_integrator(machine, bdf(2, 1e-3));
   try
   {
@@ -260,7 +260,7 @@ TEST(Assembly, ClosesJointsAndKeepsWhatIsGiven)
   known.state.q = known.state.v = Eigen::VectorXd::Zero(machine.size());
   known.q_given.assign(machine.size(), 0);
   known.v_given        = known.q_given;
-  const int angle      = machine.coordinate("crank 1.angle");
+  const int angle      = machine.model().coordinate("crank 1.angle");
   known.state.q[angle] = -0.7;
   known.state.v[angle] = -2.;
   known.q_given[angle] = known.v_given[angle] = 1;
@@ -269,19 +269,19 @@ TEST(Assembly, ClosesJointsAndKeepsWhatIsGiven)
   EXPECT_EQ(start.v[angle], -2.);
   for (const std::string crank : {"crank 0", "crank 2"}) // parallel, on the branch nearest to the drawing
   {
-    EXPECT_NEAR(start.q[machine.coordinate(crank + ".angle")], -0.7, 1e-12);
-    EXPECT_NEAR(start.v[machine.coordinate(crank + ".angle")], -2., 1e-12);
+    EXPECT_NEAR(start.q[machine.model().coordinate(crank + ".angle")], -0.7, 1e-12);
+    EXPECT_NEAR(start.v[machine.model().coordinate(crank + ".angle")], -2., 1e-12);
   }
-  EXPECT_NEAR(start.q[machine.coordinate("coupler 1.ux")], std::sin(0.7), 1e-12);
+  EXPECT_NEAR(start.q[machine.model().coordinate("coupler 1.ux")], std::sin(0.7), 1e-12);
 }
 
 TEST(Assembly, NamesTheJointThatStaysOpenAndTheOneThatIsOneTooMany)
 {
-  Machine machine;
-  add_planar(machine, "bar", 1., 1., {0.5, 0.});
-  revolute(machine, "left", "ground", "bar", {0., 0.});
-  revolute(machine, "right", "ground", "bar", {1., 0.});
-  machine.finish();
+  MachineModel model;
+  add_planar(model, "bar", 1., 1., {0.5, 0.});
+  revolute(model, "left", "ground", "bar", {0., 0.});
+  revolute(model, "right", "ground", "bar", {1., 0.});
+  Machine              machine(std::move(model));
   coupling::KnownStart known;
   known.state.q = known.state.v = Eigen::VectorXd::Zero(3);
   known.q_given                 = {0, 0, 1};

@@ -84,37 +84,37 @@ void expect_same(Machine machine, const Vector &v, const std::string &kind, doub
 /// A carrier that slides on a spring, with so many pendulums on it: more equations than are eliminated after a motion.
 Machine pendulums_on_carrier(int n)
 {
-  Machine machine;
-  machine.set_gravity({0., -9.81, 0.});
-  const int carrier = add_planar(machine, "carrier", 20., 5., {});
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
+  const int carrier = add_planar(model, "carrier", 20., 5., {});
   for (int i = 0; i < 3; ++i)
-    machine.add_linear("mount " + std::to_string(i), {{carrier + i, 1.}}, 2e4, 10., 0., 0., "N");
+    model.add_linear("mount " + std::to_string(i), {{carrier + i, 1.}}, {2e4, 10., 0., 0.}, "N");
   for (int i = 0; i < n; ++i)
   {
     const std::string name = "bar " + std::to_string(i);
-    add_planar(machine, name, 1., 1. / 12., {0.1 * i + 0.5, 0.});
-    revolute(machine, "pin " + std::to_string(i), "carrier", name, {0.1 * i, 0.});
+    add_planar(model, name, 1., 1. / 12., {0.1 * i + 0.5, 0.});
+    revolute(model, "pin " + std::to_string(i), "carrier", name, {0.1 * i, 0.});
   }
-  machine.finish();
+  Machine machine(std::move(model));
   return machine;
 }
 
 /// Bars on hinges, each driven by a motor whose torque, a virtual coordinate, follows with a lag.
 Machine driven_bars(int n)
 {
-  Machine machine;
-  machine.set_gravity({0., -9.81, 0.});
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
   const mechanism::KlossMotor::Parameters motor{20., 0.2, 10., 1.};
   for (int i = 0; i < n; ++i)
   {
     const std::string name = "bar " + std::to_string(i);
-    const int         bar  = add_planar(machine, name, 1., 1. / 12., {i + 0.5, 0.});
-    revolute(machine, "pin " + std::to_string(i), "ground", name, {double(i), 0.});
-    const int torque = machine.add_lag("torque " + std::to_string(i), 0.02);
-    machine.attach("motor " + std::to_string(i), std::make_shared<mechanism::DynamicMotor>(motor),
-                   {{{bar + 2, 1.}}, {{torque, 1.}}});
+    const int         bar  = add_planar(model, name, 1., 1. / 12., {i + 0.5, 0.});
+    revolute(model, "pin " + std::to_string(i), "ground", name, {double(i), 0.});
+    const int torque = model.add_lag("torque " + std::to_string(i), 0.02);
+    model.attach("motor " + std::to_string(i), std::make_shared<mechanism::DynamicMotor>(motor),
+                 {{{bar + 2, 1.}}, {{torque, 1.}}});
   }
-  machine.finish();
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -138,7 +138,7 @@ TEST(ManyJoints, VirtualCoordinatesStayApartFromAConsistentStart)
 
 TEST(ManyJoints, SparseStepsAreCondensedSteps)
 {
-  for (const const std::string &kind : {"bdf", "generalised-alpha"})
+  for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     {
       SCOPED_TRACE("four-bars");
@@ -163,7 +163,7 @@ TEST(ManyJoints, SparseStepsAreCondensedSteps)
 // Dry friction brings the crank to rest, once and for all.
 TEST(ManyJoints, MeasuresThatStickAreHeld)
 {
-  for (const const std::string &kind : {"bdf", "generalised-alpha"})
+  for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     const auto   p       = slider_crank_case("crank1");
     Machine      machine = slider_crank(p, 0.5);
@@ -196,7 +196,7 @@ FourBarErrors errors_of_forty(const MethodOptions &options)
   const Vector      v       = swinging_four_bars(machine);
   const auto        every   = int(std::lround(0.25 / options.step));
   const auto        motion  = motion_of(machine, v, options, 8 * every, every);
-  const int         angle   = machine.coordinate("crank 0.angle");
+  const int         angle   = machine.model().coordinate("crank 0.angle");
   FourBarErrors     errors;
   int               found = 0;
   for (const auto &r : rows)
@@ -213,7 +213,7 @@ FourBarErrors errors_of_forty(const MethodOptions &options)
 
 TEST(ManyJoints, FortyFourBarsMeetTheirReferenceWithOrderTwo)
 {
-  for (const const std::string &kind : {"bdf", "generalised-alpha"})
+  for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     const double h      = kind == "bdf" ? 1e-3 : 2e-3;
     const auto   coarse = errors_of_forty(method(kind, h, JointSolver::automatic));
@@ -227,7 +227,7 @@ TEST(ManyJoints, FortyFourBarsMeetTheirReferenceWithOrderTwo)
 
 TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
 {
-  for (const const std::string &kind : {"bdf", "generalised-alpha"})
+  for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     Machine    machine    = n_four_bar(20);
     const auto integrator = coupling::make_integrator(machine, method(kind, 1e-3, JointSolver::automatic));
@@ -256,11 +256,11 @@ TEST(ManyJoints, HaveNoFrequenciesOfTheirOwn)
 
 TEST(ManyJoints, DependentJointsAreNamed)
 {
-  Machine machine;
-  add_planar(machine, "bar", 1., 1., {0.5, 0.});
-  revolute(machine, "left", "ground", "bar", {0., 0.});
-  revolute(machine, "right", "ground", "bar", {1., 0.});
-  machine.finish();
+  MachineModel model;
+  add_planar(model, "bar", 1., 1., {0.5, 0.});
+  revolute(model, "left", "ground", "bar", {0., 0.});
+  revolute(model, "right", "ground", "bar", {1., 0.});
+  Machine    machine(std::move(model));
   const auto integrator = coupling::make_integrator(machine, method("bdf", 1e-3, JointSolver::sparse));
   try
   {

@@ -176,7 +176,7 @@ TEST(Completeness, IsNotToldWhereRoundingMayMoveAFrequencyAcrossTheGap)
   }
   catch (const coupling::ConvergenceFailure &failure)
   {
-    EXPECT_NE(std::string(failure.what()).find("cannot be told"), std::string::npos) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find("cannot be counted"), std::string::npos) << failure.what();
   }
 }
 

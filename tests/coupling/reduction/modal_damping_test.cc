@@ -174,13 +174,13 @@ TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
 
 TEST(ErrorEstimate, GivesRefinedFrequenciesBetweenThoseOfTheFullFrameAndTheReducedOnes)
 {
-  const auto        frame   = frame_of(Lattice());
-  const VectorXd    exact   = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
-  const auto        reduced = reduce_frame(frame, with_modes(12));
-  coupling::Machine machine;
-  machine.set_frame(reduced);
-  machine.finish();
-  const auto modes = coupling::frame_modes(machine, 100);
+  const auto             frame   = frame_of(Lattice());
+  const VectorXd         exact   = dense_modes(frame.C, frame.M).omega / (2. * M_PI);
+  const auto             reduced = reduce_frame(frame, with_modes(12));
+  coupling::MachineModel model;
+  model.set_frame(reduced);
+  coupling::Machine machine(std::move(model));
+  const auto        modes = coupling::frame_modes(machine, 100);
   for (int j = 0; j < 10; ++j)
   {
     EXPECT_GE(modes[j].refined_hz, exact(j) * (1. - 1e-10));

@@ -20,16 +20,16 @@ using Vector = Eigen::VectorXd;
 /// One mass on a spring, shaken, with dry friction of 6 N in all; the second element rubs on `weight` times its motion.
 Machine rubbed(int n_elements, double weight)
 {
-  Machine   machine;
-  const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
-  machine.add_linear("spring", {{x, 1.}}, 100., 0., 0., 0., "N");
-  machine.add_load("shaker", {{x, 1.}}, 0., {{4., 10., M_PI / 2.}}, "N");
+  MachineModel model;
+  const int    x = model.add_slider("mass", {1., 0., 0.}, 1., "ground");
+  model.add_linear("spring", {{x, 1.}}, {100., 0., 0., 0.}, "N");
+  model.add_load("shaker", {{x, 1.}}, 0., {{4., 10., M_PI / 2.}}, "N");
   for (int i = 0; i < n_elements; ++i)
-    machine.attach("pad" + std::to_string(i),
-                   std::make_shared<mechanism::CoulombFriction>(
-                       mechanism::CoulombFriction::Parameters{6. / n_elements, 6. / n_elements, 0.}),
-                   {{{x, i == 0 ? 1. : weight}}});
-  machine.finish();
+    model.attach("pad" + std::to_string(i),
+                 std::make_shared<mechanism::CoulombFriction>(
+                     mechanism::CoulombFriction::Parameters{6. / n_elements, 6. / n_elements, 0.}),
+                 {{{x, i == 0 ? 1. : weight}}});
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -74,10 +74,10 @@ INSTANTIATE_TEST_SUITE_P(Methods, Redundant,
 
 TEST(Simulation, ThatGrowsBeyondAllNumbersStopsAndSaysSo)
 {
-  Machine   machine;
-  const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
-  machine.add_linear("spring", {{x, 1.}}, 100., 0., 0., 0., "N");
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("mass", {1., 0., 0.}, 1., "ground");
+  model.add_linear("spring", {{x, 1.}}, {100., 0., 0., 0.}, "N");
+  Machine    machine(std::move(model));
   RunOptions run         = options("central-difference", 0.3); // omega h = 3
   run.end                = 500.;
   run.force_unstable     = true;

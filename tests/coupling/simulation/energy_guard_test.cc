@@ -20,10 +20,10 @@ using Verdict = EnergyGuard::Verdict;
 /// A slider of 1 kg and 1 Hz, that starts with 1 m/s: 0.5 J.
 RunResult oscillation(double step, double end)
 {
-  Machine   machine;
-  const int x = machine.add_slider("m", {1., 0., 0.}, 1., "ground");
-  machine.add_linear("spring", {{x, 1.}}, two_pi * two_pi, 0., 0., 0., "N");
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("m", {1., 0., 0.}, 1., "ground");
+  model.add_linear("spring", {{x, 1.}}, {two_pi * two_pi, 0., 0., 0.}, "N");
+  Machine    machine(std::move(model));
   RunOptions run;
   run.method.step = step;
   run.end         = end;
@@ -64,11 +64,11 @@ TEST(EnergyGuard, NumericalDampingIsAWarningWithItsShare)
 
 TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
 {
-  Machine machine;
-  machine.set_gravity({0., 0., -9.81});
-  const int z = machine.add_slider("m", {0., 0., 1.}, 3., "ground");
-  machine.add_linear("spring", {{z, 1.}}, 700., 0., 0., 0., "N");
-  machine.finish();
+  MachineModel model;
+  model.set_gravity({0., 0., -9.81});
+  const int z = model.add_slider("m", {0., 0., 1.}, 3., "ground");
+  model.add_linear("spring", {{z, 1.}}, {700., 0., 0., 0.}, "N");
+  Machine    machine(std::move(model));
   RunOptions run;
   run.method.step     = 1e-3;
   run.end             = 5.;

@@ -124,12 +124,12 @@ struct Drop
 /// 10 kN set down on the tip within `rise`, from rest.
 Drop set_down(const coupling::ReducedFrame &frame, double rise)
 {
-  coupling::Machine machine;
-  machine.set_frame(frame);
+  coupling::MachineModel model;
+  model.set_frame(frame);
   mechanism::TableForce::Parameters load;
   load.rows = {{0., 0.}, {1e-3, 0.}, {1e-3 + rise, 1e4}, {1., 1e4}};
-  machine.attach("load", std::make_shared<mechanism::TableForce>(load), {{{machine.coordinate("frame.tip.ux"), 1.}}});
-  machine.finish();
+  model.attach("load", std::make_shared<mechanism::TableForce>(load), {{{model.coordinate("frame.tip.ux"), 1.}}});
+  coupling::Machine      machine(std::move(model));
   coupling::InitialState rest;
   rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
   coupling::RunOptions options;

@@ -38,14 +38,14 @@ Measure between(Random &random, const std::vector<int> &sliders)
 /// Two to five sliders, each on a spring, with springs and dampers between them; some of these are elements.
 Machine random_machine(Random &random, bool joints)
 {
-  Machine          machine;
+  MachineModel     model;
   std::vector<int> sliders;
   const int        n = 2 + int(random.uniform(0., 4.));
   for (int i = 0; i < n; ++i)
   {
     const double m = random.spread(2.);
-    sliders.push_back(machine.add_slider("m" + std::to_string(i), {1., 0., 0.}, m, "ground"));
-    machine.add_linear("c" + std::to_string(i), {{sliders[i], 1.}}, m * random.spread(4.), 0., 0., 0., "N");
+    sliders.push_back(model.add_slider("m" + std::to_string(i), {1., 0., 0.}, m, "ground"));
+    model.add_linear("c" + std::to_string(i), {{sliders[i], 1.}}, {m * random.spread(4.), 0., 0., 0.}, "N");
   }
   for (int i = 0; i < n; ++i)
   {
@@ -57,15 +57,15 @@ Machine random_machine(Random &random, bool joints)
       mechanism::SpringDamper::Parameters p;
       p.stiffness = c;
       p.damping   = b;
-      machine.attach(name, std::make_shared<mechanism::SpringDamper>(p), {between(random, sliders)});
+      model.attach(name, std::make_shared<mechanism::SpringDamper>(p), {between(random, sliders)});
     }
     else
-      machine.add_linear(name, between(random, sliders), c, b, 0., 0., "N");
+      model.add_linear(name, between(random, sliders), {c, b, 0., 0.}, "N");
   }
   if (joints)
-    machine.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., -random.spread(1.)}),
-                   {{{sliders[0], 1.}}, {{sliders[1], 1.}}});
-  machine.finish();
+    model.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., -random.spread(1.)}),
+                 {{{sliders[0], 1.}}, {{sliders[1], 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 

@@ -161,15 +161,15 @@ const Rubbing rubbing[] = {{"coulomb1", 0., 3., 3., 0., 0., 1., 0.5, 0., 4.},
 
 Machine rubbing_mass(const Rubbing &r)
 {
-  Machine   machine;
-  const int x = machine.add_slider("mass", {1., 0., 0.}, 1., "ground");
-  machine.add_linear("spring", {{x, 1.}}, 100., r.c, 0., 0., "N");
+  MachineModel model;
+  const int    x = model.add_slider("mass", {1., 0., 0.}, 1., "ground");
+  model.add_linear("spring", {{x, 1.}}, {100., r.c, 0., 0.}, "N");
   if (r.F != 0.)
-    machine.add_load("drive", {{x, 1.}}, 0., {{r.Omega, r.F, M_PI / 2.}}, "N");
-  machine.attach(
-      "belt", std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{r.R, r.R0, r.belt}),
-      {{{x, 1.}}});
-  machine.finish();
+    model.add_load("drive", {{x, 1.}}, 0., {{r.Omega, r.F, M_PI / 2.}}, "N");
+  model.attach("belt",
+               std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{r.R, r.R0, r.belt}),
+               {{{x, 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 

@@ -16,9 +16,9 @@ constexpr double omega = 7., mass = 2.;
 /// One slider of 2 kg that nothing holds.
 Machine slider()
 {
-  Machine machine;
-  machine.add_slider("x", {1., 0., 0.}, mass, "ground");
-  machine.finish();
+  MachineModel model;
+  model.add_slider("x", {1., 0., 0.}, mass, "ground");
+  Machine machine(std::move(model));
   return machine;
 }
 

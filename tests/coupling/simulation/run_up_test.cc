@@ -20,15 +20,15 @@ constexpr double J_1 = 0.5, J_2 = 2., c = 800., b = 0.1; ///< [kg m^2, N m/rad, 
 
 RunResult run_up(const std::string &method, int order, double tolerance)
 {
-  Machine   machine;
-  const int motor = machine.add_rotor("motor", {0., 0., 1.}, J_1, 0., "ground"),
-            load  = machine.add_rotor("load", {0., 0., 1.}, J_2, 0., "ground");
-  machine.add_linear("shaft", {{motor, 1.}, {load, -1.}}, c, 0., 0., 0., "N m");
-  machine.add_linear("drag", {{load, 1.}}, 0., b, 0., 0., "N m");
-  machine.attach("drive",
-                 std::make_shared<mechanism::KlossMotor>(mechanism::KlossMotor::Parameters{40., 0.15, 50. * M_PI, 1.}),
-                 {{{motor, 1.}}});
-  machine.finish();
+  MachineModel model;
+  const int    motor = model.add_rotor("motor", {0., 0., 1.}, J_1, 0., "ground"),
+            load     = model.add_rotor("load", {0., 0., 1.}, J_2, 0., "ground");
+  model.add_linear("shaft", {{motor, 1.}, {load, -1.}}, {c, 0., 0., 0.}, "N m");
+  model.add_linear("drag", {{load, 1.}}, {0., b, 0., 0.}, "N m");
+  model.attach("drive",
+               std::make_shared<mechanism::KlossMotor>(mechanism::KlossMotor::Parameters{40., 0.15, 50. * M_PI, 1.}),
+               {{{motor, 1.}}});
+  Machine      machine(std::move(model));
   InitialState rest;
   rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
   RunOptions options;
@@ -62,13 +62,12 @@ TEST(RunUp, EndsWithTheTorqueOfTheLoad)
 
 TEST(DryFriction, WithoutLocatedEventsIsWarnedOf)
 {
-  Machine   machine;
-  const int x = machine.add_slider("x", {1., 0., 0.}, 5., "ground");
-  machine.add_linear("spring", {{x, 1.}}, 2000., 0., 0., 0., "N");
-  machine.attach("floor",
-                 std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{10., 15.}),
-                 {{{x, 1.}}});
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("x", {1., 0., 0.}, 5., "ground");
+  model.add_linear("spring", {{x, 1.}}, {2000., 0., 0., 0.}, "N");
+  model.attach("floor", std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{10., 15.}),
+               {{{x, 1.}}});
+  Machine      machine(std::move(model));
   InitialState start;
   start.q = Eigen::VectorXd::Constant(1, 0.05);
   start.v = Eigen::VectorXd::Zero(1);

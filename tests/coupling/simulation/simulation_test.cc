@@ -18,11 +18,11 @@ constexpr double mass = 3., wall = 2e4, gap = 0.01, speed = 0.5;
 /// A mass that flies with 0.5 m/s from the middle of a play of +-10 mm against its stops, without loss.
 Machine in_play()
 {
-  Machine   machine;
-  const int x = machine.add_slider("x", {1., 0., 0.}, mass, "ground");
-  machine.attach("play", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{gap, wall, 0.}),
-                 {{{x, 1.}}});
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
+  model.attach("play", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{gap, wall, 0.}),
+               {{{x, 1.}}});
+  Machine machine(std::move(model));
   return machine;
 }
 
@@ -146,10 +146,10 @@ std::string refusal(const RunOptions &options, const Machine &machine)
 
 TEST(Run, RefusesAStepLongerThanThePeriodOfALoad)
 {
-  Machine   machine;
-  const int x = machine.add_slider("x", {1., 0., 0.}, mass, "ground");
-  machine.add_load("shaker", {{x, 1.}}, 0., {{2. * M_PI * 50., 4., 0.}}, "N");
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
+  model.add_load("shaker", {{x, 1.}}, 0., {{2. * M_PI * 50., 4., 0.}}, "N");
+  Machine machine(std::move(model));
   EXPECT_EQ(refusal(bdf2(0.019, 1.), machine), "");
   const std::string text = refusal(bdf2(0.02001, 1.), machine);
   EXPECT_NE(text.find("50 Hz"), std::string::npos) << text;
@@ -182,10 +182,10 @@ TEST(Run, WarnsOfALoadAboveWhatTheReducedFrameHolds)
   frame.frequency_limit_hz = 30.;
   for (const double frequency : {29., 31.})
   {
-    Machine machine;
-    machine.set_frame(frame);
-    machine.add_load("shaker", {{0, 1.}}, 0., {{2. * M_PI * frequency, 4., 0.}}, "N");
-    machine.finish();
+    MachineModel model;
+    model.set_frame(frame);
+    model.add_load("shaker", {{0, 1.}}, 0., {{2. * M_PI * frequency, 4., 0.}}, "N");
+    Machine      machine(std::move(model));
     InitialState rest;
     rest.q = rest.v        = Eigen::VectorXd::Zero(1);
     RunOptions options     = bdf2(1e-3, 0.01);
@@ -201,10 +201,10 @@ TEST(Run, WarnsOfALoadAboveWhatTheReducedFrameHolds)
 
 TEST(Run, AnUnstableMethodIsRefusedUnlessForced)
 {
-  Machine   machine;
-  const int x = machine.add_slider("x", {1., 0., 0.}, mass, "ground");
-  machine.add_linear("spring", {{x, 1.}}, wall, 0., 0., 0., "N");
-  machine.finish();
+  MachineModel model;
+  const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
+  model.add_linear("spring", {{x, 1.}}, {wall, 0., 0., 0.}, "N");
+  Machine    machine(std::move(model));
   RunOptions options   = bdf2(1e-2, 1.); // omega h = 0.8 lies in BDF 4's unstable interval
   options.method.order = 4;
   try

@@ -1,4 +1,4 @@
-#include "coupling/integration/stability/golden_section.h"
+#include "coupling/integration/system/golden_section.h"
 
 namespace gestell::coupling
 {

@@ -1,0 +1,68 @@
+#include "coupling/simulation/checks/contacts_and_switches.h"
+
+#include "coupling/machine/element_law.h"
+#include "mechanism/elements/coulomb_friction.h"
+
+#include <algorithm>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
+{
+  return std::any_of(events.begin(), events.end(),
+                     [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
+}
+
+/// The time from which the run begins tells a switch to act at the start, as meant.
+bool at_the_start(const Switch &own, double begin)
+{
+  return own.signal == "t" && own.level == begin;
+}
+
+} // namespace
+
+std::vector<std::string> switch_warnings(const Machine &machine, double begin, const std::vector<Event> &events,
+                                         bool to_the_end)
+{
+  std::vector<std::string> warnings;
+  for (const Event &event : events)
+    if (event.kind == "switch" && event.t == begin &&
+        std::none_of(machine.model().switches().begin(), machine.model().switches().end(),
+                     [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
+      warnings.push_back("switch " + event.name +
+                         " was thrown at the start: its signal lay at the value or beyond it already");
+  if (!to_the_end)
+    return warnings;
+  for (int i = 0; i < machine.events().n_guards(); ++i)
+    if (const ActiveGuard guard = machine.events().guard(i); guard.kind == "switch" && !happened(events, guard))
+      warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
+  return warnings;
+}
+
+std::vector<std::string> closed_contact_warnings(const Machine &machine, const InitialState &initial)
+{
+  std::vector<std::string> warnings;
+  LocalState               local;
+  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
+  for (const std::string &contact : machine.closed_contacts(local))
+    warnings.push_back("the start lies inside the contact of " + contact +
+                       "; it pushes from the first instant on. If that is not meant, change the position or the "
+                       "play, or start with rule = \"static\"");
+  return warnings;
+}
+
+std::vector<std::string> unlocated_friction_warnings(const Machine &machine)
+{
+  for (const ElementPlacement &placement : machine.model().elements())
+    if (law_of<mechanism::CoulombFriction>(placement))
+      return {"run.events = false, but the dry friction of \"" + placement.name +
+              "\" is made for located events: without them it may hold more than its limit, or "
+              "chatter; leave run.events true, or take the type \"friction\""};
+  return {};
+}
+
+} // namespace gestell::coupling
