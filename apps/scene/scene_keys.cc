@@ -95,7 +95,8 @@ const std::vector<Key> &reduction_keys()
       key::choice("inside", {"fixed-interface", "free-interface"}, true,
                   "beside `\"craig-bampton\"`: `\"free-interface\"` is the method of that name"),
       key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
-                  "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time. Options of PETSc and "
+                  "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time; the second may break "
+                  "down by rounding, and says so. Options of PETSc and "
                   "SLEPc count with the prefix `reduction_`, such as `PETSC_OPTIONS=\"-reduction_eps_view\"`; a frame "
                   "found in the cache was made without them"),
       key::truth("inertia_relief", false,

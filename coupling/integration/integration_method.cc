@@ -45,13 +45,21 @@ const MethodParameter &IntegrationMethod::parameter(const std::string &wanted) c
 double IntegrationMethod::number(const MethodOptions &options, const std::string &name) const
 {
   const auto given = options.own.find(name);
-  return given == options.own.end() ? parameter(name).fallback : std::get<double>(given->second);
+  if (given == options.own.end())
+    return parameter(name).fallback;
+  if (const double *value = std::get_if<double>(&given->second))
+    return *value;
+  throw std::invalid_argument(this->name() + ": " + name + " is a text; it must be a number");
 }
 
 std::string IntegrationMethod::choice(const MethodOptions &options, const std::string &name) const
 {
   const auto given = options.own.find(name);
-  return given == options.own.end() ? parameter(name).choices.front() : std::get<std::string>(given->second);
+  if (given == options.own.end())
+    return parameter(name).choices.front();
+  if (const std::string *value = std::get_if<std::string>(&given->second))
+    return *value;
+  throw std::invalid_argument(this->name() + ": " + name + " is a number; it must be a text");
 }
 
 MethodOptions IntegrationMethod::named() const

@@ -5,6 +5,7 @@
 #include "coupling/integration/newmark/wilson_method.h"
 #include "coupling/integration/propagation/propagation_method.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -76,13 +77,48 @@ std::string method_name(const MethodOptions &options)
   return method_of(options).label(options);
 }
 
+namespace
+{
+
+bool known_to_some(const std::string &parameter)
+{
+  for (const IntegrationMethod *method : integration_methods())
+    for (const MethodParameter &known : method->parameters())
+      if (known.name == parameter)
+        return true;
+  return false;
+}
+
+/// A choice is one of those there are.
+void check_choice(const std::string &method, const MethodParameter &parameter, const MethodOptions &options)
+{
+  const auto given = options.own.find(parameter.name);
+  if (given == options.own.end())
+    return;
+  const std::string *choice = std::get_if<std::string>(&given->second);
+  if (choice && std::count(parameter.choices.begin(), parameter.choices.end(), *choice) > 0)
+    return;
+  std::string all;
+  for (const std::string &known : parameter.choices)
+    all += (all.empty() ? "" : ", ") + known;
+  throw std::invalid_argument(method + ": " + parameter.name + " is " + (choice ? "\"" + *choice + "\"" : "a number") +
+                              "; it must be one of " + all);
+}
+
+} // namespace
+
 void check_method(const MethodOptions &options)
 {
   const IntegrationMethod &method = method_of(options);
   const std::string        label  = method.label(options);
   check_steps(options, label);
+  for (const auto &given : options.own)
+    if (!known_to_some(given.first))
+      throw std::invalid_argument(label + ": no method of integration has a parameter \"" + given.first + "\"");
   for (const MethodParameter &parameter : method.parameters())
-    if (parameter.choices.empty())
+    if (!parameter.choices.empty())
+      check_choice(label, parameter, options);
+    else
     {
       const double value = method.number(options, parameter.name);
       require_parameter(parameter.valid(value), label, parameter.name, value, parameter.range);

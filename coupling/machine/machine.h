@@ -116,8 +116,7 @@ public:
   const NamedMeasure                  &measure(const std::string &name) const;
   const ReducedFrame                  *reduced_frame() const; ///< null if there is none
   const fem::FrameMatrices            *full_frame() const;    ///< null if there is none
-  const LinearBase                    &base() const;
-  int                                  n_frame() const; ///< coordinates of the frame
+  int                                  n_frame() const;       ///< coordinates of the frame
   int                                  n_interface() const;
   int                                  n_mechanism() const;          ///< coordinates of the bodies and lags
   int                                  size() const;                 ///< coordinates of frame and mechanism
@@ -135,7 +134,7 @@ private:
 class Machine : public SecondOrderSystem
 {
 public:
-  Machine(MachineModel model);
+  explicit Machine(MachineModel model);
   ~Machine() override;
   Machine(Machine &&) noexcept;
   Machine &operator=(Machine &&) noexcept;

@@ -165,66 +165,94 @@ int MachineModel::add_planar(const std::string &name, const Vector3 &normal, dou
   return first;
 }
 
-PlacedPoint MachineModel::place(const std::string &name, const Vector3 &at) const
+namespace
 {
-  using mechanism::Placement, mechanism::Vector3d;
-  const auto    vector = [](const Vector3 &a) { return Vector3d(a[0], a[1], a[2]); };
-  const Marker &own    = marker(name);
-  const Body   *on     = nullptr;
-  for (const Body &body : parts_->bodies)
-    if (body.name == name)
-      on = &body;
-  PlacedPoint                           placed;
-  std::vector<Placement::LinearMeasure> linear;
-  const auto add = [&](const Measure &u, const Vector3d &translation, const Vector3d &rotation)
+
+using mechanism::Placement, mechanism::Vector3d;
+
+Vector3d vector(const Vector3 &a)
+{
+  return {a[0], a[1], a[2]};
+}
+
+/// A point whose motion follows from translations and small rotations.
+struct LinearPlace
+{
+  std::vector<Measure>                  measures;
+  std::vector<Placement::LinearMeasure> motions;
+
+  void add(const Measure &u, const Vector3d &translation, const Vector3d &rotation)
   {
     if (u.empty())
       return;
-    placed.measures.push_back(u);
-    linear.push_back({translation, rotation});
-  };
-  const Vector3d centre = vector(on ? on->centre : parts_->position_of(name)), zero = Vector3d::Zero();
-  if (on && on->kind == BodyKind::rigid)
+    measures.push_back(u);
+    motions.push_back({translation, rotation});
+  }
+};
+
+/// On a body that has its place by its own coordinates alone.
+PlacedPoint place_on(const Body &body, const Vector3 &at)
+{
+  const Vector3d centre = vector(body.centre), zero = Vector3d::Zero();
+  PlacedPoint    placed;
+  if (body.kind == BodyKind::rigid)
   {
     placed.placement = Placement::free(vector(at), centre);
     for (int i = 0; i < Placement::max_measures; ++i)
-      placed.measures.push_back({{on->coordinate + i, 1.}});
+      placed.measures.push_back({{body.coordinate + i, 1.}});
     return placed;
   }
-  if (on && (on->kind == BodyKind::planar || on->kind == BodyKind::point))
+  LinearPlace linear;
+  const int   n = body.kind == BodyKind::planar ? 2 : 3;
+  for (int i = 0; i < n; ++i)
+    linear.add({{body.coordinate + i, 1.}}, n == 3 ? Vector3d(Vector3d::Unit(i)) : vector(i == 0 ? body.e_1 : body.e_2),
+               zero);
+  placed.measures = linear.measures;
+  if (n == 3)
+    placed.placement = Placement(vector(at), centre, linear.motions);
+  else
   {
-    const int n = on->kind == BodyKind::planar ? 2 : 3;
-    for (int i = 0; i < n; ++i)
-      add({{on->coordinate + i, 1.}}, n == 3 ? Vector3d(Vector3d::Unit(i)) : vector(i == 0 ? on->e_1 : on->e_2), zero);
-    if (n == 3)
-      placed.placement = Placement(vector(at), centre, linear);
-    else
-    {
-      placed.placement = Placement(vector(at), centre, linear, vector(on->axis));
-      placed.measures.push_back({{on->coordinate + 2, 1.}});
-    }
-    return placed;
+    placed.placement = Placement(vector(at), centre, linear.motions, vector(body.axis));
+    placed.measures.push_back({{body.coordinate + 2, 1.}});
   }
-  const bool turns            = on && on->kind == BodyKind::rotor;
-  const bool slides           = on && on->kind == BodyKind::slider;
-  const auto own_motion_alone = [&](const Measure &u)
+  return placed;
+}
+
+} // namespace
+
+PlacedPoint MachineModel::place(const std::string &name, const Vector3 &at) const
+{
+  const Marker &own = marker(name);
+  const Body   *on  = nullptr;
+  for (const Body &body : parts_->bodies)
+    if (body.name == name)
+      on = &body;
+  if (on && on->kind != BodyKind::rotor && on->kind != BodyKind::slider)
+    return place_on(*on, at);
+  const Vector3d centre = vector(on ? on->centre : parts_->position_of(name)), zero = Vector3d::Zero();
+  LinearPlace    linear;
+  const bool     turns            = on && on->kind == BodyKind::rotor;
+  const bool     slides           = on && on->kind == BodyKind::slider;
+  const auto     own_motion_alone = [&](const Measure &u)
   { return std::all_of(u.begin(), u.end(), [&](const auto &term) { return term.first == on->coordinate; }); };
   refuse_far_turning(name, turns ? across(own.rotation, on->axis) : own.rotation);
   if (slides && std::all_of(own.translation.begin(), own.translation.end(), own_motion_alone))
-    add({{on->coordinate, 1.}}, vector(on->axis), zero); // guided by the ground
+    linear.add({{on->coordinate, 1.}}, vector(on->axis), zero); // guided by the ground
   else
     for (int d = 0; d < 3; ++d)
-      add(own.translation[d], Vector3d::Unit(d), zero);
+      linear.add(own.translation[d], Vector3d::Unit(d), zero);
   const auto rotation = turns ? across(own.rotation, on->axis) : own.rotation;
   for (int d = 0; d < 3; ++d)
-    add(rotation[d], zero, Vector3d::Unit(d));
+    linear.add(rotation[d], zero, Vector3d::Unit(d));
+  PlacedPoint placed;
+  placed.measures = linear.measures;
   if (turns)
   {
-    placed.placement = Placement(vector(at), centre, linear, vector(on->axis));
+    placed.placement = Placement(vector(at), centre, linear.motions, vector(on->axis));
     placed.measures.push_back({{on->coordinate, 1.}});
   }
   else
-    placed.placement = Placement(vector(at), centre, linear);
+    placed.placement = Placement(vector(at), centre, linear.motions);
   return placed;
 }
 

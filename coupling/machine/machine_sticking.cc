@@ -41,6 +41,66 @@ private:
   std::vector<Eigen::VectorXd> rows_;
 };
 
+/// Rows of velocities over the coordinates that joints and what sticks move.
+class MotionRows
+{
+public:
+  explicit MotionRows(const MachineParts &parts) : parts_(parts)
+  {
+    double rate = 0.;
+    for (const ConstraintBlock &block : parts.joint_blocks)
+      for (int k = 0; k < block.n_measures; ++k)
+        touch(block.first_measure + k);
+    for (const MachineParts::PlacedElement &part : parts.placed)
+      if (part.stop >= 0 || part.sticks(parts.history_of(part), rate))
+        touch(part.first_measure);
+  }
+
+  Eigen::VectorXd of(const MachineParts::PlacedElement &part) const
+  {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(Eigen::Index(places_.size()));
+    add(1., part.first_measure, row);
+    return row;
+  }
+
+  /// What ideal joints prescribe.
+  Span of_joints(const LocalState &state) const
+  {
+    Span            span;
+    double          G[MachineParts::max_measures * MachineParts::max_measures], g[MachineParts::max_measures];
+    Eigen::VectorXd row(places_.size());
+    for (std::size_t i = 0; i < parts_.joints.size(); ++i)
+    {
+      const MachineParts::PlacedElement &part  = parts_.placed[parts_.joints[i]];
+      const ConstraintBlock             &block = parts_.joint_blocks[i];
+      part.joint->constraint(part.motion(state, parts_.by_history), parts_.history_of(part), g, G);
+      for (int r = 0; r < block.n_rows; ++r)
+      {
+        row.setZero();
+        for (int k = 0; k < block.n_measures; ++k)
+          add(G[r + block.n_rows * k], block.first_measure + k, row);
+        span.add(row);
+      }
+    }
+    return span;
+  }
+
+private:
+  void touch(int measure)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(parts_.W, measure); it; ++it)
+      places_.emplace(int(it.row()), int(places_.size()));
+  }
+  void add(double factor, int measure, Eigen::VectorXd &row) const
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(parts_.W, measure); it; ++it)
+      row[places_.at(int(it.row()))] += factor * it.value();
+  }
+
+  const MachineParts &parts_;
+  std::map<int, int>  places_;
+};
+
 } // namespace
 
 /**
@@ -57,55 +117,16 @@ void MachineParts::find_stopped(const LocalState &state)
                    [&](const PlacedElement &part)
                    { return part.stop >= 0 || (part.came != 0 && part.sticks(history_of(part), rate)); }))
     return;
-  // Rows over the coordinates that anything here moves.
-  std::map<int, int> places;
-  const auto         touch = [&](int measure)
-  {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(W, measure); it; ++it)
-      places.emplace(int(it.row()), int(places.size()));
-  };
-  for (const ConstraintBlock &block : joint_blocks)
-    for (int k = 0; k < block.n_measures; ++k)
-      touch(block.first_measure + k);
-  for (const PlacedElement &part : placed)
-    if (part.stop >= 0 || part.sticks(history_of(part), rate))
-      touch(part.first_measure);
-  const auto add_measure = [&](double factor, int measure, Eigen::VectorXd &row)
-  {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(W, measure); it; ++it)
-      row[places.at(int(it.row()))] += factor * it.value();
-  };
-  const auto row_of = [&](const PlacedElement &part)
-  {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(Eigen::Index(places.size()));
-    add_measure(1., part.first_measure, row);
-    return row;
-  };
-
-  Span            span;
-  double          G[max_measures * max_measures], g[max_measures];
-  Eigen::VectorXd row(places.size());
-  for (std::size_t i = 0; i < joints.size(); ++i)
-  {
-    const PlacedElement   &part  = placed[joints[i]];
-    const ConstraintBlock &block = joint_blocks[i];
-    part.joint->constraint(part.motion(state, by_history), history_of(part), g, G);
-    for (int r = 0; r < block.n_rows; ++r)
-    {
-      row.setZero();
-      for (int k = 0; k < block.n_measures; ++k)
-        add_measure(G[r + block.n_rows * k], block.first_measure + k, row);
-      span.add(row);
-    }
-  }
-  const auto slide_on = [&](const PlacedElement &part, double came)
+  const MotionRows rows(*this);
+  Span             span     = rows.of_joints(state);
+  const auto       slide_on = [&](const PlacedElement &part, double came)
   { part.branches->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
   // Near a dead point joints alone stop a motion, and holding it would take any force.
   const auto by_joints = [joints_alone = span](const Eigen::VectorXd &own) { return joints_alone.contains(own, 1e-3); };
   for (const PlacedElement &part : placed)
     if (part.stop < 0 && part.sticks(history_of(part), rate))
     {
-      const Eigen::VectorXd own = row_of(part);
+      const Eigen::VectorXd own = rows.of(part);
       if (part.came != 0 && by_joints(own))
         slide_on(part, part.came);
       else
@@ -116,7 +137,7 @@ void MachineParts::find_stopped(const LocalState &state)
     {
       if (part.stop < 0 || part.holds != before || !part.sticks(history_of(part), rate))
         continue;
-      const Eigen::VectorXd own = row_of(part);
+      const Eigen::VectorXd own = rows.of(part);
       history[part.stop]        = 0.;
       if (by_joints(own))
         slide_on(part, history[part.stop + 1]);
@@ -126,7 +147,7 @@ void MachineParts::find_stopped(const LocalState &state)
   for (const PlacedElement &part : placed)
     if (part.stop >= 0 && !part.sticks(history_of(part), rate))
     {
-      const Eigen::VectorXd own = row_of(part);
+      const Eigen::VectorXd own = rows.of(part);
       history[part.stop]        = !by_joints(own) && span.contains(own) ? 1. : 0.;
     }
 }

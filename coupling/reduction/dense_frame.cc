@@ -1,10 +1,9 @@
 #include "coupling/reduction/dense_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/system/dense_solvers.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <cmath>
 #include <limits>
@@ -49,7 +48,7 @@ void require_semidefinite_stiffness(const MatrixXd &C)
 {
   const VectorXd d =
       C.diagonal().unaryExpr([](double c) { return c != 0. && std::isfinite(c) ? 1. / std::sqrt(std::abs(c)) : 1.; });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * C * d.asDiagonal(), Eigen::EigenvaluesOnly);
+  const SymmetricEigenSolver scaled(d.asDiagonal() * C * d.asDiagonal(), WithVectors::no);
   if (scaled.eigenvalues().minCoeff() < -1e-8)
     throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
 }
@@ -116,7 +115,7 @@ MatrixXd unit_translations(const ReducedFrame &frame)
   const Eigen::LLT<MatrixXd> factor(frame.M);
   if (factor.info() == Eigen::Success)
     return factor.solve(frame.translations_load);
-  return frame.M.completeOrthogonalDecomposition().solve(frame.translations_load);
+  return LeastSquaresSolver(frame.M).solve(frame.translations_load);
 }
 
 } // namespace gestell::coupling

@@ -1,9 +1,8 @@
 #include "coupling/reduction/projection.h"
 
+#include "coupling/integration/system/dense_solvers.h"
 #include "fem/assembly/rigid_body_modes.h"
 #include "fem/assembly/rigid_motions.h"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <utility>
@@ -88,7 +87,7 @@ void free_rigid_motions(MatrixXd &C, const fem::FrameMatrices &frame, const std:
   if (k == 0 || k > n1)
     return;
   MatrixXd Q    = MatrixXd::Zero(C.rows(), k);
-  Q.topRows(n1) = Eigen::HouseholderQR<MatrixXd>(R1).householderQ() * MatrixXd::Identity(n1, k);
+  Q.topRows(n1) = orthonormal_columns(R1, k);
   C             = (C - Q * (Q.transpose() * C)).eval();
   C             = (C - (C * Q) * Q.transpose()).eval();
   C             = (0.5 * (C + C.transpose())).eval();

@@ -284,16 +284,22 @@ namespace
 class Run
 {
 public:
-  Run(Machine &machine, const InitialState &initial, const RunOptions &options, const MethodOptions &method,
-      const std::vector<Signal> &signals, RunResult &result)
+  Run(Machine &machine, const RunOptions &options, const MethodOptions &method, const std::vector<Signal> &signals,
+      RunResult &result)
       : machine_(machine), options_(options), method_(method), result_(result),
         integrator_(make_integrator(machine, method)), driver_(event_driver(machine, *integrator_, options)),
         recorder_(machine, *integrator_, options, signals, sampling(machine, method), result)
   {
-    driver_.begin(options.begin, initial.q, initial.v);
-    cylinders_   = std::make_unique<HydraulicLimits>(machine, *integrator_);
-    stiffness_   = std::make_unique<StiffnessCheck>(machine, initial, method);
-    fast_forces_ = std::make_unique<FastForces>(machine, *integrator_);
+  }
+
+  /// @throws ConvergenceFailure if the machine does not start
+  void begin(const InitialState &initial) { driver_.begin(options_.begin, initial.q, initial.v); }
+
+  void look_on(const InitialState &initial)
+  {
+    cylinders_   = std::make_unique<HydraulicLimits>(machine_, *integrator_);
+    stiffness_   = std::make_unique<StiffnessCheck>(machine_, initial, method_);
+    fast_forces_ = std::make_unique<FastForces>(machine_, *integrator_);
     driver_.on_step([this] { look_at_step(); });
     driver_.on_event(
         [this](const Event &event)
@@ -305,6 +311,9 @@ public:
     cylinders_->begin();
     fast_forces_->begin();
   }
+
+  Run(const Run &)            = delete;
+  Run &operator=(const Run &) = delete;
 
   void integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop);
   void finish(const InitialState &initial);
@@ -395,18 +404,19 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     add(closed_contact_warnings(machine, initial), result.warnings);
   if (!options.events)
     add(unlocated_friction_warnings(machine), result.warnings);
-  std::unique_ptr<Run> run;
+  Run run(machine, options, method, signals, result);
   try
   {
-    run = std::make_unique<Run>(machine, initial, options, method, signals, result);
+    run.begin(initial);
   }
   catch (const ConvergenceFailure &failure)
   {
     fail_at_start(failure, result);
     return result;
   }
-  run->integrate(progress, stop);
-  run->finish(initial);
+  run.look_on(initial);
+  run.integrate(progress, stop);
+  run.finish(initial);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   return result;
 }

@@ -49,6 +49,8 @@ std::vector<Combination> closed_ties(const std::vector<char> &held, const std::v
     if (state[tie] == 0)
       require_end(static_cast<int>(tie), tie_of, ties, state);
 
+  if (std::all_of(ties.begin(), ties.end(), [&](const Combination &tie) { return ends_free(tie, held, tie_of); }))
+    return ties;
   dealii::AffineConstraints<double> constraints;
   for (std::size_t i = 0; i < tie_of.size(); ++i)
     if (tie_of[i] >= 0)

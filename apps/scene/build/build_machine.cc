@@ -111,7 +111,7 @@ coupling::Machine machine_on(const Scene &scene, Frame frame)
   machine.set_gravity(scene.gravity);
   machine.set_frame(std::move(frame));
   fill(machine, scene);
-  return machine;
+  return coupling::Machine(std::move(machine));
 }
 
 } // namespace
@@ -144,7 +144,7 @@ coupling::Machine build_machine(const Scene &scene)
   coupling::MachineModel machine;
   machine.set_gravity(scene.gravity);
   fill(machine, scene);
-  return machine;
+  return coupling::Machine(std::move(machine));
 }
 
 coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame)

@@ -76,7 +76,9 @@ void check_parameters(const SceneTable &run, const MethodOptions &method)
 void read_parameters(const SceneTable &run, const IntegrationMethod &method, MethodOptions &o)
 {
   for (const MethodParameter &parameter : method.parameters())
-    if (parameter.choices.empty())
+    if (!run.has(parameter.name)) // each method has a default of its own
+      continue;
+    else if (parameter.choices.empty())
       o.set(parameter.name, run.value(parameter.name));
     else
       o.set(parameter.name, run.choice(parameter.name));

@@ -19,11 +19,14 @@ SymmetricEigenSolver::SymmetricEigenSolver(const MatrixXd &A, WithVectors vector
   converged_ = solver.info() == Eigen::Success;
 }
 
-SymmetricPencilSolver::SymmetricPencilSolver(const MatrixXd &A, const MatrixXd &B)
+SymmetricPencilSolver::SymmetricPencilSolver(const MatrixXd &A, const MatrixXd &B, WithVectors vectors)
 {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(A, B);
-  values_    = solver.eigenvalues();
-  vectors_   = solver.eigenvectors();
+  const bool                                               wanted = vectors == WithVectors::yes;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(
+      A, B, (wanted ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly) | Eigen::Ax_lBx);
+  values_ = solver.eigenvalues();
+  if (wanted)
+    vectors_ = solver.eigenvectors();
   converged_ = solver.info() == Eigen::Success;
 }
 
@@ -31,10 +34,12 @@ GeneralEigenSolver::GeneralEigenSolver(const MatrixXd &A, WithVectors vectors)
 {
   const bool                         wanted = vectors == WithVectors::yes;
   const Eigen::EigenSolver<MatrixXd> solver(A, wanted);
+  converged_ = solver.info() == Eigen::Success;
+  if (!converged_)
+    return;
   values_ = solver.eigenvalues();
   if (wanted)
     vectors_ = solver.eigenvectors();
-  converged_ = solver.info() == Eigen::Success;
 }
 
 struct LeastSquaresSolver::Decomposition
@@ -69,6 +74,8 @@ MatrixXd LeastSquaresSolver::null_space() const
 {
   const auto        &qr = decomposition_->qr;
   const Eigen::Index n  = qr.cols();
+  if (qr.rank() == n)
+    return MatrixXd(n, 0);
   return qr.colsPermutation() * MatrixXd(qr.matrixZ().transpose()).rightCols(n - qr.rank());
 }
 

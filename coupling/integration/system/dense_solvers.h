@@ -38,7 +38,7 @@ private:
 class SymmetricPencilSolver
 {
 public:
-  SymmetricPencilSolver(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B);
+  SymmetricPencilSolver(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B, WithVectors vectors = WithVectors::yes);
 
   const Eigen::VectorXd &eigenvalues() const { return values_; }
   const Eigen::MatrixXd &eigenvectors() const { return vectors_; }

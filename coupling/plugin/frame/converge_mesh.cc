@@ -2,6 +2,7 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/frame/mesh_extrapolation.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "coupling/modes/modes.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/mesh/cell_measures.h"
@@ -13,8 +14,6 @@
 #include "fem/recovery/refinement.h"
 #include "fem/values/two_pi.h"
 #include "fem/values/vector3.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +77,8 @@ MatrixXd compliance(const ReducedFrame &frame)
     for (int k = 3; k < 6; ++k)
       if (interface.coordinate[k] >= 0)
         scale[interface.coordinate[k]] = 1. / reach_of(frame.interfaces);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> S(scale.asDiagonal() * frame.C.topLeftCorner(n1, n1) *
-                                                  scale.asDiagonal());
-  const double                                  largest = S.eigenvalues().size() > 0 ? S.eigenvalues().maxCoeff() : 0.;
+  const SymmetricEigenSolver S(scale.asDiagonal() * frame.C.topLeftCorner(n1, n1) * scale.asDiagonal());
+  const double               largest = S.eigenvalues().size() > 0 ? S.eigenvalues().maxCoeff() : 0.;
   const VectorXd inverse = S.eigenvalues().unaryExpr([&](double s) { return s > singular * largest ? 1. / s : 0.; });
   const MatrixXd U       = scale.asDiagonal() * S.eigenvectors();
   return U * inverse.asDiagonal() * U.transpose();
@@ -126,8 +124,8 @@ std::vector<Watched> watch_compliances(const ReducedFrame &frame, const fem::Fra
         translations.push_back(interface.coordinate[k]);
     if (translations.empty())
       continue;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> block(MatrixXd(F(translations, translations)));
-    const double                                  largest = block.eigenvalues().tail<1>()[0];
+    const SymmetricEigenSolver block(MatrixXd(F(translations, translations)));
+    const double               largest = block.eigenvalues().tail<1>()[0];
     if (!(largest > 0.))
       continue; // one interface of a floating frame: no forces in balance
     VectorXd p                = VectorXd::Zero(frame.M.rows());

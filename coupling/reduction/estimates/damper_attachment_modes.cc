@@ -1,6 +1,7 @@
 #include "coupling/reduction/estimates/damper_attachment_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include "coupling/integration/system/dense_solvers.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -63,8 +64,8 @@ public:
       W -= V * (V.transpose() * MW);
       W -= W_ * (W_.transpose() * MW);
     }
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> left(mass());
-    const Index                                   kept = (left.eigenvalues().array() > rounding).count();
+    const SymmetricEigenSolver left(mass());
+    const Index                kept = (left.eigenvalues().array() > rounding).count();
     W_.conservativeResize(Eigen::NoChange, W_.cols() + kept);
     W_.rightCols(kept) =
         W * left.eigenvectors().rightCols(kept) * left.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -115,8 +116,8 @@ public:
     const MatrixXcd forced = answer.c * (scale_.asDiagonal() * answer.H);
     MatrixXd        parts(forced.rows(), 2 * n1_);
     parts << forced.real(), forced.imag();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> energy(parts.transpose() * G_ * parts);
-    Index                                         kept = 1; // |H r^T C22^-1 r H| is no more than the trace
+    const SymmetricEigenSolver energy(parts.transpose() * G_ * parts);
+    Index                      kept = 1; // |H r^T C22^-1 r H| is no more than the trace
     while (kept < 2 * n1_ && energy.eigenvalues().head(2 * n1_ - kept).sum() > share * tolerance * answer.H.norm())
       ++kept;
     const MatrixXd a = parts * energy.eigenvectors().rightCols(std::min(kept, most));

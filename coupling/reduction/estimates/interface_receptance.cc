@@ -1,6 +1,7 @@
 #include "coupling/reduction/estimates/interface_receptance.h"
 
-#include <Eigen/Eigenvalues>
+#include "coupling/integration/system/dense_solvers.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -31,14 +32,14 @@ constexpr double around[] = {-3., -2., -1.5, -1., -0.7, -0.4, -0.2, 0., 0.2, 0.4
  */
 Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double negligible)
 {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> a(A);
-  const auto                                    kept = (a.eigenvalues().array() > negligible).count();
+  const SymmetricEigenSolver a(A);
+  const auto                 kept = (a.eigenvalues().array() > negligible).count();
   if (kept == 0)
     return {MatrixXd(A.rows(), 0), VectorXd(0)};
-  const VectorXd                                root = a.eigenvalues().tail(kept).cwiseSqrt();
-  const MatrixXd                                U    = a.eigenvectors().rightCols(kept);
-  const MatrixXd                                W    = U * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> b(W.transpose() * B * W);
+  const VectorXd             root = a.eigenvalues().tail(kept).cwiseSqrt();
+  const MatrixXd             U    = a.eigenvectors().rightCols(kept);
+  const MatrixXd             W    = U * root.cwiseInverse().asDiagonal();
+  const SymmetricEigenSolver b(W.transpose() * B * W);
   return {U * root.asDiagonal() * b.eigenvectors(), b.eigenvalues().cwiseMax(0.).cwiseMin(highest)};
 }
 

@@ -1,10 +1,9 @@
 #include "coupling/reduction/estimates/raised_modes.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "coupling/parallel/team_factor.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 
@@ -51,10 +50,9 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
   frame.C.makeCompressed();
   solve(frame.C, available, Y);
 
-  const Eigen::MatrixXd MY = symmetric_product(frame.M, Y), M = Y.transpose() * MY;
-  const Eigen::MatrixXd C = Y.transpose() * F - s * M; // C3 Y = M3 X - s M3 Y
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
-      0.5 * (C + C.transpose()), 0.5 * (M + M.transpose()), Eigen::EigenvaluesOnly);
+  const Eigen::MatrixXd       MY = symmetric_product(frame.M, Y), M = Y.transpose() * MY;
+  const Eigen::MatrixXd       C = Y.transpose() * F - s * M; // C3 Y = M3 X - s M3 Y
+  const SymmetricPencilSolver ritz(0.5 * (C + C.transpose()), 0.5 * (M + M.transpose()), WithVectors::no);
   return ritz.eigenvalues().cwiseMax(0.).cwiseSqrt();
 }
 

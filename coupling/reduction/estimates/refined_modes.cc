@@ -1,10 +1,10 @@
 #include "coupling/reduction/estimates/refined_modes.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "coupling/reduction/shapes/interface_flexibility.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,9 @@ DenseModes elastic_modes(const MatrixXd &C, const MatrixXd &M, const MatrixXd &r
   if (k == 0)
     return dense_modes(C, M, cancelled_by_reduction, 0);
   const MatrixXd inertia = M.leftCols(rigid.rows()) * rigid;
-  const MatrixXd Z = Eigen::HouseholderQR<MatrixXd>(inertia).householderQ() * MatrixXd::Identity(n, n).rightCols(n - k);
-  DenseModes     modes = dense_modes(Z.transpose() * C * Z, Z.transpose() * M * Z, cancelled_by_reduction, 0);
-  modes.V              = Z * modes.V;
+  const MatrixXd Z       = orthonormal_columns(inertia, n).rightCols(n - k);
+  DenseModes     modes   = dense_modes(Z.transpose() * C * Z, Z.transpose() * M * Z, cancelled_by_reduction, 0);
+  modes.V                = Z * modes.V;
   return modes;
 }
 

@@ -1,6 +1,6 @@
 #include "coupling/reduction/shapes/attachment_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,16 +33,16 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
   for (int again = 0; again < 2; ++again)
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(W.transpose() * symmetric_product(frame.M, W));
-  const auto                                    dropped = (mass.eigenvalues().array() <= rounding * rounding).count();
-  const auto                                    kept    = W.cols() - dropped;
+  const SymmetricEigenSolver mass(W.transpose() * symmetric_product(frame.M, W));
+  const auto                 dropped = (mass.eigenvalues().array() <= rounding * rounding).count();
+  const auto                 kept    = W.cols() - dropped;
   if (kept == 0)
     return 0;
   W = W * mass.eigenvectors().rightCols(kept) * mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> stiffness(W.transpose() * symmetric_product(frame.C, W));
-  MatrixXd                                      V(W.rows(), basis.m() + kept);
-  VectorXd                                      omega(basis.m() + kept);
+  const SymmetricEigenSolver stiffness(W.transpose() * symmetric_product(frame.C, W));
+  MatrixXd                   V(W.rows(), basis.m() + kept);
+  VectorXd                   omega(basis.m() + kept);
   V << basis.fixed_modes(), W * stiffness.eigenvectors();
   omega << basis.omega0, stiffness.eigenvalues().cwiseSqrt();
   basis.set_modes(V, omega);

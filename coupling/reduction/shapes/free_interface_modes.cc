@@ -2,11 +2,10 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/shapes/interface_flexibility.h"
 #include "fem/values/two_pi.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +59,7 @@ FreeInverse::FreeInverse(const FixedInterfaceFrame &held, const ReductionBasis &
   S_inverse_       = inverse_beside(S, R_(basis.q1, Eigen::all));
   if (R_.cols() > 0)
   {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(R_.transpose() * symmetric_product(frame.M, R_));
+    const SymmetricEigenSolver mass(R_.transpose() * symmetric_product(frame.M, R_));
     R_ *= mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   }
   MR_ = symmetric_product(frame.M, R_);

@@ -1,9 +1,7 @@
 #include "coupling/reduction/shapes/interface_flexibility.h"
 
+#include "coupling/integration/system/dense_solvers.h"
 #include "fem/assembly/rigid_body_modes.h"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <cmath>
 
@@ -31,8 +29,8 @@ MatrixXd motions_without_stiffness(const MatrixXd &S, const ReductionBasis &basi
 {
   if (S.rows() == 0)
     return MatrixXd(basis.T.rows(), 0);
-  const VectorXd                                d = to_unit_diagonal(S);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(d.asDiagonal() * S * d.asDiagonal());
+  const VectorXd             d = to_unit_diagonal(S);
+  const SymmetricEigenSolver scaled(d.asDiagonal() * S * d.asDiagonal());
   if (scaled.eigenvalues()(0) > suspicious)
     return MatrixXd(basis.T.rows(), 0);
   if (frame.rigid_motions.cols() == 6)
@@ -48,11 +46,9 @@ MatrixXd inverse_beside(const MatrixXd &S, const MatrixXd &Z)
   const VectorXd d = to_unit_diagonal(S);
   MatrixXd       Q(S.rows(), Z.cols());
   if (Z.cols() > 0)
-    Q = Eigen::HouseholderQR<MatrixXd>(d.cwiseInverse().asDiagonal() * Z).householderQ() *
-        MatrixXd::Identity(S.rows(), Z.cols());
-  const MatrixXd                                P = MatrixXd::Identity(S.rows(), S.rows()) - Q * Q.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> beside(P * (d.asDiagonal() * S * d.asDiagonal()) * P +
-                                                       Q * Q.transpose());
+    Q = orthonormal_columns(d.cwiseInverse().asDiagonal() * Z, Z.cols());
+  const MatrixXd             P = MatrixXd::Identity(S.rows(), S.rows()) - Q * Q.transpose();
+  const SymmetricEigenSolver beside(P * (d.asDiagonal() * S * d.asDiagonal()) * P + Q * Q.transpose());
   const VectorXd inverse = beside.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
   const MatrixXd U       = d.asDiagonal() * P * beside.eigenvectors();
   return U * inverse.asDiagonal() * U.transpose();

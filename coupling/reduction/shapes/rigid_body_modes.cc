@@ -1,10 +1,8 @@
 #include "coupling/reduction/shapes/rigid_body_modes.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "fem/assembly/rigid_motions.h"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <cmath>
 #include <sstream>
@@ -30,8 +28,7 @@ constexpr int    rounds     = 6;     // of inverse iteration: free motions gain 
 MatrixXd orthonormal(const MatrixXd &X, const VectorXd &D)
 {
   const VectorXd root = D.cwiseSqrt();
-  const MatrixXd Q =
-      Eigen::HouseholderQR<MatrixXd>(root.asDiagonal() * X).householderQ() * MatrixXd::Identity(X.rows(), X.cols());
+  const MatrixXd Q    = orthonormal_columns(root.asDiagonal() * X, X.cols());
   return root.cwiseInverse().asDiagonal() * Q;
 }
 
@@ -53,9 +50,9 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
   {
     X = D.asDiagonal() * X;
     factor.solve_in_place(X);
-    X                                                = orthonormal(X, D);
-    const MatrixXd                                CX = lower.selfadjointView<Eigen::Lower>() * X;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(X.transpose() * CX);
+    X                             = orthonormal(X, D);
+    const MatrixXd             CX = lower.selfadjointView<Eigen::Lower>() * X;
+    const SymmetricEigenSolver ritz(X.transpose() * CX);
     X        = (X * ritz.eigenvectors()).eval();
     quotient = ritz.eigenvalues();
   }
