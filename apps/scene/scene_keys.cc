@@ -42,7 +42,7 @@ const std::vector<Key> &scene_keys()
       one_of("run", "the run in time"),
       one_of("start", "the state it starts from"),
       one_of("modes", "the machine's modes"),
-      one_of("output", "what is told")};
+      one_of("output", "signals, stresses and rows that are written")};
   return keys;
 }
 
@@ -67,7 +67,7 @@ const std::vector<Key> &reduction_keys()
                   "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
                   "exactly. `\"condensation\"`: these static shapes alone, by Guyan, exact in statics; modes that the "
                   "frame has with its interface held are missing, and "
-                  "[told](../theory/reduction.md#static-condensation) where they lie below `frequency`. `\"none\"` "
+                  "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. `\"none\"` "
                   "keeps every coordinate: for tests and small matrices; so does a frame given by matrices without "
                   "`[reduction]`. A key that the method does not take is refused"),
       key::number(
@@ -78,13 +78,13 @@ const std::vector<Key> &reduction_keys()
           "theirs; [tried](../theory/reduction.md#how-many-modes-for-the-interface) from 0.05 down to 1e-5, with "
           "dampers up to 200 times as stiff as the supports they stand beside. The error is one number for all "
           "interfaces, Frobenius' norm with each coordinate scaled by its inertia: an interface far stiffer than the "
-          "others may be worse by itself, and the worst is told beside it. What cannot be reached a note tells")
+          "others may be worse by itself, and the worst is listed beside it. A note says what cannot be reached")
           .as_share()
           .by_default(ReductionRequest().options.tolerance),
       key::plain(
           "modes", Key::Form::whole,
           "fixed number of modes instead; a `tolerance` beside it is not used. Of `\"free-interface\"` without it: "
-          "all up to 1.5 times `frequency`, or the twelfth elastic one. A note tells the error up to "
+          "all up to 1.5 times `frequency`, or the twelfth elastic one. A note gives the error up to "
           "`frequency`, or that the modes kept end below it")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,

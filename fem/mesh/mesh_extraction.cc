@@ -1,6 +1,7 @@
 #include "fem/mesh/mesh_extraction.h"
 
 #include "fem/mesh/cell_kinds.h"
+#include "fem/mesh/joined_cells.h"
 #include "fem/mesh/mesh_nodes.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/mesh/mixed_extraction.h"
@@ -125,13 +126,6 @@ std::vector<CellFace> sorted_faces(const Mesh &mesh)
   return faces;
 }
 
-int root(std::vector<int> &parent, int i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// The corner of the cell that is not on the face.
 const Point3 &apex(const Mesh &mesh, const CellFace &face)
 {
@@ -166,29 +160,6 @@ void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, cons
                                 text(mesh.points[where->key[0]]) +
                                 " m: cells are turned inside out (negative Jacobian); a node may have been moved "
                                 "through its neighbours. Mesh again.");
-}
-
-/// Pairs of equal faces join cells, single faces are the skin.
-std::vector<CellFace> join(const std::vector<CellFace> &faces, std::vector<int> &parent, const std::string &head)
-{
-  std::vector<CellFace> skin;
-  for (std::size_t i = 0; i < faces.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < faces.size() && faces[end].key == faces[i].key)
-      ++end;
-    if (end - i > 2)
-      throw std::invalid_argument(head + ": " + std::to_string(end - i) +
-                                  " cells share one face; the mesh overlaps itself: unite the solids and mesh again.");
-    if (end - i == 2)
-      parent[root(parent, faces[i].cell)] = root(parent, faces[i + 1].cell);
-    else
-      skin.push_back(faces[i]);
-    i = end;
-  }
-  std::sort(skin.begin(), skin.end(),
-            [](auto &a, auto &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
-  return skin;
 }
 
 void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)
@@ -238,7 +209,7 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const
   std::vector<int> parent(mesh.cells.size());
   std::iota(parent.begin(), parent.end(), 0);
   const std::vector<CellFace> faces = sorted_faces(mesh);
-  const std::vector<CellFace> skin  = join(faces, parent, head);
+  const std::vector<CellFace> skin  = join_cells(faces, parent, head);
   require_unfolded(mesh, faces, head);
   check_bodies(mesh, parent, options.bodies, head);
   if (model.meshed)

@@ -2,6 +2,7 @@
 
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/gmsh_elements.h"
+#include "fem/mesh/joined_cells.h"
 #include "fem/mesh/mesh_nodes.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/values/message_text.h"
@@ -197,13 +198,6 @@ std::vector<int> corners_of(const Mesh &mesh, const CellFace &face)
   return corners;
 }
 
-int root(std::vector<int> &parent, int i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// Faces of one cell only; `parent` joins cells that share one.
 std::vector<CellFace> outer_faces(const Mesh &mesh, std::vector<int> &parent, const std::string &head)
 {
@@ -218,24 +212,7 @@ std::vector<CellFace> outer_faces(const Mesh &mesh, std::vector<int> &parent, co
             [](const CellFace &a, const CellFace &b)
             { return std::tie(a.key, a.cell, a.face) < std::tie(b.key, b.cell, b.face); });
 
-  std::vector<CellFace> outer;
-  for (std::size_t i = 0; i < faces.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < faces.size() && faces[end].key == faces[i].key)
-      ++end;
-    if (end - i > 2)
-      throw std::invalid_argument(head + ": " + std::to_string(end - i) +
-                                  " cells share one face; the mesh overlaps itself: unite the solids and mesh again.");
-    if (end - i == 2)
-      parent[root(parent, faces[i].cell)] = root(parent, faces[i + 1].cell);
-    else
-      outer.push_back(faces[i]);
-    i = end;
-  }
-  std::sort(outer.begin(), outer.end(),
-            [](const CellFace &a, const CellFace &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
-  return outer;
+  return join_cells(faces, parent, head);
 }
 
 void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)

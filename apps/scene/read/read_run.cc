@@ -174,7 +174,8 @@ const std::vector<Key> &run_keys()
         key::truth(
             "events", run.events,
             "contacts, fracture, sticking and other switches are located to rounding and the integration restarts "
-            "there with full order; `false`: it goes over them and tells them afterwards. Not with dry friction, "
+            "there with full order; `false`: steps pass over them, and they are listed afterwards. Not with dry "
+            "friction, "
             "which may then hold more than its limit: a warning says so"),
         key::plain("order", Key::Form::whole, "of `bdf`, 1 to 6; of `exact` with `\"collocation\"`, 2, 4, 6 or 8")
             .by_default("2, with `tolerance` 5; of `exact` 4")},

@@ -80,7 +80,7 @@ const std::vector<Key> &stress_keys()
   static const std::vector<Key> keys = {
       key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
       key::plain("largest", Key::Form::texts,
-                 "names of signals at whose largest value stresses are told; `\"stress\"`: when the equivalent stress "
+                 "names of signals at whose largest value stresses are written; `\"stress\"`: when the equivalent stress "
                  "itself is largest anywhere, see `step`")
           .by_default("`\"stress\"` if nothing else is asked for"),
       key::plain("smallest", Key::Form::texts, "names of signals, likewise").by_default("none"),

@@ -184,7 +184,7 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
     {
       if (!given.empty())
         throw table.error(
-            key, "stands beside '" + given +
+            key, "cannot be given together with '" + given +
                      "', but a switch has one value: give 'above' where the signal shall rise over it, 'below' where "
                      "it shall fall under it, or 'crosses' for both ways; two values need two switches");
       given                = key;
@@ -264,7 +264,7 @@ std::vector<Key> order_keys()
   { return key::number(name, kind, meaning).above_zero().by_default("a jump"); };
   return {key::plain("tell", Key::Form::texts, "name of an element or joint, or several").by_default("`orders`"),
           key::plain("order", Key::Form::text,
-                     "what it is told: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
+                     "the command: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
               .by_default("`orders`"),
           key::plain("to", Key::Form::quantity, "of `\"set\"`: the level").by_default("demanded of `\"set\"`"),
           limit("rate", level.rate, "largest rate of the way to the level, in its unit"),

@@ -396,7 +396,7 @@ TEST(Switches, RefuseWhatCannotBe)
   refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"u\"\n", "there is no switch 'u'");
   refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"s\"\n", "in a circle");
   refuses(at_time + "orders = []\n", "orders");
-  refuses(at_time + "below = \"2 s\"\ntell = \"push\"\norder = \"off\"\n", "stands beside 'above'");
+  refuses(at_time + "below = \"2 s\"\ntell = \"push\"\norder = \"off\"\n", "cannot be given together with 'above'");
   refuses("when = \"t\"\ntell = \"push\"\norder = \"off\"\n", "needs 'above', 'below' or 'crosses'");
   refuses("when = \"slide.velocty\"\nabove = 1\ntell = \"push\"\norder = \"off\"\n",
           "when: there is no \"slide.velocty\"; did you mean 'slide.velocity'?");

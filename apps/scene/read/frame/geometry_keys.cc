@@ -43,22 +43,23 @@ const std::vector<Key> &mesh_keys()
           .by_default(0.),
       key::plain("bodies", Key::Form::whole,
                  "number of bodies expected that do not hang together. With another number the frame is refused, and "
-                 "the nearest faces of the bodies and their distance are told")
+                 "the message names the nearest faces of the bodies and their distance")
           .by_default(1.),
       key::number("defeature", kind::length,
                   "bores, fillets, chamfers and edges smaller than this length are removed from STEP and BREP models, "
-                  "where their neighbours can close the place; what was done is told")
+                  "where the neighbouring faces can close the gap; a note lists what was removed")
           .from_zero()
           .by_default(0.),
       key::choice("overlaps", {"refused", "once"}, true,
                   "solids that overlap would count twice what they share; `\"once\"` gives it to the solid that comes "
                   "first in the file"),
-      key::truth("curved", false,
-                 "sides of tetrahedra follow bores, fillets and other curved faces, so that coarse elements keep the "
-                 "shape, off by the fourth power of their size where straight sides are off by the second. Where that "
-                 "would fold a cell its sides are straightened, which is told. Quadratic meshes of tetrahedra keep the "
-                 "sides they come with. Hexahedra have straight edges: `true` is refused of them, and how far the "
-                 "middle nodes of quadratic ones lie beside is told")};
+      key::truth(
+          "curved", false,
+          "sides of tetrahedra follow bores, fillets and other curved faces, so that coarse elements keep the "
+          "shape, off by the fourth power of their size where straight sides are off by the second. Where that "
+          "would fold a cell its sides are straightened, and a note says so. Quadratic meshes of tetrahedra keep the "
+          "sides they come with. Hexahedra have straight edges: `true` is refused, and a note says how far "
+          "the middle nodes of quadratic ones lie off these edges")};
   return keys;
 }
 
@@ -164,7 +165,8 @@ const std::vector<Key> &interface_keys()
           "`\"rigid\"`: the surface moves as a rigid body with the node; `\"average\"`: the node moves as the mean of "
           "the surface, weighted by area, a force spreads over it and the surface stays flexible; `\"point\"`: the "
           "node is the point of the surface nearest to `position` and takes the mean motion of the triangles around it "
-          "(told if it is far from `position`); `\"node\"`: the corner of the mesh nearest to `position`, on its "
+          "(a note says so if it is far from `position`); `\"node\"`: the corner of the mesh nearest to `position`, on "
+          "its "
           "surfaces or, if it names none, on the whole skin, with its three displacements as they are and no rotation"),
       key::vector("position", kind::length, "of the node; of a point and of `\"node\"` required")
           .by_default("centroid"),

@@ -88,7 +88,8 @@ fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, 
   const std::string longer = key + "_per_area";
   is_per_area              = table.has(longer);
   if (is_per_area && table.has(key))
-    throw table.error(longer, "stands beside '" + key + "', the total over the surface; give one of them");
+    throw table.error(longer,
+                      "cannot be given together with '" + key + "', the total over the surface; give one of them");
   return is_per_area ? per_direction(table, longer, per_area) : per_direction(table, key, total);
 }
 
