@@ -25,7 +25,7 @@ using coupling::TestOscillator;
 // some hundred steps; other roots have died out by then (0.99^1000 of them is left at most).
 constexpr double rounding = 1e-7;
 
-MethodOptions bdf(int order)
+MethodOptions bdf_options(int order)
 {
   MethodOptions o;
   o.order = order;
@@ -145,7 +145,7 @@ AtlasEntry bdf3_on_a_frame()
     std::size_t best = 0;
     double      most = 0.;
     for (std::size_t i = 0; i < masses.size(); ++i)
-      if (const double rho = coupling::spectral_radius(bdf(3), {zeta, masses[i].omega * h}); rho > most)
+      if (const double rho = coupling::spectral_radius(bdf_options(3), {zeta, masses[i].omega * h}); rho > most)
         most = rho, best = i;
     return std::pair(best, most);
   };
@@ -157,7 +157,7 @@ AtlasEntry bdf3_on_a_frame()
   for (const double h : {2e-4, 4e-4, 7e-4, 1.2e-3, 2e-3, 3e-3, 5e-3, 8e-3})
   {
     const auto [mode, predicted] = worst(h);
-    MethodOptions options        = bdf(3);
+    MethodOptions options        = bdf_options(3);
     options.step                 = h;
     auto         machine         = trial_frame(masses);
     const double measured = measured_growth(step_through(machine, options, steps_to_see(predicted)).col(long(mode)));
@@ -182,9 +182,9 @@ AtlasEntry bdf_of_high_order()
                        {},
                        {},
                        {}},
-                      {{"BDF 4", bdf(4), 0., {0.5, 0.8, 1.2, 1.8604, 3., 4.5}},
-                       {"BDF 5", bdf(5), 0., {0.8, 1.2, 2.384, 4., 8.}},
-                       {"BDF 6", bdf(6), 0., {0.9, 1.5, 2.791, 5., 12.}}},
+                      {{"BDF 4", bdf_options(4), 0., {0.5, 0.8, 1.2, 1.8604, 3., 4.5}},
+                       {"BDF 5", bdf_options(5), 0., {0.8, 1.2, 2.384, 4., 8.}},
+                       {"BDF 6", bdf_options(6), 0., {0.9, 1.5, 2.791, 5., 12.}}},
                       0.1, 30., 1.65);
 }
 
@@ -269,7 +269,7 @@ AtlasEntry wilson_overshoot()
     line.x.push_back(o.omega_h);
     line.y.push_back(coupling::overshoot(wilson(1.4), o, coupling::OscillatorStart::displaced).displacement);
     other.x.push_back(o.omega_h);
-    other.y.push_back(coupling::overshoot(bdf(2), o, coupling::OscillatorStart::displaced).displacement);
+    other.y.push_back(coupling::overshoot(bdf_options(2), o, coupling::OscillatorStart::displaced).displacement);
   }
   for (const double omega_h : {1., 3., 10., 30., 100., 1000.})
   {

@@ -9,7 +9,6 @@
 
 extern "C" char *openblas_get_corename();
 extern "C" void  openblas_set_num_threads(int n);
-extern "C" void  dgemm_();
 
 namespace gestell::coupling
 {
@@ -47,7 +46,7 @@ void choose(const std::string &kernels)
 std::string blas_library()
 {
   Dl_info found{};
-  if (!dladdr(reinterpret_cast<void *>(&dgemm_), &found) || !found.dli_fname)
+  if (!dladdr(dlsym(RTLD_DEFAULT, "dgemm_"), &found) || !found.dli_fname)
     return "not known";
   std::error_code error; // Debian chooses among libraries by links
   const auto      file = std::filesystem::canonical(found.dli_fname, error);

@@ -16,8 +16,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    beyond = 4;    // modes that are looked for above those wanted, for a gap
-constexpr double gap    = 1e-3; // relative distance of two frequencies that a shift may stand between
+constexpr int    beyond        = 4;    // modes that are looked for above those wanted, for a gap
+constexpr double gap_for_shift = 1e-3; // relative distance of two frequencies that a shift may stand between
 
 /// Both, in ascending order.
 LowestModes joined(const LowestModes &a, const LowestModes &b)
@@ -78,7 +78,7 @@ int DeflatedSearch::gap_index(int count) const
     const double here = found_.omega(i) / found_.omega(i - 1) - 1.;
     if (here > width)
       widest = i, width = here;
-    if (here > gap)
+    if (here > gap_for_shift)
       break;
   }
   return widest;

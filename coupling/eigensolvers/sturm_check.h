@@ -22,6 +22,8 @@ namespace gestell::coupling
 class SturmCheckedModes
 {
 public:
+  static constexpr int dense_limit = 600; ///< coordinates up to which all modes are found densely
+
   virtual ~SturmCheckedModes() = default;
 
   /// Looks for the lowest `count`, 0 <= count <= coordinates.

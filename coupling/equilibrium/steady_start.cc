@@ -65,13 +65,13 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
 }
 
 /// Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
-constexpr double singular = 1e-9;
+constexpr double least_singular = 1e-9;
 
-/// Equilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
-class Equilibrium
+/// DrivenEquilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
+class DrivenEquilibrium
 {
 public:
-  Equilibrium(Machine &machine, const Kinematics &kinematics)
+  DrivenEquilibrium(Machine &machine, const Kinematics &kinematics)
       : machine_(machine), t_(kinematics.state.t), v_(kinematics.state.v), acceleration_(kinematics.acceleration),
         stiffness_(dense_stiffness(machine)), p_(Eigen::VectorXd::Zero(machine.forces().directions().cols()))
   {
@@ -159,7 +159,7 @@ private:
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
     matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    solver_                    = LeastSquaresSolver(matrix_, singular);
+    solver_                    = LeastSquaresSolver(matrix_, least_singular);
   }
 
   Machine         &machine_;
@@ -175,7 +175,7 @@ private:
   LeastSquaresSolver solver_;
 };
 
-[[noreturn]] void refuse(const Machine &machine, const Equilibrium &equilibrium, double unbalanced)
+[[noreturn]] void refuse(const Machine &machine, const DrivenEquilibrium &equilibrium, double unbalanced)
 {
   std::ostringstream message;
   message << "start: no equilibrium; " << unbalanced << " N (or N m) stay unbalanced";
@@ -195,9 +195,9 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     throw std::invalid_argument(
         "angles, speeds and driver do not close joints; give a steady start the position and the "
         "speed of what drives as q and v instead, and the joints make the rest");
-  const Kinematics kinematics = kinematics_of(machine, start);
-  InitialState     state      = kinematics.state;
-  Equilibrium      equilibrium(machine, kinematics);
+  const Kinematics  kinematics = kinematics_of(machine, start);
+  InitialState      state      = kinematics.state;
+  DrivenEquilibrium equilibrium(machine, kinematics);
 
   Eigen::VectorXd balance = equilibrium.residual(state.q);
   for (int iteration = 0; iteration < 200; ++iteration)
@@ -233,8 +233,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
 namespace
 {
 
-constexpr int    most_rounds = 50;
-constexpr double settled     = 1e-12; ///< change of q in a round, against its size
+constexpr int    most_rounds  = 50;
+constexpr double least_change = 1e-12; ///< change of q in a round, against its size
 
 /// The same known start with what has a given speed held in position `at`, and nothing else.
 KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
@@ -266,7 +266,7 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
     const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
     state.q                   = next.q;
     state.v                   = motion.v;
-    if (change <= settled * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
+    if (change <= least_change * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
       return state;
   }
   throw std::invalid_argument(

@@ -34,10 +34,10 @@ std::string lower_case(std::string text)
 }
 
 /// The file, line by line, with messages that say where.
-class Reader
+class MatrixMarketReader
 {
 public:
-  explicit Reader(const std::string &name) : name_(name), file_(name)
+  explicit MatrixMarketReader(const std::string &name) : name_(name), file_(name)
   {
     if (!file_)
       throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
@@ -127,7 +127,7 @@ struct Header
   bool coordinate, symmetric;
 };
 
-Header read_header(Reader &reader)
+Header read_header(MatrixMarketReader &reader)
 {
   const char *expected = "expected the head line of a MatrixMarket file, "
                          "'%%MatrixMarket matrix coordinate|array real|integer general|symmetric'";
@@ -159,7 +159,7 @@ void add(Entries &entries, int row, int column, double value, bool symmetric)
     entries.emplace_back(column, row, value);
 }
 
-void read_coordinates(Reader &reader, int rows, int columns, int count, bool symmetric, Entries &entries)
+void read_coordinates(MatrixMarketReader &reader, int rows, int columns, int count, bool symmetric, Entries &entries)
 {
   const char *expected = "expected 'row column value'";
   entries.reserve(std::min<std::size_t>(std::size_t(count) * (symmetric ? 2 : 1), 100000000));
@@ -178,7 +178,7 @@ void read_coordinates(Reader &reader, int rows, int columns, int count, bool sym
   }
 }
 
-void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &entries)
+void read_array(MatrixMarketReader &reader, int rows, int columns, bool symmetric, Entries &entries)
 {
   for (int column = 0; column < columns; ++column)
     for (int row = symmetric ? column : 0; row < rows; ++row)
@@ -198,7 +198,7 @@ void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &
 /// Market Exchange Formats: Initial Design, NISTIR 5935, 1996).
 [[noreturn]] void refuse_repeated(const std::string &file)
 {
-  Reader reader(file);
+  MatrixMarketReader reader(file);
   read_header(reader);
   reader.next_entry(); // the sizes
   std::map<std::pair<int, int>, long> lines;
@@ -219,9 +219,9 @@ void read_array(Reader &reader, int rows, int columns, bool symmetric, Entries &
 
 Matrix read_matrix_market(const std::string &file)
 {
-  Reader       reader(file);
-  const Header header   = read_header(reader);
-  const char  *expected = header.coordinate ? "expected 'rows columns entries'" : "expected 'rows columns'";
+  MatrixMarketReader reader(file);
+  const Header       header   = read_header(reader);
+  const char        *expected = header.coordinate ? "expected 'rows columns entries'" : "expected 'rows columns'";
   if (!reader.next_entry())
     reader.fail_at_end(std::string(expected + 9) + " is missing");
   const int rows = reader.integer(expected), columns = reader.integer(expected);

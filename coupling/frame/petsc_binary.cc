@@ -33,10 +33,10 @@ Unsigned from_big_endian(const unsigned char *bytes)
 }
 
 /// The file from its beginning on, with messages that say where.
-class Reader
+class PetscReader
 {
 public:
-  explicit Reader(const std::string &name) : name_(name), file_(name, std::ios::binary)
+  explicit PetscReader(const std::string &name) : name_(name), file_(name, std::ios::binary)
   {
     if (!file_)
       throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
@@ -99,7 +99,7 @@ private:
   bool          wide_ = false;
 };
 
-void read_head(Reader &reader)
+void read_head(PetscReader &reader)
 {
   std::int64_t kind = reader.integer();
   if (kind == 0) // upper half of an integer of 8 bytes
@@ -113,7 +113,7 @@ void read_head(Reader &reader)
     reader.fail("it begins with " + std::to_string(kind) + ", a matrix of PETSc with " + std::to_string(matrix_class));
 }
 
-int checked(const Reader &reader, std::int64_t value, std::int64_t from, std::int64_t below, const char *what)
+int checked(const PetscReader &reader, std::int64_t value, std::int64_t from, std::int64_t below, const char *what)
 {
   if (value < from || value >= below)
     reader.fail(std::string(what) + " is " + std::to_string(value) + "; it must be from " + std::to_string(from) +
@@ -121,7 +121,7 @@ int checked(const Reader &reader, std::int64_t value, std::int64_t from, std::in
   return int(value);
 }
 
-Matrix read_dense(Reader &reader, int rows, int columns, const std::string &shape)
+Matrix read_dense(PetscReader &reader, int rows, int columns, const std::string &shape)
 {
   reader.require_left(0, std::int64_t(rows) * columns, shape);
   Eigen::MatrixXd A(rows, columns);
@@ -131,7 +131,7 @@ Matrix read_dense(Reader &reader, int rows, int columns, const std::string &shap
   return A.sparseView(0., 0.);
 }
 
-Matrix read_sparse(Reader &reader, int rows, int columns, int entries, const std::string &shape)
+Matrix read_sparse(PetscReader &reader, int rows, int columns, int entries, const std::string &shape)
 {
   reader.require_left(std::int64_t(rows) + entries, entries, shape);
   Eigen::SparseMatrix<double, Eigen::RowMajor> A(rows, columns);
@@ -185,7 +185,7 @@ private:
 Matrix read_petsc_matrix(const std::string &file)
 {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  Reader                 reader(file);
+  PetscReader            reader(file);
   read_head(reader);
   const int  rows    = checked(reader, reader.integer(), 0, most, "the number of rows");
   const int  columns = checked(reader, reader.integer(), 0, most, "the number of columns");

@@ -14,16 +14,16 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr const char *library = "libgestell_frame.so";
+constexpr const char *frame_library = "libgestell_frame.so";
 
-void *load()
+void *load_frame_library()
 {
-  const auto file = find_plugin(library);
+  const auto file = find_plugin(frame_library);
   if (file.empty())
-    throw std::invalid_argument(std::string("frame_service: ") + library +
+    throw std::invalid_argument(std::string("frame_service: ") + frame_library +
                                 " not found beside the program: this build of gestell cannot mesh and reduce frames; "
                                 "build it with GESTELL_FEM=ON, or set GESTELL_PLUGIN_DIR to the folder of " +
-                                library + ", or run from a reduced frame in the cache");
+                                frame_library + ", or run from a reduced frame in the cache");
   setenv("OPENBLAS_NUM_THREADS", "1", 0); // read when the library loads: waiting threads spin
   return load_plugin(file);
 }
@@ -31,14 +31,14 @@ void *load()
 /// Loaded on the first call and never unloaded: PETSc and MPI end with the process.
 void *loaded_plugin()
 {
-  static void *const handle = load();
+  static void *const handle = load_frame_library();
   return handle;
 }
 
 template <typename Function>
 Function *function(const char *name)
 {
-  return reinterpret_cast<Function *>(function_of_plugin(loaded_plugin(), name, library));
+  return reinterpret_cast<Function *>(function_of_plugin(loaded_plugin(), name, frame_library));
 }
 
 } // namespace
@@ -56,7 +56,7 @@ FrameService &frame_service()
 
 bool has_frame_service()
 {
-  return !find_plugin(library).empty();
+  return !find_plugin(frame_library).empty();
 }
 
 MeshService &mesh_service()

@@ -12,21 +12,22 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr const char *library = "libgestell_team.so";
+constexpr const char *team_library = "libgestell_team.so";
 
 /// Variables of launchers for the number of processes and the own place among them.
 constexpr const char *launchers[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                         {"PMI_SIZE", "PMI_RANK"},
                                         {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
 
-TeamService *load()
+TeamService *load_team()
 {
   const Launch launched = launch();
-  const auto   file     = find_plugin(library);
+  const auto   file     = find_plugin(team_library);
   if (launched.size == 1 || file.empty())
     return nullptr;
   void *const plugin = load_plugin(file);
-  const auto  entry = reinterpret_cast<TeamService *(*)()>(function_of_plugin(plugin, "gestell_team_service", library));
+  const auto  entry =
+      reinterpret_cast<TeamService *(*)()>(function_of_plugin(plugin, "gestell_team_service", team_library));
   TeamService *const team = entry();
   if (team->size() != launched.size)
     throw std::invalid_argument("mpirun: started " + std::to_string(launched.size) + " processes, but MPI finds " +
@@ -48,7 +49,7 @@ Launch launch()
 
 TeamService *team_service()
 {
-  static TeamService *const team = load();
+  static TeamService *const team = load_team();
   return team;
 }
 

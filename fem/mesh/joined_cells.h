@@ -10,7 +10,8 @@ namespace gestell::fem
 {
 
 /// Representative of the set that holds i; paths are halved on the way.
-inline int root(std::vector<int> &parent, int i)
+template <class Index>
+Index root(std::vector<Index> &parent, Index i)
 {
   while (parent[i] != i)
     i = parent[i] = parent[parent[i]];

@@ -1,5 +1,6 @@
 #include "fem/mesh/mesh_groups.h"
 
+#include "fem/mesh/joined_cells.h"
 #include "fem/values/vector3.h"
 
 #include <algorithm>
@@ -72,13 +73,6 @@ Vector3 normal_of(const Mesh &mesh, std::size_t triangle)
 {
   const auto &[a, b, c] = mesh.skin[triangle];
   return unit(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
-}
-
-std::size_t root(std::vector<std::size_t> &parent, std::size_t i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 /// Joins triangles across edges where they belong together.

@@ -1,5 +1,7 @@
 #include "fem/values/inp_lines.h"
 
+#include "fem/values/trimmed.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -9,13 +11,6 @@ namespace gestell::fem
 
 namespace
 {
-
-std::string trimmed(const std::string &text)
-{
-  const auto blank = " \t\r\n";
-  const auto from  = text.find_first_not_of(blank);
-  return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(blank) - from + 1);
-}
 
 std::string unquoted(const std::string &text)
 {

@@ -155,20 +155,20 @@ void Placement::direction(const Vector3d &e, const double *u, const double *v, M
 
 namespace
 {
-constexpr double at_rest[Placement::max_measures] = {};
+constexpr double no_rates[Placement::max_measures] = {};
 }
 
 Vector3d Placement::position(const double *u) const
 {
   MovedVector x;
-  position(u, at_rest, x);
+  position(u, no_rates, x);
   return x.value;
 }
 
 Vector3d Placement::direction(const Vector3d &e, const double *u) const
 {
   MovedVector moved;
-  move(e, u, at_rest, moved);
+  move(e, u, no_rates, moved);
   return moved.value;
 }
 

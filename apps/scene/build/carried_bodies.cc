@@ -1,5 +1,7 @@
 #include "apps/scene/build/carried_bodies.h"
 
+#include "apps/scene/build/build_measures.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,11 +15,6 @@ namespace
 
 constexpr double on_axis  = 1e-9; ///< [m], or share of a unit vector
 constexpr double far_away = 0.1;  ///< share of the size of the machine
-
-Eigen::Vector3d vector(const Vector3 &a)
-{
-  return {a[0], a[1], a[2]};
-}
 
 /// The carrier if it is a body that turns by any angle about an axis of its own.
 const coupling::Body *turning_carrier(const coupling::MachineModel &machine, const std::string &name)

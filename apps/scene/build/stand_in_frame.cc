@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double elastic_hz = 1000.; ///< far above what elements make of the masses of a machine
 /// Of the energies that cancel in a free motion, as fem::free_motions() has it.
-constexpr double free_share = 1e-13;
-constexpr double parallel   = 1e-9; ///< directions that differ by less are one
+constexpr double free_share    = 1e-13;
+constexpr double one_direction = 1e-9; ///< directions that differ by less are one
 
 coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, const std::vector<std::string> &outputs)
 {
@@ -86,11 +86,11 @@ Eigen::Matrix3d resisted(const std::vector<fem::Support> &supports)
 /// Orthonormal, the axes themselves where they are free [3 x k].
 MatrixXd free_directions(const Eigen::Matrix3d &resisted)
 {
-  if (resisted.isDiagonal(parallel))
+  if (resisted.isDiagonal(one_direction))
   {
     MatrixXd axes(3, 0);
     for (int d = 0; d < 3; ++d)
-      if (resisted(d, d) <= parallel)
+      if (resisted(d, d) <= one_direction)
       {
         axes.conservativeResize(3, axes.cols() + 1);
         axes.rightCols(1) = Vector3d::Unit(d);
@@ -98,7 +98,7 @@ MatrixXd free_directions(const Eigen::Matrix3d &resisted)
     return axes;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(resisted);
-  return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= parallel).count());
+  return eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= one_direction).count());
 }
 
 MatrixXd free_directions(const Scene &scene)
@@ -121,7 +121,7 @@ std::string name_of(const Vector3d &direction)
   const Eigen::IOFormat triple(3, 0, ", ", ", ", "", "", "(", ")");
   std::ostringstream    text;
   Eigen::Index          d;
-  if (direction.cwiseAbs().maxCoeff(&d) > 1. - parallel)
+  if (direction.cwiseAbs().maxCoeff(&d) > 1. - one_direction)
     text << "translation along "
          << "xyz"[d];
   else

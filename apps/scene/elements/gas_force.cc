@@ -8,7 +8,6 @@ namespace gestell::apps
 {
 namespace
 {
-const Kind volume{"volume", "50 cm^3", {3, 0, 0}};
 } // namespace
 
 /// Measure: displacement of the piston `from` against `to`.
@@ -43,7 +42,7 @@ ElementType gas_force_type()
       "`force` along u, `pressure`, `volume`",
       joined({motion_keys(),
               {key::number("area", kind::area, "of the piston").above_zero(),
-               key::number("clearance_volume", volume, "left at the dead centre").above_zero(),
+               key::number("clearance_volume", kind::volume, "left at the dead centre").above_zero(),
                key::number("dead_centre_at", kind::length, "u there").by_default(own.dead_centre_at),
                key::choice("side", {"above", "below"}, true, "the volume grows with u, or against it"),
                key::number("exponent", kind::number, "of the polytropic").above_zero().by_default(own.exponent),

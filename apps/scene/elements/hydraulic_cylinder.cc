@@ -9,7 +9,6 @@ namespace gestell::apps
 {
 namespace
 {
-const Kind volume{"volume", "2 cm^3", {3, 0, 0}};
 const Kind flow{"flow", "20 cm^3/s", {3, 0, -1}};
 const Kind leakage{"leakage", "0.1 cm^3/(s bar)", {4, -1, 1}};
 } // namespace
@@ -66,8 +65,8 @@ ElementType hydraulic_cylinder_type()
       joined({motion_keys(),
               {key::number("area_a", kind::area, "of the piston in chamber A, u growing as it is filled").above_zero(),
                key::number("area_b", kind::area, "in chamber B").above_zero().by_default("`area_a`"),
-               key::number("volume_a", volume, "of the oil in A where u = zero_at").above_zero(),
-               key::number("volume_b", volume, "of the oil in B there").above_zero(),
+               key::number("volume_a", kind::volume, "of the oil in A where u = zero_at").above_zero(),
+               key::number("volume_b", kind::volume, "of the oil in B there").above_zero(),
                key::number("zero_at", kind::length, "u to which volumes and pressures belong").by_default(0.),
                key::number("bulk_modulus", kind::pressure, "of the oil").above_zero().by_default(own.bulk_modulus),
                key::number("pressure_a", kind::pressure, "at zero_at").by_default(0.),

@@ -1,5 +1,7 @@
 #include "apps/scene/file/csv_file.h"
 
+#include "fem/values/trimmed.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,12 +12,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string trimmed(const std::string &text)
-{
-  const auto from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
-  return from == std::string::npos ? std::string() : text.substr(from, to - from + 1);
-}
 
 std::vector<std::string> split(const std::string &line, char separator)
 {

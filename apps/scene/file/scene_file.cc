@@ -15,11 +15,6 @@ namespace
 
 using Type = SceneNode::Type;
 
-[[noreturn]] void fail(const Place &place, const std::string &what)
-{
-  throw std::invalid_argument(place.text() + ": " + what);
-}
-
 /// Entries of `own` over those of `base`.
 void merge(SceneNode &base, const SceneNode &own)
 {
@@ -52,12 +47,12 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
   if (!extends)
     return own;
   if (extends->type != Type::text)
-    fail(extends->place, "extends: needs the path of another scene in quotes, got " + type_name(extends->type));
+    extends->place.fail("extends: needs the path of another scene in quotes, got " + type_name(extends->type));
   const auto next = (std::filesystem::path(path).parent_path() / extends->text).lexically_normal().string();
   if (!std::filesystem::exists(next))
-    fail(extends->place, "extends = \"" + extends->text + "\": there is no file " + next);
+    extends->place.fail("extends = \"" + extends->text + "\": there is no file " + next);
   if (std::count(files.begin(), files.end(), std::filesystem::weakly_canonical(next).string()))
-    fail(extends->place, "extends = \"" + extends->text + "\": the scenes extend each other in a circle");
+    extends->place.fail("extends = \"" + extends->text + "\": the scenes extend each other in a circle");
 
   SceneNode base = read_with_base(next, files);
   remove(own, "extends");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,8 @@ struct Place
   int         line = 0; ///< from 1; 0: the file as a whole
 
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+  /// @throws std::invalid_argument always: the place, and what is wrong there
+  [[noreturn]] void fail(const std::string &what) const { throw std::invalid_argument(text() + ": " + what); }
 };
 
 /// A value of a scene file, with its place; tables keep the order of the file.

@@ -3,6 +3,7 @@
 #include "apps/scene/file/override_rules.h"
 #include "apps/scene/file/toml_hint.h"
 #include "apps/scene/file/toml_text.h"
+#include "fem/values/trimmed.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,11 +13,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-[[noreturn]] void fail(const Place &place, const std::string &what)
-{
-  throw std::invalid_argument(place.text() + ": " + what);
-}
 
 /// Segments of  frame.surface."crown bearing left".faces .
 std::vector<std::string> segments(const std::string &path, const Place &place)
@@ -31,7 +27,7 @@ std::vector<std::string> segments(const std::string &path, const Place &place)
     {
       end = path.find(quote, i + 1);
       if (end == std::string::npos)
-        fail(place, "the key lacks a closing quote");
+        place.fail("the key lacks a closing quote");
       result.push_back(path.substr(i + 1, end - i - 1));
       ++end;
     }
@@ -41,7 +37,7 @@ std::vector<std::string> segments(const std::string &path, const Place &place)
       result.push_back(path.substr(i, end - i));
     }
     if (result.back().empty() || (end < path.size() && path[end] != '.'))
-      fail(place, "is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
+      place.fail("is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
     i = end + 1;
   } while (i <= path.size());
   return result;
@@ -53,7 +49,7 @@ SceneNode override_value(const std::string &text, const Place &place)
   if (auto value = parse_toml_value(text, place, folder))
     return *value;
   if (const auto hint = toml_hint("value = " + text); !hint.empty() && (text.front() == '[' || text.front() == '{'))
-    fail(place, hint);
+    place.fail(hint);
   SceneNode node; // not TOML, so it is text: --set run.method=bdf, --set run.step=10 us
   node.type   = SceneNode::Type::text;
   node.place  = place;
@@ -76,12 +72,6 @@ std::size_t equals_sign(const std::string &text)
   return std::string::npos;
 }
 
-std::string trimmed(const std::string &text)
-{
-  const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-}
-
 } // namespace
 
 void apply_override(SceneNode &root, const std::string &text)
@@ -89,10 +79,10 @@ void apply_override(SceneNode &root, const std::string &text)
   const Place place{"--set " + text, 0};
   const auto  equals = equals_sign(text);
   if (equals == std::string::npos)
-    fail(place, "needs the form key.path=value, for example --set run.step=\"5 us\"");
+    place.fail("needs the form key.path=value, for example --set run.step=\"5 us\"");
   const auto path = segments(trimmed(text.substr(0, equals)), place);
   if (path.front() == "extends")
-    fail(place, "what a scene extends cannot be overridden");
+    place.fail("what a scene extends cannot be overridden");
 
   const SceneNode value = override_value(trimmed(text.substr(equals + 1)), place);
   if (SceneNode *run = root.find("run"); run && path.size() == 2 && path.front() == "run")
@@ -112,8 +102,8 @@ void apply_override(SceneNode &root, const std::string &text)
   for (std::size_t i = 0; i < path.size(); ++i)
   {
     if (node->type != SceneNode::Type::table)
-      fail(place, "'" + path[i - 1] + "' is " + type_name(node->type) + " (" + node->place.text() +
-                      ") and has no entry '" + path[i] + "'");
+      place.fail("'" + path[i - 1] + "' is " + type_name(node->type) + " (" + node->place.text() +
+                 ") and has no entry '" + path[i] + "'");
     if (!node->find(path[i]))
     {
       node->entries.emplace_back(path[i], SceneNode{});

@@ -1,5 +1,7 @@
 #include "apps/scene/file/toml_hint.h"
 
+#include "fem/values/trimmed.h"
+
 #include <algorithm>
 #include <regex>
 
@@ -7,12 +9,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string trimmed(const std::string &text)
-{
-  const auto begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
-  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-}
 
 /// Without its comment, and with nothing inside its quotes.
 std::string bare(const std::string &line)

@@ -1,5 +1,7 @@
 #include "apps/scene/language/expression.h"
 
+#include "fem/values/two_pi.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,8 +24,6 @@ bool is_number(const Expression &e)
 {
   return !e.checked || equal(e.dimension, {});
 }
-
-constexpr double full_turn = 2. * 3.14159265358979323846; // [rad]
 
 /// 2 pi rad times a frequency is an angular speed.
 Counts joined(Counts a, Counts b)
@@ -170,7 +170,7 @@ Expression divided(const Expression &a, const Expression &b)
 
 Expression shaft_turns(const Expression &a, const Expression &minutes)
 {
-  return multiplied(a, {full_turn / minutes.formula, multiple(minutes.dimension, -1.), true, Counts::shaft_turns});
+  return multiplied(a, {two_pi / minutes.formula, multiple(minutes.dimension, -1.), true, Counts::shaft_turns});
 }
 
 Expression negated(const Expression &a)

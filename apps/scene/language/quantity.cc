@@ -1,5 +1,7 @@
 #include "apps/scene/language/quantity.h"
 
+#include "fem/values/two_pi.h"
+
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -62,8 +64,6 @@ std::string with_article(const Kind &kind)
 namespace
 {
 
-constexpr double full_turn = 2. * 3.14159265358979323846; // [rad]
-
 /// Radians and turns are told apart.
 void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_text)
 {
@@ -85,7 +85,7 @@ void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_
 
 double per_radian(Counts counts, const Kind &kind)
 {
-  return counts == Counts::shaft_turns && kind.refused == Counts::radians ? 1. / full_turn : 1.;
+  return counts == Counts::shaft_turns && kind.refused == Counts::radians ? 1. / two_pi : 1.;
 }
 
 void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::string &text, const std::string &shown)

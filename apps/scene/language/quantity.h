@@ -45,6 +45,7 @@ inline const Kind number{"number", "0.3", {0, 0, 0}};
 inline const Kind angle{"angle", "20 deg", {0, 0, 0}, Counts::turns};
 inline const Kind length{"length", "40 mm", {1, 0, 0}};
 inline const Kind area{"area", "120 mm^2", {2, 0, 0}};
+inline const Kind volume{"volume", "50 cm^3", {3, 0, 0}};
 inline const Kind mass{"mass", "3 t", {0, 1, 0}};
 inline const Kind inertia{"moment of inertia", "250 kg m^2", {2, 1, 0}};
 inline const Kind time{"time", "10 us", {0, 0, 1}};

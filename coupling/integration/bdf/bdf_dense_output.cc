@@ -33,7 +33,7 @@ int Bdf::value_weights(double t, double *weights) const
 
 void Bdf::interpolate(double t, LocalState &state) const
 {
-  double       times[3];
+  double       times[3] = {};
   const Point *points[3];
   const int    n       = interpolation_points(times, points);
   const auto   weights = hermite_weights(times, n, t);
@@ -71,7 +71,7 @@ void Bdf::interpolate(double t, LocalState &state) const
 
 void Bdf::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
 {
-  double       times[3];
+  double       times[3] = {};
   const Point *points[3];
   const int    n       = interpolation_points(times, points);
   const auto   weights = hermite_weights(times, n, t);

@@ -16,7 +16,7 @@ constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u m
 constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
 
 constexpr double of_tolerance = 0.1, of_fixed = 1e-6; ///< share of the excursions by which dense output may err
-constexpr double rounding = 1e-14;
+constexpr double negligible = 1e-14;                  ///< error of the forces' interpolation, relative
 
 /// How fast the motions of a block turn or die away [1/s].
 double rate_of(const ModalBlock &block)
@@ -307,13 +307,13 @@ bool ModalPropagation::is_smooth(double h) const
   smooth_                       = true;
   const double         share    = options_.tolerance > 0. ? of_tolerance * options_.tolerance : of_fixed;
   const ModalMeasures &measures = context_.measures;
-  if (force_->interpolation_error(h * fastest_) < rounding)
+  if (force_->interpolation_error(h * fastest_) < negligible)
     return smooth_;
   force_->end_state(x_work_);
   for (int b = 0; b < measures.n_p && smooth_; ++b)
   {
     const double error = force_->interpolation_error(h * rate_of(measures.blocks[b]));
-    if (error < rounding)
+    if (error < negligible)
       continue;
     for (const int row : {b, measures.n_p + b})
       smooth_ = smooth_ && (error * std::abs(x_work_[row]) * measures.read_u.row(row).cwiseAbs().transpose().array() <=

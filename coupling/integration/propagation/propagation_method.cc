@@ -15,14 +15,14 @@ namespace
 {
 
 constexpr int    collocation_order = 4;    ///< where none is given
-constexpr double newton_share      = 1e-2; ///< Newton's tolerance in units of that of the error
+constexpr double share_of_newton   = 1e-2; ///< Newton's tolerance in units of that of the error
 constexpr double finest            = 1e-13;
 
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Gauss points in (0, 1).
-LongVector gauss_points(int s)
+/// Gauss points in (0, 1), to the last bit of the tables made of them.
+LongVector collocation_points(int s)
 {
   LongVector c(s);
   switch (s)
@@ -140,7 +140,7 @@ std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem 
   options.tolerance = o.tolerance;
   options.newton    = o.newton;
   if (controlled(o))
-    options.newton.tolerance = std::max(newton_share * o.tolerance, finest);
+    options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest);
   else
     options.max_halvings = o.max_halvings;
   return std::make_unique<ModalPropagation>(system, options);
@@ -199,7 +199,7 @@ LongMatrix2 contact_step(int order, const TestOscillator &o)
 {
   const int         s     = order / 2;
   const long double Omega = o.omega_h, k = Omega * Omega, c = 2.L * o.zeta * Omega;
-  const LongVector  nodes = gauss_points(s), end = LongVector::Ones(1);
+  const LongVector  nodes = collocation_points(s), end = LongVector::Ones(1);
   const LongMatrix  velocity = integrals(nodes, nodes, 1), place = integrals(nodes, nodes, 2);
   LongMatrix        start(s, 2); // force at the nodes due to x_0 and h v_0 alone
   start.col(0).setConstant(-k);

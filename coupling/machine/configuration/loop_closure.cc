@@ -8,7 +8,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int most_iterations = 20;
+constexpr int most_rounds = 20;
 
 std::vector<int> slider_coordinates(const Machine &machine)
 {
@@ -69,7 +69,7 @@ Eigen::VectorXd slider_solution(const Machine &machine, const Eigen::MatrixXd &J
 void close_chains(const Machine &machine, Eigen::VectorXd &q)
 {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(machine.size());
-  for (int i = 0; i < most_iterations; ++i)
+  for (int i = 0; i < most_rounds; ++i)
   {
     const Closures chain = closures(machine, q, rest);
     if (chain.g.size() == 0)

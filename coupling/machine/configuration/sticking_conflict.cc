@@ -14,8 +14,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double dependent  = 1e-10; ///< distance of a row of length one from the span of others: their rounding
-constexpr double taken_part = 1e-6;  ///< coefficient with which another row counts as used
+constexpr double dependent = 1e-10; ///< distance of a row of length one from the span of others: their rounding
+constexpr double used_part = 1e-6;  ///< coefficient with which another row counts as used
 
 /// Rows that hold motions, each of length one, and whose they are.
 struct Holding
@@ -40,7 +40,7 @@ struct Holding
     if ((rows * x - row).norm() > dependent)
       return makers;
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (std::abs(x[i]) > taken_part && std::find(makers.begin(), makers.end(), names[i]) == makers.end())
+      if (std::abs(x[i]) > used_part && std::find(makers.begin(), makers.end(), names[i]) == makers.end())
         makers.push_back(names[i]);
     return makers;
   }

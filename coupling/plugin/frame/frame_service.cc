@@ -13,7 +13,7 @@ namespace gestell::coupling
 namespace
 {
 
-class Service final : public FrameService
+class PluginFrameService final : public FrameService
 {
 public:
   MeshReport mesh(const fem::FrameSpecification &frame, const Progress &progress) override
@@ -43,6 +43,6 @@ public:
 
 gestell::coupling::FrameService *gestell_frame_service()
 {
-  static gestell::coupling::Service service;
+  static gestell::coupling::PluginFrameService service;
   return &service;
 }

@@ -42,7 +42,7 @@ std::optional<fem::Vector3> centroid_of(const fem::InterfaceSpecification &inter
   return fem::Vector3{moment[0] / area, moment[1] / area, moment[2] / area};
 }
 
-class Service final : public MeshService
+class PluginMeshService final : public MeshService
 {
 public:
   Inspection inspect(const fem::FrameSpecification &frame) override
@@ -101,6 +101,6 @@ public:
 
 gestell::coupling::MeshService *gestell_mesh_service()
 {
-  static gestell::coupling::Service service;
+  static gestell::coupling::PluginMeshService service;
   return &service;
 }

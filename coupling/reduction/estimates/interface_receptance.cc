@@ -22,7 +22,7 @@ using Complex   = std::complex<double>;
 using Fractions = InterfaceReceptance::Fractions;
 
 constexpr double nominal_zeta = 0.01;
-constexpr double rounding     = 1e-12; // of a moment, beside that of all modes
+constexpr double least_moment = 1e-12; // of a moment, beside that of all modes
 constexpr int    spread       = 100;   // frequencies all over the range
 constexpr double around[] = {-3., -2., -1.5, -1., -0.7, -0.4, -0.2, 0., 0.2, 0.4, 0.7, 1., 1.5, 2., 3.}; // half widths
 
@@ -115,7 +115,7 @@ MatrixXd InterfaceReceptance::moment(int k, int m) const
 /// What is rounding in P_k.
 double InterfaceReceptance::negligible(int k) const
 {
-  return rounding * moments_[k - 1].trace();
+  return least_moment * moments_[k - 1].trace();
 }
 
 Fractions InterfaceReceptance::of_modes(int m) const

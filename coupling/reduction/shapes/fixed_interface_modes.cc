@@ -12,8 +12,6 @@ namespace
 
 using Eigen::MatrixXd;
 
-constexpr int dense_limit = 600; // internal coordinates that are solved densely
-
 } // namespace
 
 FixedInterfaceModes::FixedInterfaceModes(FixedInterfaceFrame &held, const fem::FrameMatrices &frame,

@@ -23,7 +23,6 @@ using Eigen::VectorXd;
 constexpr int    modes_at_once   = 20;
 constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
 constexpr double reach           = 1.5; // highest mode over the highest frequency of interest
-constexpr int    dense_limit     = 600; // coordinates that are solved densely
 constexpr int    most_rounds     = 4;   // of finding modes that were missing
 
 /// Circular frequency up to which modes are kept, infinite if their number is given or there are too few to tell.

@@ -17,7 +17,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double rounding = 1e-14; // of step weights, sums of a few terms of order one
+constexpr double weight_rounding = 1e-14; // of step weights, sums of a few terms of order one
 
 double stored(const mechanism::Element &element, const Eigen::VectorXd &u, const Eigen::VectorXd &v)
 {
@@ -33,7 +33,7 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start
 {
   const auto weights = method_of(options).step_weights(options, -1.);
   if (!weights || controlled(options) || is_large(machine) ||
-      weights->stiffness > -rounding) // stable at every stiffness
+      weights->stiffness > -weight_rounding) // stable at every stiffness
     return;
   const StepWeights w     = *weights;
   int               first = 0, row = 0;
