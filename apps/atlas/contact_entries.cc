@@ -2,7 +2,7 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
-#include "apps/output/charts/log_chart.h"
+#include "apps/output/charts/chart.h"
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/propagation/force_rule.h"
 #include "fem/values/number_text.h"
@@ -104,32 +104,12 @@ std::vector<double> flight_energy(const NamedMethod &method, double omega_contac
   return energy;
 }
 
-LogChart energy_chart()
+Curve energy_curve(const std::string &name, const std::vector<double> &energy, int colour)
 {
-  LogChart chart{"Kinetic energy in flight, ω_c h = 3",
-                 "step",
-                 "relative to the start",
-                 1.,
-                 double(flight_steps),
-                 1e-2,
-                 1e3,
-                 true,
-                 std::numeric_limits<double>::quiet_NaN(),
-                 {{"", {}}},
-                 {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 300.;
-  return chart;
-}
-
-LogCurve energy_curve(const std::string &name, const std::vector<double> &energy, int colour)
-{
-  LogCurve curve{name, {}, {}, colour, false};
+  Curve curve{name, {}, {}, colour};
   for (std::size_t k = 0; k < energy.size(); k += 1 + k / 60)
   {
-    curve.x.push_back(double(k));
-    curve.y.push_back(energy[k]);
+    curve.add(double(k), energy[k]);
   }
   return curve;
 }
@@ -161,7 +141,10 @@ AtlasEntry hard_contact()
   entry.table = {{"method", "events"}};
   for (const double x : omega_h)
     entry.table[0].push_back("ω_c h = " + short_text(x));
-  LogChart chart = energy_chart();
+  Chart chart{"Kinetic energy in flight, ω_c h = 3",
+              "",
+              {"step", 1., double(flight_steps), Scale::logarithmic},
+              {"relative to the start", 1e-2, 1e3, Scale::logarithmic}};
   for (std::size_t m = 0; m < methods.size(); ++m)
     for (const bool locate : {false, true})
     {
@@ -185,7 +168,7 @@ AtlasEntry hard_contact()
         entry.comparisons.push_back({methods[m].name + " gains energy (1: yes)", 1., largest > 1.05 ? 1. : 0., 0.});
       entry.table.push_back(row);
     }
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 
@@ -239,17 +222,6 @@ double slope(const std::vector<double> &step, const std::vector<double> &error)
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-LogChart error_chart(const std::string &title)
-{
-  LogChart chart{
-      title,      "step in s", "error in m", 1e-4, 1e-2, 1e-14, 1e-2, true, std::numeric_limits<double>::quiet_NaN(),
-      {{"", {}}}, {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 320.;
-  return chart;
-}
-
 /// Where and what a method is compared with.
 struct PlayTrial
 {
@@ -301,7 +273,8 @@ AtlasEntry order_at_play()
                                           exact(ForceRule::collocation, 6, "collocation 6")};
   const std::vector<double>      steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4}; // twice as long for order 6
   const PlayTrial                trial;
-  LogChart                       chart = error_chart(entry.title);
+  Chart                          chart{
+      entry.title, "", {"step in s", 1e-4, 1e-2, Scale::logarithmic}, {"error in m", 1e-14, 1e-2, Scale::logarithmic}};
   for (std::size_t m = 0; m < cases.size(); ++m)
   {
     std::vector<std::string> row{cases[m].name};
@@ -317,8 +290,8 @@ AtlasEntry order_at_play()
         h.push_back(step);
         error.push_back(trial.error(cases[m].options, step, locate));
       }
-      chart.panels[0].curves.push_back(
-          {cases[m].name + (locate ? ", events" : ""), h, error, static_cast<int>(m), !locate});
+      chart.panels[0].curves.push_back({cases[m].name + (locate ? ", events" : ""), h, error, static_cast<int>(m),
+                                        locate ? LineStyle::full : LineStyle::dashed});
       const double order = seen_slope(h, error);
       // Without events the constant jumps with the place of the contact in its step: half an order over a factor of 16.
       // With them what remains is the approach to the asymptotic range, longer for order 6.
@@ -330,7 +303,7 @@ AtlasEntry order_at_play()
     row.push_back(short_text(last, 2) + " m");
     entry.table.push_back(row);
   }
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 

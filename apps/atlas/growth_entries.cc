@@ -2,7 +2,7 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
-#include "apps/output/charts/log_chart.h"
+#include "apps/output/charts/chart.h"
 #include "coupling/integration/propagation/force_rule.h"
 #include "coupling/integration/stability/overshoot.h"
 #include "fem/values/number_text.h"
@@ -84,20 +84,24 @@ struct Trial
   Spring              spring = Spring::base;
 };
 
+/// Growth per step over a step or omega h; above 1 the paper is shaded.
+Chart growth_chart(const std::string &title, const ChartAxis &x, double bottom, double top)
+{
+  Chart chart{title, "", x, {"growth per step", bottom, top}};
+  chart.shades = {{1., top, 1}};
+  return chart;
+}
+
 /// Growth over omega h: lines predicted, rings measured.
 AtlasEntry growth_entry(AtlasEntry entry, const std::vector<Trial> &trials, double from, double to, double top)
 {
-  LogChart chart{entry.title, "ω h", "growth per step", from, to, 0.9, top, false, 1., {{"", {}}}, {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 300.;
-  LogPanel &panel    = chart.panels.front();
+  Chart  chart = growth_chart(entry.title, {"ω h", from, to, Scale::logarithmic}, 0.9, top);
+  Panel &panel = chart.panels.front();
   for (std::size_t i = 0; i < trials.size(); ++i)
   {
     const Trial &trial  = trials[i];
     const int    colour = static_cast<int>(i);
-    LogCurve predicted{trial.name, {}, {}, colour, false}, measured{i == 0 ? "measured" : "", {}, {}, colour, false};
-    measured.points = true;
+    Curve        predicted{trial.name, {}, {}, colour}, measured = rings(i == 0 ? "measured" : "", colour);
     for (int k = 0; k <= 400; ++k)
     {
       predicted.x.push_back(from * std::pow(to / from, k / 400.));
@@ -106,13 +110,12 @@ AtlasEntry growth_entry(AtlasEntry entry, const std::vector<Trial> &trials, doub
     for (const double omega_h : trial.omega_h)
     {
       entry.comparisons.push_back(compare(trial.name, trial.options, {trial.zeta, omega_h, trial.spring}));
-      measured.x.push_back(omega_h);
-      measured.y.push_back(entry.comparisons.back().measured);
+      measured.add(omega_h, entry.comparisons.back().measured);
     }
     panel.curves.push_back(predicted);
     panel.curves.push_back(measured);
   }
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 
@@ -134,12 +137,8 @@ AtlasEntry bdf3_on_a_frame()
                    {},
                    {{"step", "mode that grows fastest", "predicted", "measured"}},
                    {}};
-  LogChart   chart{entry.title, "step in s", "growth per step", 1e-4, 1e-2, 0.99, 1.045, false, 1., {{"", {}}}, {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 300.;
-  LogCurve line{"predicted, of the worst mode", {}, {}, 0, false}, rings{"measured", {}, {}, 1, false};
-  rings.points     = true;
+  Chart      chart = growth_chart(entry.title, {"step in s", 1e-4, 1e-2, Scale::logarithmic}, 0.99, 1.045);
+  Curve      line{"predicted, of the worst mode"}, seen = rings("measured", 1);
   const auto worst = [&](double h)
   {
     std::size_t best = 0;
@@ -164,11 +163,10 @@ AtlasEntry bdf3_on_a_frame()
     entry.comparisons.push_back({"BDF 3, step " + short_text(1e3 * h) + " ms", predicted, measured, rounding});
     entry.table.push_back({short_text(1e3 * h) + " ms", short_text(hertz[mode]) + " Hz", short_text(predicted, 8),
                            short_text(measured, 8)});
-    rings.x.push_back(h);
-    rings.y.push_back(measured);
+    seen.add(h, measured);
   }
-  chart.panels.front().curves = {line, rings};
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  chart.panels.front().curves = {line, seen};
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 
@@ -254,22 +252,14 @@ AtlasEntry wilson_overshoot()
                    {},
                    {{"ω h", "predicted", "measured"}},
                    {}};
-  LogChart   chart{
-      entry.title, "ω h", "largest |x| / x₀", 0.1, 1000., 0.8, 1e6, true, std::numeric_limits<double>::quiet_NaN(),
-      {{"", {}}},  {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 300.;
-  LogCurve line{"Wilson 1.4, predicted", {}, {}, 0, false}, rings{"measured", {}, {}, 0, false};
-  LogCurve other{"BDF 2", {}, {}, 1, false};
-  rings.points = true;
+  Chart      chart{
+      entry.title, "", {"ω h", 0.1, 1000., Scale::logarithmic}, {"largest |x| / x₀", 0.8, 1e6, Scale::logarithmic}};
+  Curve line{"Wilson 1.4, predicted"}, other{"BDF 2", {}, {}, 1}, seen = rings("measured", 0);
   for (int k = 0; k <= 300; ++k)
   {
     const TestOscillator o{0., 0.1 * std::pow(1e4, k / 300.)};
-    line.x.push_back(o.omega_h);
-    line.y.push_back(coupling::overshoot(wilson(1.4), o, coupling::OscillatorStart::displaced).displacement);
-    other.x.push_back(o.omega_h);
-    other.y.push_back(coupling::overshoot(bdf_options(2), o, coupling::OscillatorStart::displaced).displacement);
+    line.add(o.omega_h, coupling::overshoot(wilson(1.4), o, coupling::OscillatorStart::displaced).displacement);
+    other.add(o.omega_h, coupling::overshoot(bdf_options(2), o, coupling::OscillatorStart::displaced).displacement);
   }
   for (const double omega_h : {1., 3., 10., 30., 100., 1000.})
   {
@@ -283,11 +273,10 @@ AtlasEntry wilson_overshoot()
     entry.comparisons.push_back(
         {"Wilson 1.4 at omega h = " + short_text(omega_h), predicted, measured, 1e-9 * std::max(1., predicted)});
     entry.table.push_back({short_text(omega_h), short_text(predicted, 7), short_text(measured, 7)});
-    rings.x.push_back(omega_h);
-    rings.y.push_back(measured);
+    seen.add(omega_h, measured);
   }
-  chart.panels.front().curves = {line, rings, other};
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  chart.panels.front().curves = {line, seen, other};
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 

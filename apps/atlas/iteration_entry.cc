@@ -2,7 +2,7 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
-#include "apps/output/charts/log_chart.h"
+#include "apps/output/charts/chart.h"
 #include "coupling/integration/bdf/bdf_formula.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "fem/values/number_text.h"
@@ -69,14 +69,12 @@ AtlasEntry fixed_point_of_forces()
       {},
       {{"stiffness of the element", "S dp/du, predicted", "measured ratio of corrections", "Newton iterations a step"}},
       {}};
-  LogChart chart{
-      entry.title, "stiffness of the element in N/m", "ratio of corrections", 1e3, 1e9, 1e-4, 1e3, true, 1., {{"", {}}},
-      {}};
-  chart.columns      = 1;
-  chart.panel_width  = 620.;
-  chart.panel_height = 280.;
-  LogCurve line{"|S dp/du|", {}, {}, 0, false}, rings{"measured", {}, {}, 0, false};
-  rings.points            = true;
+  Chart chart{entry.title,
+              "",
+              {"stiffness of the element in N/m", 1e3, 1e9, Scale::logarithmic},
+              {"ratio of corrections", 1e-4, 1e3, Scale::logarithmic}};
+  chart.shades = {{1., 1e3, 1}};
+  Curve        line{"|S dp/du|"}, seen = rings("measured", 0);
   const double h_b        = coupling::bdf_formulas[1].beta0 * step;
   const double compliance = h_b * h_b / (1. + h_b * h_b * omega_base * omega_base);
   for (const double c : {1e4, 1e5, 1e6, 3e6, 1e7, 1e8})
@@ -98,16 +96,14 @@ AtlasEntry fixed_point_of_forces()
         {"contraction at c = " + short_text(c) + " N/m", predicted, measured, 1e-6 * predicted});
     entry.table.push_back(
         {short_text(c) + " N/m", short_text(predicted, 5), short_text(measured, 5), short_text(iterations, 3)});
-    rings.x.push_back(c);
-    rings.y.push_back(measured);
+    seen.add(c, measured);
   }
   for (const double c : {1e3, 1e9})
   {
-    line.x.push_back(c);
-    line.y.push_back(compliance * c);
+    line.add(c, compliance * c);
   }
-  chart.panels[0].curves = {line, rings};
-  entry.figures.push_back({entry.id, log_chart_svg(chart)});
+  chart.panels[0].curves = {line, seen};
+  entry.figures.push_back({entry.id, chart_svg(chart)});
   return entry;
 }
 

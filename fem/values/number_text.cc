@@ -65,6 +65,13 @@ std::string count_text(std::size_t n, const std::string &one, const std::string 
   return std::to_string(n) + " " + (n == 1 ? one : many.empty() ? one + "s" : many);
 }
 
+std::size_t n_letters(const std::string &text)
+{
+  // Bytes that continue a character begin with the bits 10.
+  return std::count_if(text.begin(), text.end(),
+                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; });
+}
+
 DisplayUnit display_unit(const std::string &si_unit, double magnitude)
 {
   static const std::array<const char *, 9> takes_prefix = {"N", "N m", "m", "m/s", "J", "W", "Pa", "N/m", "N s/m"};

@@ -24,6 +24,9 @@ std::string percent(double share, int digits = 3);
 /// "1 file", "2 files"; or "2 bodies" where the plural is no mere s.
 std::string count_text(std::size_t n, const std::string &one, const std::string &many = "");
 
+/// Characters of a text in UTF-8, not its bytes.
+std::size_t n_letters(const std::string &text);
+
 /// A unit as shown: value in SI times `factor` is the number in `unit`.
 struct DisplayUnit
 {

@@ -6,7 +6,7 @@
 // FOLDER/error_coordinates.svg and FOLDER/error_cpu.svg: the largest error of the frequencies of each mesh against
 // those of the last mesh of the reference.
 
-#include "apps/output/charts/log_chart.h"
+#include "apps/output/charts/chart.h"
 #include "apps/output/result_folder.h"
 #include "apps/scene/file/csv_file.h"
 
@@ -65,46 +65,23 @@ double largest_error(const MeshPoint &point, const MeshPoint &reference)
   return largest;
 }
 
-void widen(double &begin, double &end, double value)
-{
-  begin = std::min(begin, value);
-  end   = std::max(end, value);
-}
-
 void draw(const std::string &file, const std::string &x_label, double MeshPoint::*abscissa, const MeshPoint &reference,
           const std::vector<std::pair<std::string, std::vector<MeshPoint>>> &kinds)
 {
-  apps::LogChart chart;
-  chart.title       = "Largest error of the first four elastic frequencies";
-  chart.x_label     = x_label;
-  chart.y_label     = "error [%]";
-  chart.log_y       = true;
-  chart.panel_width = 640.;
-  chart.x_begin = chart.y_begin = std::numeric_limits<double>::max();
-  chart.x_end = chart.y_end = 0.;
-  chart.panels.resize(1);
-  int colour = 0;
+  apps::Chart chart;
+  chart.title   = "Largest error of the first four elastic frequencies";
+  chart.x.label = x_label;
+  chart.y.label = "error [%]";
+  chart.x.scale = chart.y.scale = apps::Scale::logarithmic;
+  int colour                    = 0;
   for (const auto &[name, points] : kinds)
   {
-    apps::LogCurve line, rings;
+    apps::Curve curve{name, {}, {}, colour++, apps::LineStyle::full, apps::Marker::ring};
     for (const MeshPoint &point : points)
-    {
-      line.x.push_back(point.*abscissa);
-      line.y.push_back(100. * largest_error(point, reference));
-      widen(chart.x_begin, chart.x_end, line.x.back());
-      widen(chart.y_begin, chart.y_end, line.y.back());
-    }
-    line.colour  = colour++;
-    rings        = line;
-    rings.points = true;
-    line.name    = name;
-    chart.panels[0].curves.insert(chart.panels[0].curves.end(), {line, rings});
+      curve.add(point.*abscissa, 100. * largest_error(point, reference));
+    chart.panels[0].curves.push_back(curve);
   }
-  chart.x_begin /= 1.2;
-  chart.x_end *= 1.2;
-  chart.y_begin /= 1.5;
-  chart.y_end *= 1.5;
-  apps::write_file(file, apps::log_chart_svg(chart));
+  apps::write_file(file, apps::chart_svg(chart));
 }
 
 } // namespace

@@ -12,311 +12,378 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double left_margin = 70., right_margin = 18., bottom_margin = 46., title_height = 26., legend_height = 19.;
-constexpr double letter_width = 6.9; ///< of the 12 px letters, on average
+constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;
+constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.;
+constexpr double letter_width = 6.5; ///< of the 12 px letters, on average
 
-/// Linear map of the window [x0, x1] x [y0, y1] of values to the drawing area.
-struct Frame
+/// The drawing area of a panel with its axes.
+struct Area
 {
-  double x0, x1, y0, y1;
-  double left, right, top, bottom;
-
-  double px(double x) const { return left + (x - x0) / (x1 - x0) * (right - left); }
-  double py(double y) const { return bottom - (y - y0) / (y1 - y0) * (bottom - top); }
+  double  left, right, top, bottom;
+  AxisMap x, y;
 };
 
-struct Window
+std::string colour_class(int colour)
 {
-  std::size_t begin, end; // of the abscissae shown
-};
-
-Window window_of(const LineChart &chart, double x0, double x1)
-{
-  const auto first = std::lower_bound(chart.x.begin(), chart.x.end(), x0);
-  const auto last  = std::upper_bound(chart.x.begin(), chart.x.end(), x1);
-  return {static_cast<std::size_t>(first - chart.x.begin()), static_cast<std::size_t>(last - chart.x.begin())};
+  return std::to_string(colour % n_series_colours);
 }
 
-/// Widens [low, high] a little, and to something where it is a point.
-void add_room(double &low, double &high)
-{
-  if (!(low <= high))
-    low = -1., high = 1.;
-  const double span = high - low, least = 1e-9 * std::max({std::abs(low), std::abs(high), 1e-30});
-  const double room = span > least ? 0.05 * span : std::max(0.05 * std::abs(high), 1e-12);
-  low -= room;
-  high += room;
-}
+// Axes
 
-struct LegendEntry
+struct Range
 {
-  double x;
-  int    row;
-};
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
-std::vector<LegendEntry> legend_layout(const LineChart &chart, int &rows)
-{
-  std::vector<LegendEntry> entries;
-  double                   x = left_margin;
-  rows                       = 1;
-  for (const Series &series : chart.series)
+  void add(double value)
   {
-    const double width = 34. + letter_width * static_cast<double>(series.name.size());
-    if (x + width > chart.width - right_margin && x > left_margin)
-    {
-      x = left_margin;
-      ++rows;
-    }
-    entries.push_back({x, rows - 1});
-    x += width + 10.;
+    low  = std::min(low, value);
+    high = std::max(high, value);
   }
-  return entries;
-}
+};
 
-std::string line_class(std::size_t i)
+/// Calls use(x, y) for the points that both axes have a place for.
+template <typename Use>
+void for_each_point(const Chart &chart, const Use &use)
 {
-  return "line s" + std::to_string(i % n_series_colours) + (i % 2 == 1 ? " dash" : "");
+  for (const Panel &panel : chart.panels)
+    for (const Curve &curve : panel.curves)
+      for (std::size_t i = 0; i < curve.x.size(); ++i)
+        if (chart.x.has_place(curve.x[i]) && chart.y.has_place(curve.y[i]))
+          use(curve.x[i], curve.y[i]);
 }
 
-std::string segment(const char *style, double x0, double y0, double x1, double y1)
+/// The chart with both ends of both axes; ordinates need room for what is seen between those of the abscissa.
+Chart with_axes(Chart chart)
 {
-  std::string svg = std::string("<path class=\"") + style + "\" d=\"M";
-  append_coordinate(svg, x0);
-  append_coordinate(svg += ' ', y0);
-  append_coordinate(svg += 'L', x1);
-  append_coordinate(svg += ' ', y1);
-  return svg + "\"/>";
+  Range x, y;
+  for_each_point(chart, [&](double value, double) { x.add(value); });
+  chart.x = fitted(chart.x, x.low, x.high, 0.);
+  for_each_point(chart,
+                 [&](double at, double value)
+                 {
+                   if (chart.x.shows(at))
+                     y.add(value);
+                 });
+  chart.y = fitted(chart.y, y.low, y.high, 0.05);
+  return chart;
 }
 
-std::string axes(const LineChart &chart, const Frame &f)
+std::string axes(const Chart &chart, const Area &area)
 {
   std::string svg;
-  for (const double x : chart.x_ticks.empty() ? nice_ticks(f.x0, f.x1, 8) : chart.x_ticks)
-    svg += segment("grid", f.px(x), f.top, f.px(x), f.bottom) +
-           svg_text(f.px(x), f.bottom + 17., short_text(x, 6), "tick", "middle");
-  for (const double y : nice_ticks(f.y0, f.y1, 6))
-    svg += segment("grid", f.left, f.py(y), f.right, f.py(y)) +
-           svg_text(f.left - 7., f.py(y) + 4., short_text(y, 6), "tick", "end");
-  if (f.y0 < 0. && f.y1 > 0.)
-    svg += segment("zero", f.left, f.py(0.), f.right, f.py(0.));
-  svg += segment("axis", f.left, f.bottom, f.right, f.bottom) + segment("axis", f.left, f.top, f.left, f.bottom);
-  svg += svg_text(0.5 * (f.left + f.right), f.bottom + 37., chart.x_label, "label", "middle");
-  svg += svg_text(17., 0.5 * (f.top + f.bottom), chart.y_label, "label", "middle", -90.);
+  for (const Tick &tick : ticks_of(chart.x, static_cast<int>(chart.width / 110.)))
+  {
+    const double x = area.x.at(tick.value);
+    svg += svg_line("grid", x, area.top, x, area.bottom) + svg_text(x, area.bottom + 17., tick.text, "tick", "middle");
+  }
+  for (const Tick &tick : ticks_of(chart.y, static_cast<int>(chart.height / 40.)))
+  {
+    const double y = area.y.at(tick.value);
+    svg += svg_line("grid", area.left, y, area.right, y) + svg_text(area.left - 7., y + 4., tick.text, "tick", "end");
+  }
+  if (chart.y.begin < 0. && chart.y.end > 0.)
+    svg += svg_line("zero", area.left, area.y.at(0.), area.right, area.y.at(0.));
+  svg += svg_line("axis", area.left, area.bottom, area.right, area.bottom) +
+         svg_line("axis", area.left, area.top, area.left, area.bottom);
+  return svg + svg_text(0.5 * (area.left + area.right), area.bottom + 36., chart.x.label, "label", "middle") +
+         svg_text(area.left - 52., 0.5 * (area.top + area.bottom), chart.y.label, "label", "middle", -90.);
+}
+
+// What stands behind the curves
+
+std::string shades(const Chart &chart, const Area &area)
+{
+  std::string svg;
+  for (const Shade &shade : chart.shades)
+  {
+    const double from = area.y.at(std::clamp(shade.begin, chart.y.begin, chart.y.end));
+    const double to   = area.y.at(std::clamp(shade.end, chart.y.begin, chart.y.end));
+    svg += "<rect class=\"f" + colour_class(shade.colour) + "\" opacity=\".09\"" +
+           svg_box(area.left, to, area.right - area.left, from - to) + "/>";
+    for (const double edge : {from, to})
+      if (edge > area.top && edge < area.bottom)
+        svg += svg_line("zero", area.left, edge, area.right, edge);
+  }
   return svg;
 }
 
-/// Event lines; numbers only where they do not collide.
-std::string event_lines(const LineChart &chart, const Frame &f)
+/// Numbers only where they do not collide.
+std::string marks(const Chart &chart, const Area &area)
 {
   std::string svg;
-  double      free_from = f.left;
-  for (const EventMark &mark : chart.marks)
+  double      free_from = area.left;
+  for (const Mark &mark : chart.marks)
   {
-    if (mark.x < f.x0 || mark.x > f.x1)
+    if (!chart.x.shows(mark.x))
       continue;
-    const double x = f.px(mark.x);
-    svg += "<g><title>" + escape_xml(mark.text) + "</title>" + segment("event", x, f.top, x, f.bottom);
+    const double      x      = area.x.at(mark.x);
     const std::string number = std::to_string(mark.number);
     const double      half   = 3.2 * static_cast<double>(number.size());
-    if (x - half >= free_from)
+    std::string       line   = mark.number > 0
+                                   ? svg_line("event", x, area.top, x, area.bottom)
+                                   : svg_line("line s" + colour_class(mark.colour), x, area.bottom - 14., x, area.bottom);
+    if (mark.number > 0 && x - half >= free_from)
     {
-      svg += svg_text(x, f.top - 4., number, "small", "middle");
+      line += svg_text(x, area.top - 4., number, "small", "middle");
       free_from = x + half + 2.;
     }
-    svg += "</g>\n";
+    svg += svg_hint(mark.text, line);
   }
   return svg;
 }
 
 /// Names only where they do not collide, the lowest first.
-std::string level_lines(const LineChart &chart, const Frame &f)
+std::string levels(const Chart &chart, const Area &area)
 {
-  std::vector<Level> levels = chart.levels;
-  std::stable_sort(levels.begin(), levels.end(), [](const Level &a, const Level &b) { return a.y < b.y; });
+  std::vector<Level> sorted = chart.levels;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Level &a, const Level &b) { return a.y < b.y; });
   std::string svg;
-  double      free_below = f.bottom;
-  for (const Level &level : levels)
+  double      free_below = area.bottom;
+  for (const Level &level : sorted)
   {
-    if (level.y < f.y0 || level.y > f.y1)
+    if (!chart.y.shows(level.y))
       continue;
-    const double y = f.py(level.y);
-    svg += "<g><title>" + escape_xml(level.name) + "</title>" + segment("event", f.left, y, f.right, y);
+    const double y    = area.y.at(level.y);
+    std::string  line = svg_line("event", area.left, y, area.right, y);
     if (y - 3. <= free_below)
     {
-      svg += svg_text(f.right - 4., y - 3., level.name, "small", "end");
+      line += svg_text(area.right - 4., y - 3., level.name, "small", "end");
       free_below = y - 14.;
     }
-    svg += "</g>\n";
+    svg += svg_hint(level.name, line);
   }
   return svg;
 }
 
-std::string rings(const LineChart &chart, const Frame &f)
+// Curves
+
+std::string line_class(const Curve &curve)
 {
-  std::string svg;
-  for (const Ring &ring : chart.rings)
+  return "line s" + colour_class(curve.colour) + " d" + std::to_string(static_cast<int>(curve.line));
+}
+
+std::string marker(const Curve &curve, double x, double y, bool hollow)
+{
+  constexpr double                       r    = 3.6;
+  const std::string                      n    = colour_class(curve.colour);
+  const std::string                      kind = curve.marker == Marker::ring ? " class=\"line s" + n + "\""
+                                                : hollow ? " class=\"s" + n + "\" style=\"fill:var(--paper)\""
+                                                         : " class=\"s" + n + " f" + n + "\"";
+  std::vector<std::pair<double, double>> corners;
+  switch (curve.marker)
   {
-    if (ring.x < f.x0 || ring.x > f.x1 || ring.y < f.y0 || ring.y > f.y1)
-      continue;
-    std::string x, y;
-    append_coordinate(x, f.px(ring.x));
-    append_coordinate(y, f.py(ring.y));
-    svg += "<g><title>" + escape_xml(ring.text) + "</title><circle class=\"axis\" cx=\"" + x + "\" cy=\"" + y +
-           "\" r=\"4.5\"/></g>\n";
+  case Marker::none:
+    return "";
+  case Marker::disc:
+  case Marker::ring:
+    return "<circle" + kind + " cx=\"" + coordinate(x) + "\" cy=\"" + coordinate(y) + "\" r=\"" +
+           (curve.marker == Marker::disc ? "3.2" : "4") + "\"/>";
+  case Marker::square:
+    corners = {{-2.8, -2.8}, {2.8, -2.8}, {2.8, 2.8}, {-2.8, 2.8}};
+    break;
+  case Marker::triangle:
+    corners = {{0., -r}, {r, 0.8 * r}, {-r, 0.8 * r}};
+    break;
+  case Marker::diamond:
+    corners = {{0., -1.2 * r}, {1.1 * r, 0.}, {0., 1.2 * r}, {-1.1 * r, 0.}};
+    break;
   }
-  return svg;
+  std::string path;
+  for (const auto &[dx, dy] : corners)
+    path += (path.empty() ? "M" : "L") + coordinate(x + dx) + " " + coordinate(y + dy);
+  return "<path" + kind + " d=\"" + path + "Z\"/>";
 }
 
-/// One curve as a path; per column of pixels at most four points in the order in which they occur.
-std::string curve(const LineChart &chart, const std::vector<double> &y, const Window &window, const Frame &f)
+/// Whether one of the segments at point i lies within the window, or at least not beside it.
+bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
 {
+  const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, curve.x.size() - 1);
+  const auto        all = [&](const auto &is_beside)
+  { return is_beside(curve.x[before]) && is_beside(curve.x[i]) && is_beside(curve.x[after]); };
+  return !all([&](double x) { return x < chart.x.begin; }) && !all([&](double x) { return x > chart.x.end; });
+}
+
+/// The line as a path; per column of pixels at most four points in the order in which they occur.
+std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
+{
+  const auto drawn = [&](std::size_t i)
+  { return chart.x.has_place(curve.x[i]) && chart.y.has_place(curve.y[i]) && is_near(chart, curve, i); };
+
   std::string path;
   bool        pen_down = false;
-  const auto  draw_to  = [&](std::size_t i)
+  for (std::size_t i = 0; i < curve.x.size();)
   {
-    path += pen_down ? 'L' : 'M';
-    append_coordinate(path, f.px(chart.x[i]));
-    append_coordinate(path += ' ', f.py(y[i]));
-    pen_down = true;
-  };
-  // One abscissa beyond either end lets the line run out of the window; the caller clips.
-  const std::size_t begin = window.begin > 0 ? window.begin - 1 : 0, end = std::min(window.end + 1, chart.x.size());
-  for (std::size_t i = begin; i < end;)
-  {
-    if (!std::isfinite(y[i]))
+    if (!drawn(i))
     {
       pen_down = false;
       ++i;
       continue;
     }
-    const double column = std::floor(f.px(chart.x[i]));
+    const double column = std::floor(area.x.at(curve.x[i]));
     std::size_t  last = i, low = i, high = i;
-    for (std::size_t k = i; k < end && std::isfinite(y[k]) && std::floor(f.px(chart.x[k])) == column; ++k)
+    for (std::size_t k = i; k < curve.x.size() && drawn(k) && std::floor(area.x.at(curve.x[k])) == column; ++k)
     {
       last = k;
-      low  = y[k] < y[low] ? k : low;
-      high = y[k] > y[high] ? k : high;
+      low  = curve.y[k] < curve.y[low] ? k : low;
+      high = curve.y[k] > curve.y[high] ? k : high;
     }
-    std::size_t previous = end;
+    std::size_t previous = curve.x.size();
     for (const std::size_t k : {i, std::min(low, high), std::max(low, high), last})
       if (k != previous)
-        draw_to(previous = k);
+      {
+        path += (pen_down ? "L" : "M") + coordinate(area.x.at(curve.x[k])) + " " + coordinate(area.y.at(curve.y[k]));
+        pen_down = true;
+        previous = k;
+      }
     i = last + 1;
   }
   return path;
 }
 
-std::string legend(const LineChart &chart, const std::vector<LegendEntry> &entries)
+std::string lines(const Chart &chart, const Panel &panel, const Area &area)
+{
+  const double      width = area.right - area.left, height = area.bottom - area.top;
+  const std::string clip = svg_box(area.left, area.top, width, height);
+  std::string       svg  = "<svg" + clip + " viewBox=\"" + coordinate(area.left) + " " + coordinate(area.top) + " " +
+                    coordinate(width) + " " + coordinate(height) + "\">\n";
+  for (const Curve &curve : panel.curves)
+    if (curve.line != LineStyle::none)
+      svg += "<path class=\"" + line_class(curve) + "\" d=\"" + line_path(chart, curve, area) + "\"/>\n";
+  return svg + "</svg>\n";
+}
+
+std::string markers(const Chart &chart, const Panel &panel, const Area &area)
 {
   std::string svg;
-  for (std::size_t i = 0; i < entries.size(); ++i)
+  for (const Curve &curve : panel.curves)
+    for (std::size_t i = 0; i < curve.x.size() && curve.marker != Marker::none; ++i)
+    {
+      if (!chart.x.shows(curve.x[i]) || !chart.y.shows(curve.y[i]))
+        continue;
+      const PointNote   note  = curve.notes.empty() ? PointNote() : curve.notes[i];
+      const std::string shape = marker(curve, area.x.at(curve.x[i]), area.y.at(curve.y[i]), note.hollow);
+      svg += note.text.empty() ? shape : svg_hint(note.text, shape);
+    }
+  return svg;
+}
+
+// Legend
+
+struct LegendEntry
+{
+  const Curve *curve;
+  double       x, y; ///< of its left end, from the legend's upper left corner
+};
+
+/// Entries in rows of a width, or one below the other with a gap wherever the colour changes.
+std::vector<LegendEntry> legend_entries(const Chart &chart, const Panel &panel)
+{
+  const double             width = chart.width - left_margin - right_margin;
+  std::vector<LegendEntry> entries;
+  double                   x = 0., y = 0.;
+  for (const Curve &curve : panel.curves)
   {
-    const double y = title_height + 12. + legend_height * entries[i].row;
-    svg += segment(line_class(i).c_str(), entries[i].x, y - 4., entries[i].x + 24., y - 4.);
-    svg += svg_text(entries[i].x + 30., y, chart.series[i].name, "label");
+    if (curve.name.empty())
+      continue;
+    const double length = 37. + letter_width * static_cast<double>(n_letters(curve.name));
+    if (chart.legend_column > 0. && !entries.empty())
+      y += legend_row + (entries.back().curve->colour == curve.colour ? 0. : 8.);
+    else if (x > 0. && x + length - 8. > width)
+    {
+      x = 0.;
+      y += legend_row;
+    }
+    entries.push_back({&curve, x, y});
+    x += chart.legend_column > 0. ? 0. : length;
+  }
+  return entries;
+}
+
+std::string legend(const Chart &chart, const Panel &panel, double x0, double y0)
+{
+  std::string svg;
+  for (const auto &[curve, x, y] : legend_entries(chart, panel))
+  {
+    const double left = x0 + x, middle = y0 + y + 9.;
+    if (curve->line != LineStyle::none)
+      svg += svg_line(line_class(*curve), left, middle, left + 20., middle);
+    svg += marker(*curve, left + 10., middle, false) + svg_text(left + 25., middle + 4., curve->name, "label");
   }
   return svg;
 }
 
-Frame frame_of(const LineChart &chart, const Window &window, double x0, double x1, int legend_rows)
+// Panels
+
+/// Heights above the drawing area of every panel: the same for all, so that they stand in line.
+struct Heights
 {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Series &series : chart.series)
-    for (std::size_t i = window.begin; i < window.end; ++i)
-      if (std::isfinite(series.y[i]))
-      {
-        low  = std::min(low, series.y[i]);
-        high = std::max(high, series.y[i]);
-      }
-  add_room(low, high);
-  low              = std::isnan(chart.y_begin) ? low : chart.y_begin;
-  high             = std::isnan(chart.y_end) ? high : chart.y_end;
-  const double top = title_height + legend_height * legend_rows + (chart.marks.empty() ? 8. : 18.);
-  return {x0, x1, low, high, left_margin, chart.width - right_margin, top, chart.height - bottom_margin};
+  double title = 0., legend = 0., numbers = 8.;
+
+  double above() const { return title + legend + numbers; }
+};
+
+Heights heights_of(const Chart &chart)
+{
+  Heights heights;
+  for (const Panel &panel : chart.panels)
+  {
+    heights.title      = panel.title.empty() ? heights.title : panel_title_height;
+    const auto entries = legend_entries(chart, panel);
+    if (chart.legend_column == 0. && !entries.empty())
+      heights.legend = std::max(heights.legend, entries.back().y + legend_row);
+  }
+  if (std::any_of(chart.marks.begin(), chart.marks.end(), [](const Mark &mark) { return mark.number > 0; }))
+    heights.numbers = 18.;
+  return heights;
+}
+
+/// A panel with its upper left corner at (x0, y0).
+std::string panel_svg(const Chart &chart, const Panel &panel, const Heights &heights, double x0, double y0)
+{
+  const double left = x0 + left_margin, right = x0 + chart.width - right_margin;
+  const double top = y0 + heights.above(), bottom = top + chart.height - bottom_margin;
+  const Area   area{left, right, top, bottom, AxisMap(chart.x, left, right), AxisMap(chart.y, bottom, top)};
+
+  return svg_text(left, y0 + 13., panel.title, "title") + shades(chart, area) + axes(chart, area) + marks(chart, area) +
+         levels(chart, area) + lines(chart, panel, area) + markers(chart, panel, area) +
+         (chart.legend_column > 0. ? legend(chart, panel, right + 22., top)
+                                   : legend(chart, panel, left, y0 + heights.title));
 }
 
 } // namespace
 
-std::vector<double> nice_ticks(double low, double high, int count)
+Curve rings(const std::string &name, int colour)
 {
-  if (!(high > low) || count < 1)
-    return {};
-  const double rough = (high - low) / count, power = std::pow(10., std::floor(std::log10(rough)));
-  const double step = power * (rough <= 1.5 * power ? 1. : rough <= 3.5 * power ? 2. : rough <= 7.5 * power ? 5. : 10.);
-
-  std::vector<double> ticks;
-  for (long i = static_cast<long>(std::ceil(low / step - 1e-9)); i * step <= high + 1e-9 * step; ++i)
-    ticks.push_back(static_cast<double>(i) * step);
-  return ticks;
+  return {name, {}, {}, colour, LineStyle::none, Marker::ring};
 }
 
-std::string line_chart_svg(const LineChart &chart)
+void Panel::add(Curve curve)
 {
-  for (const Series &series : chart.series)
-    if (series.y.size() != chart.x.size())
-      throw std::invalid_argument("line chart \"" + chart.title + "\": series \"" + series.name + "\" has " +
-                                  std::to_string(series.y.size()) + " values, its abscissa has " +
-                                  std::to_string(chart.x.size()) + "; give one value per abscissa.");
-
-  double x0 = std::isnan(chart.x_begin) ? (chart.x.empty() ? 0. : chart.x.front()) : chart.x_begin;
-  double x1 = std::isnan(chart.x_end) ? (chart.x.empty() ? 1. : chart.x.back()) : chart.x_end;
-  if (!(x1 > x0))
-    add_room(x0, x1);
-
-  int          rows    = 1;
-  const auto   entries = legend_layout(chart, rows);
-  const Window window  = window_of(chart, x0, x1);
-  const Frame  f       = frame_of(chart, window, x0, x1, rows);
-
-  std::string svg = svg_head(chart.width, chart.height, chart.title);
-  svg += svg_text(left_margin, 18., chart.title, "title");
-  svg += axes(chart, f) + event_lines(chart, f) + level_lines(chart, f);
-  std::string x, y, w, h;
-  append_coordinate(x, f.left);
-  append_coordinate(y, f.top);
-  append_coordinate(w, f.right - f.left);
-  append_coordinate(h, f.bottom - f.top);
-  svg += "<svg x=\"" + x + "\" y=\"" + y + "\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"" + x + " " + y +
-         " " + w + " " + h + "\">\n";
-  for (std::size_t i = 0; i < chart.series.size(); ++i)
-    svg += "<path class=\"" + line_class(i) + "\" d=\"" + curve(chart, chart.series[i].y, window, f) + "\"/>\n";
-  return svg + "</svg>\n" + rings(chart, f) + legend(chart, entries) + "</svg>\n";
+  curve.colour = static_cast<int>(curves.size());
+  curve.line   = curves.size() % 2 == 0 ? LineStyle::full : LineStyle::dashed;
+  curves.push_back(std::move(curve));
 }
 
-std::string bar_chart_svg(const BarChart &chart)
+std::string chart_svg(const Chart &described)
 {
-  constexpr double row = 22., top = 34.;
+  for (const Panel &panel : described.panels)
+    for (const Curve &curve : panel.curves)
+      if (curve.x.size() != curve.y.size())
+        throw std::invalid_argument("chart \"" + described.title + "\": curve \"" + curve.name + "\" has " +
+                                    std::to_string(curve.x.size()) + " abscissae and " +
+                                    std::to_string(curve.y.size()) + " values; give one value per abscissa.");
 
-  double      largest = 0.;
-  std::size_t longest = 0;
-  for (const Bar &bar : chart.bars)
-  {
-    largest = std::isfinite(bar.value) ? std::max(largest, std::abs(bar.value)) : largest;
-    longest = std::max(longest, bar.name.size());
-  }
-  const double left = 20. + std::min(letter_width * static_cast<double>(longest), 0.45 * chart.width);
-  const double half = 0.5 * (chart.width - left - 66.), zero = left + half + 8.;
-  const double height = top + row * static_cast<double>(chart.bars.size()) + (chart.note.empty() ? 10. : 30.);
+  const Chart   chart   = with_axes(described);
+  const Heights heights = heights_of(chart);
+  const int     n = static_cast<int>(chart.panels.size()), columns = std::min(chart.columns, n);
+  const int     rows  = (n + columns - 1) / columns;
+  const double  head  = title_height + (chart.note.empty() ? 0. : note_height);
+  const double  width = chart.width + chart.legend_column, height = heights.above() + chart.height;
 
-  std::string svg = svg_head(chart.width, height, chart.title) + svg_text(10., 19., chart.title, "title");
-  for (std::size_t i = 0; i < chart.bars.size(); ++i)
-  {
-    const Bar   &bar    = chart.bars[i];
-    const double y      = top + row * static_cast<double>(i);
-    const double length = largest > 0. && std::isfinite(bar.value) ? half * bar.value / largest : 0.;
-    svg += svg_text(left - 4., y + 14., bar.name, "label", "end");
-    std::string x, w, py;
-    append_coordinate(x, std::min(zero, zero + length));
-    append_coordinate(w, std::max(std::abs(length), 0.5));
-    append_coordinate(py, y + 3.);
-    svg += "<rect class=\"f" + std::to_string(bar.colour % n_series_colours) + "\" x=\"" + x + "\" y=\"" + py +
-           "\" width=\"" + w + "\" height=\"14\" rx=\"1.5\"/>";
-    svg += svg_text(chart.width - 8., y + 14., short_text(std::abs(bar.value) < 5e-4 * largest ? 0. : bar.value, 3),
-                    "tick", "end");
-  }
-  svg += segment("axis", zero, top, zero, top + row * static_cast<double>(chart.bars.size()));
-  if (!chart.note.empty())
-    svg += svg_text(10., height - 10., chart.note, "small");
+  std::string svg = svg_head(columns * width, head + rows * height, chart.title) +
+                    svg_text(left_margin, 19., chart.title, "title") + svg_text(left_margin, 37., chart.note, "small");
+  for (int i = 0; i < n; ++i)
+    svg += panel_svg(chart, chart.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
   return svg + "</svg>\n";
 }
 

@@ -1,79 +1,111 @@
 #pragma once
 
-#include <limits>
+#include "apps/output/charts/chart_axis.h"
+
 #include <string>
 #include <vector>
 
 namespace gestell::apps
 {
 
-/// Multiples of 1, 2 or 5 times a power of ten in [low, high], about `count` of them.
-std::vector<double> nice_ticks(double low, double high, int count);
-
-struct Series
+enum class LineStyle
 {
-  std::string         name;
-  std::vector<double> y; ///< one per abscissa; nan interrupts the line
+  full,
+  dashed,
+  dotted,
+  dash_dotted,
+  short_dashed,
+  long_dashed,
+  none
 };
 
-/// A vertical line at an instant, with the number under which a table tells about it.
-struct EventMark
+/// What is drawn at the points of a curve.
+enum class Marker
+{
+  disc,
+  square,
+  triangle,
+  diamond,
+  ring,
+  none
+};
+
+/// What a point of a curve is told by.
+struct PointNote
+{
+  std::string text;           ///< shown by browsers under the pointer
+  bool        hollow = false; ///< the marker is not filled
+};
+
+struct Curve
+{
+  std::string            name{};     ///< empty: not in the legend
+  std::vector<double>    x{}, y{};   ///< nan, and on a logarithmic axis what is not positive, interrupts the line
+  int                    colour = 0; ///< of the classes s0..s6, repeated
+  LineStyle              line   = LineStyle::full;
+  Marker                 marker = Marker::none;
+  std::vector<PointNote> notes{}; ///< one per point, or none
+
+  void add(double at, double value)
+  {
+    x.push_back(at);
+    y.push_back(value);
+  }
+};
+
+/// A curve of rings without a line.
+Curve rings(const std::string &name, int colour);
+
+/// An abscissa worth looking at: a dotted line with its number above it, or without one a tick at the bottom.
+struct Mark
 {
   double      x;
-  int         number;
   std::string text; ///< shown by browsers under the pointer
+  int         number = 0;
+  int         colour = 0; ///< of the tick
 };
 
-/// A horizontal line with its name at the right end.
+/// A dotted horizontal line with its name at the right end.
 struct Level
 {
   double      y;
   std::string name;
 };
 
-/// A ring around a point worth looking at.
-struct Ring
+/// Ordinates between which the paper is shaded.
+struct Shade
 {
-  double      x, y;
-  std::string text; ///< shown by browsers under the pointer
+  double begin, end;
+  int    colour;
 };
 
-/// Curves over one common abscissa, shown between x_begin and x_end (nan: all of it).
-struct LineChart
+/// Curves that share a drawing area.
+struct Panel
 {
-  std::string            title, x_label, y_label;
-  std::vector<double>    x; ///< ascending
-  std::vector<Series>    series;
-  std::vector<EventMark> marks;
-  std::vector<double>    x_ticks{}; ///< empty: chosen
-  std::vector<Level>     levels;
-  std::vector<Ring>      rings;
-  double                 x_begin = std::numeric_limits<double>::quiet_NaN();
-  double                 x_end   = std::numeric_limits<double>::quiet_NaN();
-  double                 y_begin = std::numeric_limits<double>::quiet_NaN(); ///< nan: as the curves need
-  double                 y_end   = std::numeric_limits<double>::quiet_NaN();
-  double                 width = 880., height = 340.;
+  std::string        title;
+  std::vector<Curve> curves;
+
+  /// Adds a curve told from those before it: by the next colour, every other one dashed.
+  void add(Curve curve);
 };
 
-/// The chart as a stand-alone SVG document.  Long series are thinned to the first, smallest, largest and last value of
-/// each column of pixels, so no peak is lost.
-/// @throws std::invalid_argument if a series is not as long as x.
-std::string line_chart_svg(const LineChart &chart);
-
-struct Bar
+/// Curves in panels that share their axes; what leaves the window is cut off.
+struct Chart
 {
-  std::string name;
-  double      value;
-  int         colour; ///< of the classes s0..s6
+  std::string        title, note{}; ///< the note stands below the title
+  ChartAxis          x{}, y{};
+  std::vector<Panel> panels{Panel()};
+  std::vector<Mark>  marks{};
+  std::vector<Level> levels{};
+  std::vector<Shade> shades{};
+  double             width = 640., height = 280.; ///< of a panel with its axes, without titles and legend
+  int                columns       = 1;           ///< of panels
+  double             legend_column = 0.;          ///< width of a legend beside the panel; 0: rows above it
 };
 
-/// Horizontal bars about zero, one below the other, each with its name and value.
-struct BarChart
-{
-  std::string      title, note;
-  std::vector<Bar> bars;
-  double           width = 420.;
-};
-std::string bar_chart_svg(const BarChart &chart);
+/// The chart as a stand-alone SVG document.  Long curves are thinned to the first, smallest, largest and last value of
+/// each column of pixels, so that no peak is lost.
+/// @throws std::invalid_argument if x and y of a curve differ in length, or an axis is empty.
+std::string chart_svg(const Chart &chart);
 
 } // namespace gestell::apps

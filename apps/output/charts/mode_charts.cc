@@ -1,7 +1,7 @@
 #include "apps/output/charts/mode_charts.h"
 
-#include "apps/output/charts/chart.h"
 #include "apps/output/pictures/skin_picture.h"
+#include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -13,6 +13,44 @@ namespace
 {
 
 constexpr std::size_t most_bars = 10;
+
+struct Bar
+{
+  std::string name;
+  double      value;
+  int         colour; ///< of the classes f0..f6
+};
+
+/// Horizontal bars about zero, one below the other, each with its name and value.
+std::string bar_chart(const std::string &title, const std::vector<Bar> &bars, const std::string &note)
+{
+  constexpr double width = 420., row = 22., top = 34., letter_width = 6.9;
+
+  double      largest = 0.;
+  std::size_t longest = 0;
+  for (const Bar &bar : bars)
+  {
+    largest = std::isfinite(bar.value) ? std::max(largest, std::abs(bar.value)) : largest;
+    longest = std::max(longest, bar.name.size());
+  }
+  const double left = 20. + std::min(letter_width * static_cast<double>(longest), 0.45 * width);
+  const double half = 0.5 * (width - left - 66.), zero = left + half + 8.;
+  const double bottom = top + row * static_cast<double>(bars.size());
+
+  std::string svg = svg_head(width, bottom + 30., title) + svg_text(10., 19., title, "title");
+  double      y   = top;
+  for (const Bar &bar : bars)
+  {
+    const double length = largest > 0. && std::isfinite(bar.value) ? half * bar.value / largest : 0.;
+    svg += svg_text(left - 4., y + 14., bar.name, "label", "end") + "<rect class=\"f" + std::to_string(bar.colour) +
+           "\" rx=\"1.5\"" + svg_box(std::min(zero, zero + length), y + 3., std::max(std::abs(length), 0.5), 14.) +
+           "/>" +
+           svg_text(width - 8., y + 14., short_text(std::abs(bar.value) < 5e-4 * largest ? 0. : bar.value, 3), "tick",
+                    "end");
+    y += row;
+  }
+  return svg + svg_line("axis", zero, top, zero, bottom) + svg_text(10., bottom + 20., note, "small") + "</svg>\n";
+}
 
 std::string heading(std::size_t j, const coupling::Mode &mode)
 {
@@ -60,13 +98,27 @@ double arm(const Scenery &scenery)
   return std::round(half / digit) * digit;
 }
 
-std::string bars_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
+} // namespace
+
+std::string frame_mode_svg(const Result &result, std::size_t j)
+{
+  const coupling::Mode &mode = result.frame_modes[j];
+  if (!result.scenery.has_skin())
+    return shape_svg(result, "Frame " + heading(j, mode), mode);
+  return mode_picture_svg(skin_of(result.scenery, mode.shape), heading(j, mode), damping_text(mode));
+}
+
+std::string coupled_mode_svg(const Result &result, std::size_t j)
+{
+  return shape_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
+}
+
+std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
 {
   const double length = arm(result.scenery);
 
-  BarChart chart;
-  chart.title    = title;
-  bool any_angle = false;
+  std::vector<Bar> bars;
+  bool             any_angle = false;
   for (long i = 0; i < mode.shape.size(); ++i)
   {
     const auto k = static_cast<std::size_t>(i);
@@ -74,46 +126,26 @@ std::string bars_svg(const Result &result, const std::string &title, const coupl
       continue;
     const bool angle = is_angle(result, k);
     any_angle        = any_angle || angle;
-    chart.bars.push_back({k < result.coordinate_names.size() ? result.coordinate_names[k] : "q" + std::to_string(i),
-                          mode.shape(i) * (angle ? length : 1.), angle ? 1 : 0});
+    bars.push_back({k < result.coordinate_names.size() ? result.coordinate_names[k] : "q" + std::to_string(i),
+                    mode.shape(i) * (angle ? length : 1.), angle ? 1 : 0});
   }
   const auto larger = [](const Bar &a, const Bar &b) { return std::abs(a.value) > std::abs(b.value); };
-  if (chart.bars.size() > most_bars)
+  if (bars.size() > most_bars)
   {
-    std::stable_sort(chart.bars.begin(), chart.bars.end(), larger);
-    chart.bars.resize(most_bars);
+    std::stable_sort(bars.begin(), bars.end(), larger);
+    bars.resize(most_bars);
   }
-  const auto largest = std::min_element(chart.bars.begin(), chart.bars.end(), larger);
-  if (largest != chart.bars.end() && largest->value != 0.)
+  const auto largest = std::min_element(bars.begin(), bars.end(), larger);
+  if (largest != bars.end() && largest->value != 0.)
   {
     const double scale = 1. / largest->value;
-    for (Bar &bar : chart.bars)
+    for (Bar &bar : bars)
       bar.value *= scale;
   }
-  chart.note = damping_text(mode);
+  std::string note = damping_text(mode);
   if (any_angle)
-    chart.note += "; angles (second colour) times " + short_text(length) + " m";
-  return bar_chart_svg(chart);
-}
-
-} // namespace
-
-std::string frame_mode_svg(const Result &result, std::size_t j)
-{
-  const coupling::Mode &mode = result.frame_modes[j];
-  if (!result.scenery.has_skin())
-    return bars_svg(result, "Frame " + heading(j, mode), mode);
-  return mode_picture_svg(skin_of(result.scenery, mode.shape), heading(j, mode), damping_text(mode));
-}
-
-std::string coupled_mode_svg(const Result &result, std::size_t j)
-{
-  return bars_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
-}
-
-std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
-{
-  return bars_svg(result, title, mode);
+    note += "; angles (second colour) times " + short_text(length) + " m";
+  return bar_chart(title, bars, note);
 }
 
 } // namespace gestell::apps

@@ -83,30 +83,32 @@ std::string joined_names(const coupling::RunResult &run, const SignalGroup &grou
   return names;
 }
 
-LineChart chart_of(const coupling::RunResult &run, const SignalGroup &group)
+Chart chart_of(const coupling::RunResult &run, const SignalGroup &group)
 {
   double size = 0.;
   for (const std::size_t j : group.columns)
     size = std::max(size, range_of(run, j).size());
   const DisplayUnit shown = display_unit(group.unit, size);
 
-  LineChart chart;
-  chart.title = quantity_of(group.unit);
+  Chart chart;
+  chart.width  = 880.;
+  chart.height = 290.;
+  chart.title  = quantity_of(group.unit);
   if (topic_of(group.unit) != ChartTopic::energy)
     chart.title += ": " + joined_names(run, group);
-  chart.x_label = "t [s]";
-  chart.y_label = "[" + shown.unit + "]";
-  chart.x       = column(run, 0);
+  chart.x.label                  = "t [s]";
+  chart.y.label                  = "[" + shown.unit + "]";
+  const std::vector<double> time = column(run, 0);
   for (const std::size_t j : group.columns)
   {
-    Series series{run.columns[j], column(run, j)};
-    for (double &y : series.y)
+    Curve curve{run.columns[j], time, column(run, j)};
+    for (double &y : curve.y)
       y *= shown.factor;
-    chart.series.push_back(std::move(series));
+    chart.panels[0].add(std::move(curve));
   }
   int number = 0;
   for (const coupling::Event &event : run.events)
-    chart.marks.push_back({event.t, ++number, short_text(event.t, 6) + " s  " + event.name + ": " + event.kind});
+    chart.marks.push_back({event.t, short_text(event.t, 6) + " s  " + event.name + ": " + event.kind, ++number});
   return chart;
 }
 
@@ -211,16 +213,16 @@ std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
   std::map<std::string, int> used; // how often a quantity has had a chart
   for (const SignalGroup &group : group_signals(run))
   {
-    LineChart   chart = chart_of(run, group);
+    Chart       chart = chart_of(run, group);
     std::string name  = file_name(quantity_of(group.unit));
     if (const int n = ++used[name]; n > 1)
       name += "-" + std::to_string(n);
-    charts.push_back({name, chart.title, line_chart_svg(chart), topic_of(group.unit)});
+    charts.push_back({name, chart.title, chart_svg(chart), topic_of(group.unit)});
     if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(run, group))
       continue;
     chart.title += ", around the main shock";
-    std::tie(chart.x_begin, chart.x_end) = shock;
-    charts.push_back({name + "-shock", chart.title, line_chart_svg(chart), ChartTopic::force});
+    std::tie(chart.x.begin, chart.x.end) = shock;
+    charts.push_back({name + "-shock", chart.title, chart_svg(chart), ChartTopic::force});
   }
   return charts;
 }

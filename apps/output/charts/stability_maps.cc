@@ -1,6 +1,6 @@
 #include "apps/output/charts/stability_maps.h"
 
-#include "apps/output/charts/log_chart.h"
+#include "apps/output/charts/chart.h"
 #include "coupling/integration/propagation/force_rule.h"
 #include "fem/values/number_text.h"
 
@@ -92,24 +92,24 @@ const StabilityMap *map_of(const std::vector<StabilityMap> &maps, const std::str
   return nullptr;
 }
 
-std::vector<LogMark> marks_of(const std::vector<coupling::ModeAccuracy> &modes)
+std::vector<Mark> marks_of(const std::vector<coupling::ModeAccuracy> &modes)
 {
-  std::vector<LogMark> marks;
+  std::vector<Mark> marks;
   for (const auto &mode : modes)
   {
     const bool closed = mode.origin == coupling::ModeOrigin::closed;
     marks.push_back({mode.omega_h,
                      std::string(closed ? "closed contacts" : "frame") + ", mode " + std::to_string(mode.number) +
                          ": " + short_text(mode.mode.omega / 6.283185307179586) + " Hz",
-                     closed ? 1 : 0});
+                     0, closed ? 1 : 0});
   }
   return marks;
 }
 
 /// The part of a curve where it is positive, and its mirrored rest.
-void add_signed(LogPanel &panel, const StabilityMap &map, const std::vector<double> &y, int colour)
+void add_signed(Panel &panel, const StabilityMap &map, const std::vector<double> &y, int colour)
 {
-  LogCurve above{map.method, map.omega_h, y, colour, false}, below{"", map.omega_h, y, colour, true};
+  Curve above{map.method, map.omega_h, y, colour}, below{"", map.omega_h, y, colour, LineStyle::dashed};
   for (double &value : below.y)
     value = -value;
   panel.curves.push_back(above);
@@ -204,27 +204,31 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
 {
   const double      nan = std::numeric_limits<double>::quiet_NaN();
   const std::string at  = ", damping ratio " + short_text(zeta);
-  LogChart          radius{"Spectral radius" + at, "ω h", "spectral radius", lowest, highest, 0., 2., false, 1., {},
-                  marks_of(modes)};
-  LogChart          period = radius, damping = radius, overshoot = radius;
-  const auto        logarithmic =
-      [&](LogChart &chart, const std::string &title, const std::string &label, double from, double to)
+  Chart             radius{"Spectral radius" + at};
+  radius.x       = {"ω h", lowest, highest, Scale::logarithmic};
+  radius.y       = {"spectral radius", 0., 2.};
+  radius.marks   = marks_of(modes);
+  radius.panels  = {};
+  radius.width   = 440.;
+  radius.height  = 250.;
+  radius.columns = 2;
+  const auto on_logarithmic =
+      [&](const std::string &title, const std::string &label, double x_end, double from, double to)
   {
-    chart.title   = title + at;
-    chart.y_label = label;
-    chart.log_y   = true;
-    chart.limit   = nan;
-    chart.y_begin = from;
-    chart.y_end   = to;
+    Chart chart = radius;
+    chart.title = title + at;
+    chart.x.end = x_end;
+    chart.y     = {label, from, to, Scale::logarithmic};
+    return chart;
   };
-  logarithmic(period, "Period error (dashed: too fast)", "relative", 1e-10, 10.);
-  logarithmic(damping, "Numerical damping (dashed: negative)", "damping ratio", 1e-10, 1.);
-  logarithmic(overshoot, "Overshoot from a displacement, 20 steps", "times the start", 1., 1e6);
+  Chart period    = on_logarithmic("Period error (dashed: too fast)", "relative", 10., 1e-10, 10.);
+  Chart damping   = on_logarithmic("Numerical damping (dashed: negative)", "damping ratio", 10., 1e-10, 1.);
+  Chart overshoot = on_logarithmic("Overshoot from a displacement, 20 steps", "times the start", highest, 1., 1e6);
+  radius.shades   = {{1., radius.y.end, 1}};
 
-  period.x_end = damping.x_end = 10.;
   for (const MethodFamily &family : families)
   {
-    for (LogChart *chart : {&radius, &period, &damping, &overshoot})
+    for (Chart *chart : {&radius, &period, &damping, &overshoot})
       chart->panels.push_back({family.title, {}});
     for (std::size_t m = 0; m < family.methods.size(); ++m)
     {
@@ -241,16 +245,16 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
         peak.push_back(std::max(map->displaced[i].displacement, map->displaced[i].velocity));
       }
       const int colour = static_cast<int>(m);
-      radius.panels.back().curves.push_back({map->method, map->omega_h, rho, colour, false});
-      overshoot.panels.back().curves.push_back({map->method, map->omega_h, peak, colour, false});
+      radius.panels.back().curves.push_back({map->method, map->omega_h, rho, colour});
+      overshoot.panels.back().curves.push_back({map->method, map->omega_h, peak, colour});
       add_signed(period.panels.back(), *map, elongation, colour);
       add_signed(damping.panels.back(), *map, ratio, colour);
     }
   }
-  return {{"spectral-radius", log_chart_svg(radius)},
-          {"period-error", log_chart_svg(period)},
-          {"numerical-damping", log_chart_svg(damping)},
-          {"overshoot", log_chart_svg(overshoot)}};
+  return {{"spectral-radius", chart_svg(radius)},
+          {"period-error", chart_svg(period)},
+          {"numerical-damping", chart_svg(damping)},
+          {"overshoot", chart_svg(overshoot)}};
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "apps/output/report/modes_along_report.h"
 
+#include "apps/output/charts/chart.h"
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/html.h"
@@ -85,15 +86,20 @@ std::string meeting_text(const AlongResult &along, const coupling::OrderMeeting 
          at_text(along.modes, meeting.x) + ", " + short_text(meeting.frequency_hz, 5) + " Hz";
 }
 
-void add_orders(const AlongResult &along, const std::vector<std::size_t> &lines, LineChart &chart)
+void add_orders(const AlongResult &along, const std::vector<std::size_t> &lines, Chart &chart)
 {
   const double f_0 = along.speed / (2. * M_PI), factor = shown_unit(along.modes).factor;
   for (int k = 1; f_0 > 0. && k <= along.orders; ++k)
-    if (k * f_0 > chart.y_begin && k * f_0 < chart.y_end)
+    if (k * f_0 > chart.y.begin && k * f_0 < chart.y.end)
       chart.levels.push_back({k * f_0, std::to_string(k) + " Ω"});
+  Curve met = rings("", 5);
   for (const coupling::OrderMeeting &meeting : along.meetings)
     if (std::find(lines.begin(), lines.end(), std::size_t(meeting.line)) != lines.end())
-      chart.rings.push_back({meeting.x * factor, meeting.frequency_hz, meeting_text(along, meeting)});
+    {
+      met.add(meeting.x * factor, meeting.frequency_hz);
+      met.notes.push_back({meeting_text(along, meeting)});
+    }
+  chart.panels[0].curves.push_back(met);
 }
 
 /// Multiples of 5, 15, 30 or 90 degrees.
@@ -111,7 +117,7 @@ std::vector<double> degree_ticks(double low, double high)
 }
 
 /// Room for the curves, for orders that lie just beside them, and so much that what does not change looks flat.
-void set_height(const AlongResult &along, const std::vector<std::size_t> &lines, LineChart &chart)
+void set_height(const AlongResult &along, const std::vector<std::size_t> &lines, Chart &chart)
 {
   double low = std::numeric_limits<double>::infinity(), high = 0.;
   for (const std::size_t i : lines)
@@ -128,8 +134,8 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
       high = std::max(high, k * f_0);
     }
   const double middle = 0.5 * (low + high), half = std::max(0.55 * (high - low), 0.5 * least_span * middle);
-  chart.y_begin = std::max(0., middle - half);
-  chart.y_end   = middle + half;
+  chart.y.begin = std::max(0., middle - half);
+  chart.y.end   = middle + half;
 }
 
 std::string extremes_table(const AlongResult &along)
@@ -231,44 +237,37 @@ std::string statement(const AlongResult &along)
   return text + " A line follows one shape by its modal assurance (MAC) in the metric of mass.</p>\n";
 }
 
-} // namespace
-
-std::vector<LineChart> along_charts(const AlongResult &along)
+/// Frequencies of some lines over the coordinate.
+Chart along_chart(const AlongResult &along, const std::vector<std::size_t> &lines)
 {
-  const DisplayUnit      unit = shown_unit(along.modes);
-  std::vector<LineChart> charts;
-  for (const std::vector<std::size_t> &lines : groups(along.modes))
-  {
-    LineChart chart;
-    chart.title   = "Natural frequencies along " + along.modes.coordinate.name;
-    chart.x_label = along.modes.coordinate.name + " [" + unit.unit + "]";
-    chart.y_label = "frequency [Hz]";
-    for (const ModesAt &at : along.modes.positions)
-      chart.x.push_back(at.x * unit.factor);
-    for (const std::size_t i : lines)
-      chart.series.push_back({"line " + std::to_string(i + 1), frequencies(along.modes, i)});
-    if (chart.x.front() > chart.x.back()) // drawn from left to right
-    {
-      std::reverse(chart.x.begin(), chart.x.end());
-      for (Series &series : chart.series)
-        std::reverse(series.y.begin(), series.y.end());
-    }
-    if (unit.unit == "°")
-      chart.x_ticks = degree_ticks(chart.x.front(), chart.x.back());
-    set_height(along, lines, chart);
-    add_orders(along, lines, chart);
-    charts.push_back(chart);
-  }
-  return charts;
+  const DisplayUnit unit = shown_unit(along.modes);
+  Chart             chart;
+  chart.width   = 880.;
+  chart.height  = 290.;
+  chart.title   = "Natural frequencies along " + along.modes.coordinate.name;
+  chart.x.label = along.modes.coordinate.name + " [" + unit.unit + "]";
+  chart.y.label = "frequency [Hz]";
+  std::vector<double> x;
+  for (const ModesAt &at : along.modes.positions)
+    x.push_back(at.x * unit.factor);
+  for (const std::size_t i : lines)
+    chart.panels[0].add({"line " + std::to_string(i + 1), x, frequencies(along.modes, i)});
+  if (const auto [low, high] = std::minmax(x.front(), x.back()); unit.unit == "°")
+    chart.x.ticks = degree_ticks(low, high);
+  set_height(along, lines, chart);
+  add_orders(along, lines, chart);
+  return chart;
 }
+
+} // namespace
 
 Pictures along_pictures(const AlongResult &along)
 {
   Pictures pictures;
-  for (const LineChart &chart : along_charts(along))
+  for (const std::vector<std::size_t> &lines : groups(along.modes))
     pictures.emplace_back("modes-along" +
                               (pictures.empty() ? std::string() : "-" + std::to_string(pictures.size() + 1)),
-                          line_chart_svg(chart));
+                          chart_svg(along_chart(along, lines)));
   return pictures;
 }
 

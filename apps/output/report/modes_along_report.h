@@ -1,21 +1,16 @@
 #pragma once
 
-#include "apps/output/charts/chart.h"
 #include "apps/output/text/svg.h"
 #include "apps/output/values/result.h"
 
 #include <string>
-#include <vector>
 
 namespace gestell::apps
 {
 
-/// Frequencies over the coordinate, one line per tracked mode, in as many charts as keep them legible: within one the
-/// highest frequency is at most six times the lowest, and there are at most seven lines.  Orders of the excitation are
-/// horizontal lines, rings mark where one comes near a frequency.  Lines without frequency are left out.
-std::vector<LineChart> along_charts(const AlongResult &along);
-
-/// The same as pictures.
+/// Pictures of the frequencies over the coordinate, one line per tracked mode, in as many charts as keep them legible:
+/// within one the highest frequency is at most six times the lowest, and there are at most seven lines.  Orders of the
+/// excitation are horizontal lines, rings mark where one comes near a frequency.  Lines without frequency are left out.
 Pictures along_pictures(const AlongResult &along);
 
 /// The section of the report; adds its pictures.  "" without such a result.

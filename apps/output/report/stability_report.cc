@@ -136,9 +136,7 @@ std::string intervals_section(const StabilityStudy &study)
 
 std::string padded(const std::string &text, std::size_t width, bool left = false)
 {
-  std::size_t letters = 0;
-  for (const char c : text)
-    letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80 ? 1 : 0;
+  const std::size_t letters = n_letters(text);
   const std::string space(width > letters ? width - letters : 0, ' ');
   return left ? text + space : space + text;
 }

@@ -39,7 +39,8 @@ std::string style_sheet()
                     ".gst .event{stroke:var(--ink);stroke-width:.8;stroke-dasharray:2 3;opacity:.45;fill:none}"
                     ".gst .outline{stroke:var(--ink);stroke-width:.6;opacity:.3;fill:none}"
                     ".gst .line{fill:none;stroke-width:1.4;stroke-linejoin:round;stroke-linecap:round}"
-                    ".gst .dash{stroke-dasharray:7 3}";
+                    ".gst .d1{stroke-dasharray:7 3}.gst .d2{stroke-dasharray:2 3}.gst .d3{stroke-dasharray:9 3 2 3}"
+                    ".gst .d4{stroke-dasharray:4 2}.gst .d5{stroke-dasharray:12 4 2 4 2 4}";
   for (int i = 0; i < n_series_colours; ++i)
   {
     const std::string n = std::to_string(i);
@@ -93,11 +94,16 @@ void append_coordinate(std::string &svg, double x, int decimals)
   svg += std::to_string(decimals == 2 && part % 10 == 0 ? part / 10 : part);
 }
 
+std::string coordinate(double x)
+{
+  std::string text;
+  append_coordinate(text, x);
+  return text;
+}
+
 std::string svg_head(double width, double height, const std::string &title)
 {
-  std::string w, h;
-  append_coordinate(w, width);
-  append_coordinate(h, height);
+  const std::string w = coordinate(width), h = coordinate(height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"gst\" role=\"img\" width=\"" + w + "\" height=\"" + h +
          "\" viewBox=\"0 0 " + w + " " + h + "\"><title>" + escape_xml(title) + "</title><style>" + style_sheet() +
          "</style><rect class=\"paper\" width=\"" + w + "\" height=\"" + h + "\"/>\n";
@@ -106,16 +112,29 @@ std::string svg_head(double width, double height, const std::string &title)
 std::string svg_text(double x, double y, const std::string &text, const std::string &style, const std::string &anchor,
                      double turn_degrees)
 {
-  std::string at = "<text class=\"" + style + "\" text-anchor=\"" + anchor + "\" ";
-  std::string sx, sy, turn;
-  append_coordinate(sx, x);
-  append_coordinate(sy, y);
-  append_coordinate(turn, turn_degrees);
-  if (turn_degrees != 0.)
-    at += "transform=\"translate(" + sx + " " + sy + ") rotate(" + turn + ")\">";
-  else
-    at += "x=\"" + sx + "\" y=\"" + sy + "\">";
-  return at + escape_xml(text) + "</text>\n";
+  if (text.empty())
+    return "";
+  const std::string at = turn_degrees != 0. ? "transform=\"translate(" + coordinate(x) + " " + coordinate(y) +
+                                                  ") rotate(" + coordinate(turn_degrees) + ")\">"
+                                            : "x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\">";
+  return "<text class=\"" + style + "\" text-anchor=\"" + anchor + "\" " + at + escape_xml(text) + "</text>\n";
+}
+
+std::string svg_line(const std::string &style, double x0, double y0, double x1, double y1)
+{
+  return "<path class=\"" + style + "\" d=\"M" + coordinate(x0) + " " + coordinate(y0) + "L" + coordinate(x1) + " " +
+         coordinate(y1) + "\"/>";
+}
+
+std::string svg_box(double x, double y, double width, double height)
+{
+  return " x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" width=\"" + coordinate(width) + "\" height=\"" +
+         coordinate(height) + "\"";
+}
+
+std::string svg_hint(const std::string &text, const std::string &shape)
+{
+  return "<g><title>" + escape_xml(text) + "</title>" + shape + "</g>\n";
 }
 
 } // namespace gestell::apps

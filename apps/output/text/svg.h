@@ -15,14 +15,27 @@ std::string escape_xml(const std::string &text);
 /// Appends a coordinate of a picture with at most `decimals` (0, 1 or 2) digits after the point.
 void append_coordinate(std::string &svg, double x, int decimals = 1);
 
+/// A coordinate with at most one digit after the point.
+std::string coordinate(double x);
+
 /// Opening of a picture of width x height units: name space, title for readers, style, paper.  Its colours follow the
-/// reader's choice of light or dark and print on white; the classes s0..s6 are the colour-blind safe line colours
-/// (after Okabe & Ito), c0..c15 the scale of displacements.
+/// reader's choice of light or dark and print on white; the classes s0..s6 are the colour-blind safe colours of lines
+/// (after Okabe & Ito), f0..f6 of areas, d1..d5 are dashed in different ways.
 std::string svg_head(double width, double height, const std::string &title);
 
-/// Text at (x, y); `anchor` start, middle or end; `style` a class of the style sheet: "title", "tick", "label".
+/// Text at (x, y), nothing of an empty one; `anchor` start, middle or end; `style` a class of the style sheet: "title",
+/// "tick", "label".
 std::string svg_text(double x, double y, const std::string &text, const std::string &style,
                      const std::string &anchor = "start", double turn_degrees = 0.);
+
+/// A straight line; `style` are classes of the style sheet.
+std::string svg_line(const std::string &style, double x0, double y0, double x1, double y1);
+
+/// Attributes of a rectangle: x="" y="" width="" height="", with a blank before them.
+std::string svg_box(double x, double y, double width, double height);
+
+/// A shape with a text that browsers show under the pointer.
+std::string svg_hint(const std::string &text, const std::string &shape);
 
 constexpr int n_series_colours = 7;
 

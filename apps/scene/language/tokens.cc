@@ -1,5 +1,7 @@
 #include "apps/scene/language/tokens.h"
 
+#include "fem/values/number_text.h"
+
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -102,13 +104,10 @@ double number(const std::string &text, const std::string &digits)
   return value;
 }
 
-/// Characters, not bytes: those of UTF-8 that continue one are not counted.
-int characters_before(const std::string &text, std::size_t end)
+/// Place, from 1, of the character that begins at a byte.
+int place_of(const std::string &text, std::size_t byte)
 {
-  int n = 0;
-  for (std::size_t i = 0; i < end; ++i)
-    n += (static_cast<unsigned char>(text[i]) & 0xC0u) != 0x80u;
-  return n;
+  return 1 + static_cast<int>(n_letters(text.substr(0, byte)));
 }
 
 struct Raised
@@ -132,7 +131,7 @@ Raised raised_number(const std::string &text, std::size_t begin)
   }
   if (digits.empty() || number_length(digits, 0) != digits.size())
     throw std::invalid_argument("\"" + text + "\" has a raised sign where a raised number is expected" +
-                                character(1 + characters_before(text, begin)));
+                                character(place_of(text, begin)));
   raised.tokens.push_back({Token::number, digits, number(text, digits)});
   return raised;
 }
@@ -159,7 +158,7 @@ std::vector<Token> tokens_of(const std::string &text)
   std::vector<Token> tokens;
   const auto         add = [&](Token token, std::size_t begin)
   {
-    token.place = 1 + characters_before(text, begin);
+    token.place = place_of(text, begin);
     tokens.push_back(token);
   };
   for (std::size_t i = 0; i < text.size();)
@@ -209,7 +208,7 @@ std::vector<Token> tokens_of(const std::string &text)
       continue;
     }
     throw std::invalid_argument("\"" + text + "\" has '" + next.typed + "', which has no meaning in a value" +
-                                character(1 + characters_before(text, i)));
+                                character(place_of(text, i)));
   }
   add({}, text.size());
   return tokens;

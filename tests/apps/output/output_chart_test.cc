@@ -26,10 +26,18 @@ std::size_t longest_path(const std::string &svg)
   return longest;
 }
 
+std::size_t count(const std::string &text, const std::string &part)
+{
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++n;
+  return n;
+}
+
 /// Smallest ordinate (the highest place) the first curve reaches.
 double highest_place(const std::string &svg)
 {
-  const std::size_t  start = svg.find("<path class=\"line s0\" d=\"M") + 25;
+  const std::size_t  start = svg.find("d=\"M", svg.find("<path class=\"line s0", svg.find("<svg", 1))) + 3;
   std::string        path  = svg.substr(start, svg.find('"', start) - start);
   std::istringstream points(path);
   double             highest = 1e300, x, y;
@@ -38,16 +46,13 @@ double highest_place(const std::string &svg)
   return highest;
 }
 
-LineChart wave(int n)
+Chart wave(int n)
 {
-  LineChart chart;
+  Chart chart;
   chart.title = "wave";
-  chart.series.push_back({"y", {}});
+  chart.panels[0].add({"y"});
   for (int i = 0; i < n; ++i)
-  {
-    chart.x.push_back(i / (n - 1.));
-    chart.series[0].y.push_back(std::sin(40. * chart.x.back()));
-  }
+    chart.panels[0].curves[0].add(i / (n - 1.), std::sin(40. * i / (n - 1.)));
   return chart;
 }
 
@@ -79,44 +84,74 @@ TEST(Ticks, AreMultiplesOfOneTwoOrFiveTimesAPowerOfTen)
   EXPECT_TRUE(nice_ticks(1., 1., 5).empty());
 }
 
-TEST(LineChart, KeepsAPeakOfASingleRowOfALongHistory)
+TEST(Chart, KeepsAPeakOfASingleRowOfALongHistory)
 {
-  LineChart    chart           = wave(45000);
-  const double before          = highest_place(line_chart_svg(chart));
-  chart.series[0].y[20011]     = 2.;
-  const std::string with_peak  = line_chart_svg(chart);
-  chart.series[0].y[20011]     = std::sin(40. * chart.x[20011]);
-  chart.series[0].y.back()     = 2.;
-  const std::string at_the_end = line_chart_svg(chart);
+  Chart                chart   = wave(45000);
+  std::vector<double> &y       = chart.panels[0].curves[0].y;
+  const double         regular = y[20011];
+  const double         before  = highest_place(chart_svg(chart));
+  y[20011]                     = 2.;
+  const std::string with_peak  = chart_svg(chart);
+  y[20011]                     = regular;
+  y.back()                     = 2.;
+  const std::string at_the_end = chart_svg(chart);
   EXPECT_NEAR(highest_place(with_peak), highest_place(at_the_end), 0.11); // coordinates have one decimal
   EXPECT_NEAR(before, highest_place(with_peak), 8.);                      // the scale follows the peak
-  EXPECT_LE(longest_path(with_peak), 4u * 880u);
+  EXPECT_LE(longest_path(with_peak), 4u * 640u);
 }
 
-TEST(LineChart, DrawsWhatIsConstantEmptyOrBroken)
+TEST(Chart, WritesOfALongHistoryOnlyWhatItsWindowShows)
 {
-  LineChart chart = wave(10);
-  std::fill(chart.series[0].y.begin(), chart.series[0].y.end(), 3.);
-  EXPECT_EQ(line_chart_svg(chart).find("nan"), std::string::npos);
-  chart.series[0].y[4]  = std::nan("");
-  const std::string svg = line_chart_svg(chart);
+  Chart chart   = wave(45000);
+  chart.x.begin = 0.5;
+  chart.x.end   = 0.501;
+  EXPECT_LE(longest_path(chart_svg(chart)), 50u);
+}
+
+TEST(Chart, DrawsWhatIsConstantEmptyOrBroken)
+{
+  Chart                chart = wave(10);
+  std::vector<double> &y     = chart.panels[0].curves[0].y;
+  std::fill(y.begin(), y.end(), 3.);
+  EXPECT_EQ(chart_svg(chart).find("nan"), std::string::npos);
+  y[4]                  = std::nan("");
+  const std::string svg = chart_svg(chart);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_EQ(line_chart_svg(LineChart()).find("nan"), std::string::npos);
+  const auto at = svg.find("<path class=\"line s0");
+  EXPECT_EQ(count(svg.substr(at, svg.find("/>", at) - at), "M"), 2u); // two pieces
+  EXPECT_EQ(chart_svg(Chart()).find("nan"), std::string::npos);
 }
 
-TEST(LineChart, RefusesASeriesThatDoesNotFitItsAbscissa)
+TEST(Chart, EqualRatiosAreEqualDistancesOnALogarithmicAxis)
 {
-  LineChart chart = wave(10);
-  chart.series[0].y.pop_back();
-  EXPECT_THROW(line_chart_svg(chart), std::invalid_argument);
+  Chart chart;
+  chart.x                = {"x", 1., 100., Scale::logarithmic};
+  chart.panels[0].curves = {rings("c", 0)};
+  for (const double x : {1., 10., 100.})
+    chart.panels[0].curves[0].add(x, 0.);
+  const std::string svg = chart_svg(chart);
+  EXPECT_EQ(count(svg, "<circle"), 4u); // three and one in the legend
+  std::vector<double> x;
+  for (auto at = svg.find("cx=\""); at != std::string::npos; at = svg.find("cx=\"", at + 1))
+    x.push_back(std::stod(svg.substr(at + 4)));
+  EXPECT_NEAR(x[2] - x[1], x[1] - x[0], 0.21); // each is kept to a tenth
 }
 
-TEST(LineChart, EscapesNamesOfTheUser)
+TEST(Chart, RefusesEmptyAxesAndUnequalLengths)
 {
-  LineChart chart       = wave(10);
-  chart.series[0].name  = "F<\"P\"> & co";
-  const std::string svg = line_chart_svg(chart);
-  EXPECT_NE(svg.find("F&lt;&quot;P&quot;&gt; &amp; co"), std::string::npos);
+  Chart chart = wave(10);
+  chart.panels[0].curves[0].y.pop_back();
+  EXPECT_THROW(chart_svg(chart), std::invalid_argument);
+  chart   = wave(10);
+  chart.x = {"x", 0., 1., Scale::logarithmic};
+  EXPECT_THROW(chart_svg(chart), std::invalid_argument);
+}
+
+TEST(Chart, EscapesNamesOfTheUser)
+{
+  Chart chart                    = wave(10);
+  chart.panels[0].curves[0].name = "F<\"P\"> & co";
+  EXPECT_NE(chart_svg(chart).find("F&lt;&quot;P&quot;&gt; &amp; co"), std::string::npos);
 }
 
 TEST(SignalCharts, ShareAnAxisOnlyWhereBothSignalsCanBeRead)
