@@ -11,12 +11,6 @@ namespace gestell::peers
 namespace
 {
 
-int rate(double t, N_Vector y, N_Vector y_rate, void *user)
-{
-  static_cast<Callbacks *>(user)->form.rate(t, values(y), values(y_rate));
-  return 0;
-}
-
 /// The tangent costs next to nothing, so that it is renewed whenever CVODE sets up its linear system.
 int set_up_condensed(double t, N_Vector y, N_Vector, SUNMatrix, booleantype, booleantype *current, double gamma,
                      void *user, N_Vector, N_Vector, N_Vector)
@@ -35,23 +29,18 @@ int jacobian(double t, N_Vector y, N_Vector, SUNMatrix J, void *user, N_Vector, 
   return 0;
 }
 
-int guards(double t, N_Vector y, double *g, void *user)
-{
-  static_cast<Callbacks *>(user)->guards(t, values(y), g);
-  return 0;
-}
+constexpr SundialsCalls calls = {CVodeGetDky, CVodeGetRootInfo, CVodeSetRootDirection, CVodeSetNoInactiveRootWarn};
 
-class Cvode : public Stepper
+class Cvode : public SundialsStepper
 {
 public:
   Cvode(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)
-      : parts_(callbacks, problem, options, true), output_(parts_.vector()), t_(problem.t),
-        end_(problem.samples.back()), dense_(options.solver == PeerSolver::dense)
+      : SundialsStepper(calls, callbacks, problem, options, true), dense_(options.solver == PeerSolver::dense)
   {
     const bool adams = options.kind == PeerKind::cvode_adams;
     memory_          = CVodeCreate(adams ? CV_ADAMS : CV_BDF, parts_.context);
     CVodeSetErrHandlerFn(memory_, keep_message, &parts_.failure);
-    expect(CVodeInit(memory_, rate, problem.t, parts_.y), "CVodeInit");
+    expect(CVodeInit(memory_, state_rate, problem.t, parts_.y), "CVodeInit");
     CVodeSetUserData(memory_, &callbacks);
     CVodeSetMaxOrd(memory_, options.order);
     CVodeSetMaxNumSteps(memory_, -1);
@@ -70,39 +59,11 @@ public:
     const int code = CVode(memory_, end_, parts_.y, &t_, CV_ONE_STEP);
     return code < 0 ? Outcome::failed : code == CV_ROOT_RETURN ? Outcome::root : Outcome::step;
   }
-  double        time() const override { return t_; }
-  const double *state() const override { return values(parts_.y); }
-  void          interpolate(double t, double *y) override
-  {
-    CVodeGetDky(memory_, t, 0, output_);
-    std::copy(values(output_), values(output_) + N_VGetLength(output_), y);
-  }
-  void restart(double t, const double *y) override
-  {
-    count(past_);
-    t_ = t;
-    std::copy(y, y + N_VGetLength(parts_.y), values(parts_.y));
-    expect(CVodeReInit(memory_, t, parts_.y), "CVodeReInit");
-  }
-  void watch(const std::vector<int> &directions) override
-  {
-    found_.assign(directions.size(), 0);
-    expect(CVodeRootInit(memory_, 0, nullptr), "CVodeRootInit");
-    expect(CVodeRootInit(memory_, int(directions.size()), guards), "CVodeRootInit");
-    std::vector<int> copy = directions;
-    if (!copy.empty())
-      expect(CVodeSetRootDirection(memory_, copy.data()), "CVodeSetRootDirection");
-    CVodeSetNoInactiveRootWarn(memory_);
-  }
-  int root() override
-  {
-    CVodeGetRootInfo(memory_, found_.data());
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      if (found_[i] != 0)
-        return int(i);
-    return 0;
-  }
-  void count(coupling::IntegrationWork &work) override
+
+private:
+  void begin_again() override { expect(CVodeReInit(memory_, t_, parts_.y), "CVodeReInit"); }
+  int  watch_guards(int n) override { return CVodeRootInit(memory_, n, n > 0 ? guard_values : nullptr); }
+  coupling::IntegrationWork work_since_begin() const override
   {
     long steps = 0, rejected = 0, failed = 0, newton = 0, set_ups = 0;
     CVodeGetNumSteps(memory_, &steps);
@@ -110,26 +71,10 @@ public:
     CVodeGetNumNonlinSolvConvFails(memory_, &failed);
     CVodeGetNumNonlinSolvIters(memory_, &newton);
     CVodeGetNumLinSolvSetups(memory_, &set_ups);
-    if (dense_)
-      work.factorisations += set_ups, work.solves += newton;
-    work.steps += steps;
-    work.rejected += rejected + failed;
-    work.newton += newton;
-    if (&work == &past_)
-      return;
-    work.steps += past_.steps, work.rejected += past_.rejected, work.newton += past_.newton;
-    work.factorisations += past_.factorisations, work.solves += past_.solves;
+    return {steps, rejected + failed, newton, dense_ ? set_ups : 0, dense_ ? newton : 0};
   }
-  const std::string &failure() const override { return parts_.failure; }
 
-private:
-  SundialsParts             parts_;
-  N_Vector                  output_;
-  void                     *memory_ = nullptr;
-  double                    t_, end_;
-  bool                      dense_;
-  std::vector<int>          found_;
-  coupling::IntegrationWork past_; ///< before the last restart, as CVODE begins to count anew
+  bool dense_;
 };
 
 } // namespace

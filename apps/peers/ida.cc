@@ -39,12 +39,13 @@ int guards(double t, N_Vector y, N_Vector, double *g, void *user)
   return 0;
 }
 
-class Ida : public Stepper
+constexpr SundialsCalls calls = {IDAGetDky, IDAGetRootInfo, IDASetRootDirection, IDASetNoInactiveRootWarn};
+
+class Ida : public SundialsStepper
 {
 public:
   Ida(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)
-      : callbacks_(callbacks), parts_(callbacks, problem, options, true), y_rate_(parts_.vector()),
-        output_(parts_.vector()), t_(problem.t), end_(problem.samples.back()),
+      : SundialsStepper(calls, callbacks, problem, options, true), callbacks_(callbacks), y_rate_(parts_.vector()),
         dense_(options.solver == PeerSolver::dense)
   {
     memory_ = IDACreate(parts_.context);
@@ -65,40 +66,15 @@ public:
     const int code = IDASolve(memory_, end_, &t_, parts_.y, y_rate_, IDA_ONE_STEP);
     return code < 0 ? Outcome::failed : code == IDA_ROOT_RETURN ? Outcome::root : Outcome::step;
   }
-  double        time() const override { return t_; }
-  const double *state() const override { return values(parts_.y); }
-  void          interpolate(double t, double *y) override
+
+private:
+  void begin_again() override
   {
-    IDAGetDky(memory_, t, 0, output_);
-    std::copy(values(output_), values(output_) + N_VGetLength(output_), y);
+    callbacks_.form.rate(t_, values(parts_.y), values(y_rate_));
+    expect(IDAReInit(memory_, t_, parts_.y, y_rate_), "IDAReInit");
   }
-  void restart(double t, const double *y) override
-  {
-    count(past_);
-    t_ = t;
-    std::copy(y, y + N_VGetLength(parts_.y), values(parts_.y));
-    callbacks_.form.rate(t, y, values(y_rate_));
-    expect(IDAReInit(memory_, t, parts_.y, y_rate_), "IDAReInit");
-  }
-  void watch(const std::vector<int> &directions) override
-  {
-    found_.assign(directions.size(), 0);
-    expect(IDARootInit(memory_, 0, nullptr), "IDARootInit");
-    expect(IDARootInit(memory_, int(directions.size()), guards), "IDARootInit");
-    std::vector<int> copy = directions;
-    if (!copy.empty())
-      expect(IDASetRootDirection(memory_, copy.data()), "IDASetRootDirection");
-    IDASetNoInactiveRootWarn(memory_);
-  }
-  int root() override
-  {
-    IDAGetRootInfo(memory_, found_.data());
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      if (found_[i] != 0)
-        return int(i);
-    return 0;
-  }
-  void count(coupling::IntegrationWork &work) override
+  int                       watch_guards(int n) override { return IDARootInit(memory_, n, n > 0 ? guards : nullptr); }
+  coupling::IntegrationWork work_since_begin() const override
   {
     long steps = 0, rejected = 0, failed = 0, newton = 0, set_ups = 0;
     IDAGetNumSteps(memory_, &steps);
@@ -106,27 +82,12 @@ public:
     IDAGetNumNonlinSolvConvFails(memory_, &failed);
     IDAGetNumNonlinSolvIters(memory_, &newton);
     IDAGetNumLinSolvSetups(memory_, &set_ups);
-    if (dense_)
-      work.factorisations += set_ups, work.solves += newton;
-    work.steps += steps;
-    work.rejected += rejected + failed;
-    work.newton += newton;
-    if (&work == &past_)
-      return;
-    work.steps += past_.steps, work.rejected += past_.rejected, work.newton += past_.newton;
-    work.factorisations += past_.factorisations, work.solves += past_.solves;
+    return {steps, rejected + failed, newton, dense_ ? set_ups : 0, dense_ ? newton : 0};
   }
-  const std::string &failure() const override { return parts_.failure; }
 
-private:
-  Callbacks                &callbacks_;
-  SundialsParts             parts_;
-  N_Vector                  y_rate_, output_;
-  void                     *memory_ = nullptr;
-  double                    t_, end_;
-  bool                      dense_;
-  std::vector<int>          found_;
-  coupling::IntegrationWork past_; ///< before the last restart, as IDA begins to count anew
+  Callbacks &callbacks_;
+  N_Vector   y_rate_;
+  bool       dense_;
 };
 
 } // namespace

@@ -70,6 +70,15 @@ int solver_free(SUNLinearSolver solver)
   return 0;
 }
 
+void add(coupling::IntegrationWork &sum, const coupling::IntegrationWork &part)
+{
+  sum.steps += part.steps;
+  sum.rejected += part.rejected;
+  sum.newton += part.newton;
+  sum.factorisations += part.factorisations;
+  sum.solves += part.solves;
+}
+
 } // namespace
 
 SUNMatrix empty_matrix(SUNContext context)
@@ -137,6 +146,63 @@ N_Vector SundialsParts::vector()
 {
   vectors_.push_back(vectors_.empty() ? N_VNew_Serial(n_, context) : N_VClone(vectors_.front()));
   return vectors_.back();
+}
+
+SundialsStepper::SundialsStepper(const SundialsCalls &calls, Callbacks &callbacks, const PeerProblem &problem,
+                                 const PeerOptions &options, bool with_solver)
+    : parts_(callbacks, problem, options, with_solver), t_(problem.t), end_(problem.samples.back()), calls_(calls),
+      output_(parts_.vector())
+{
+}
+
+void SundialsStepper::interpolate(double t, double *y)
+{
+  calls_.interpolate(memory_, t, 0, output_);
+  std::copy(values(output_), values(output_) + N_VGetLength(output_), y);
+}
+
+void SundialsStepper::restart(double t, const double *y)
+{
+  add(past_, work_since_begin());
+  t_ = t;
+  std::copy(y, y + N_VGetLength(parts_.y), values(parts_.y));
+  begin_again();
+}
+
+void SundialsStepper::watch(const std::vector<int> &directions)
+{
+  found_.assign(directions.size(), 0);
+  expect(watch_guards(0), "RootInit");
+  expect(watch_guards(int(directions.size())), "RootInit");
+  std::vector<int> copy = directions;
+  if (!copy.empty())
+    expect(calls_.root_directions(memory_, copy.data()), "SetRootDirection");
+  calls_.no_inactive_root_warning(memory_);
+}
+
+int SundialsStepper::root()
+{
+  calls_.root_info(memory_, found_.data());
+  const auto crossed = std::find_if(found_.begin(), found_.end(), [](int sign) { return sign != 0; });
+  return crossed == found_.end() ? 0 : int(crossed - found_.begin());
+}
+
+void SundialsStepper::count(coupling::IntegrationWork &work)
+{
+  add(work, past_);
+  add(work, work_since_begin());
+}
+
+int guard_values(double t, N_Vector y, double *g, void *callbacks)
+{
+  static_cast<Callbacks *>(callbacks)->guards(t, values(y), g);
+  return 0;
+}
+
+int state_rate(double t, N_Vector y, N_Vector y_rate, void *callbacks)
+{
+  static_cast<Callbacks *>(callbacks)->form.rate(t, values(y), values(y_rate));
+  return 0;
 }
 
 void keep_message(int code, const char *module, const char *, char *message, void *text)

@@ -10,6 +10,11 @@
 namespace gestell::peers
 {
 
+inline double *values(N_Vector x)
+{
+  return N_VGetArrayPointer(x);
+}
+
 /// The context, vectors and linear solver a SUNDIALS integrator needs; freed in the right order.
 class SundialsParts
 {
@@ -35,10 +40,53 @@ private:
   long                  n_;
 };
 
-inline double *values(N_Vector x)
+/// Functions that each integrator of SUNDIALS has under a name of its own.
+struct SundialsCalls
 {
-  return N_VGetArrayPointer(x);
-}
+  int (*interpolate)(void *memory, double t, int derivative, N_Vector y);
+  int (*root_info)(void *memory, int *found);
+  int (*root_directions)(void *memory, int *directions);
+  int (*no_inactive_root_warning)(void *memory);
+};
+
+/// What the integrators of SUNDIALS have in common as Steppers.
+class SundialsStepper : public Stepper
+{
+public:
+  double             time() const final { return t_; }
+  const double      *state() const final { return values(parts_.y); }
+  const std::string &failure() const final { return parts_.failure; }
+  void               interpolate(double t, double *y) final;
+  void               restart(double t, const double *y) final;
+  void               watch(const std::vector<int> &directions) final;
+  int                root() final;
+  void               count(coupling::IntegrationWork &work) final;
+
+protected:
+  /// @param with_solver  false: explicit integrators
+  SundialsStepper(const SundialsCalls &calls, Callbacks &callbacks, const PeerProblem &problem,
+                  const PeerOptions &options, bool with_solver);
+
+  SundialsParts parts_;
+  void         *memory_ = nullptr; ///< of the integrator: made and freed by the derived class
+  double        t_, end_;
+
+private:
+  virtual void                      begin_again()            = 0; ///< at t_ with parts_.y
+  virtual int                       watch_guards(int n)      = 0; ///< 0: none
+  virtual coupling::IntegrationWork work_since_begin() const = 0;
+
+  SundialsCalls             calls_;
+  N_Vector                  output_;
+  std::vector<int>          found_;
+  coupling::IntegrationWork past_; ///< before the last restart, as integrators begin to count anew
+};
+
+/// The guards' values, as integrators of y' = f(t, y) ask for them.
+int guard_values(double t, N_Vector y, double *g, void *callbacks);
+
+/// y' = f(t, y), as they ask for it.
+int state_rate(double t, N_Vector y, N_Vector y_rate, void *callbacks);
 
 /// Keeps what a library says about its failure; its parameter is the string.
 void keep_message(int code, const char *module, const char *function, char *message, void *text);
