@@ -101,72 +101,57 @@ Types types_of(const Key &key)
   return types;
 }
 
-void write_texts(JsonWriter &json, const std::string &name, const Types &texts)
-{
-  json.begin_array(name);
-  for (const std::string &text : texts)
-    json.text("", text);
-  json.end_array();
-}
-
 /// Limits hold for plain numbers alone; text may be an expression.
-void write_range(JsonWriter &json, Key::Range range)
+void add_range(Json &json, Key::Range range)
 {
   if (range == Key::Range::from_zero)
-    json.number("minimum", 0.);
+    json["minimum"] = 0;
   if (range == Key::Range::above_zero || range == Key::Range::share)
-    json.number("exclusiveMinimum", 0.);
+    json["exclusiveMinimum"] = 0;
   if (range == Key::Range::share)
-    json.number("maximum", 1.);
+    json["maximum"] = 1;
 }
 
-void write_keys(JsonWriter &json, const std::vector<Key> &keys, bool open);
-void write_place(JsonWriter &json, const Place &place);
+void add_keys(Json &json, const std::vector<Key> &keys, bool open);
+void add_place(Json &json, const Place &place);
 
 /// What an array or a table holds.
-void write_inside(JsonWriter &json, const Key &key)
+void add_inside(Json &json, const Key &key)
 {
   using Form = Key::Form;
   if (key.others.empty() && may_be(key, {Form::direction, Form::vector}))
-  {
-    json.integer("minItems", 3);
-    json.integer("maxItems", 3);
-  }
+    json.update({{"minItems", 3}, {"maxItems", 3}});
   if (!key.keys.empty() && may_be(key, {Form::tables, Form::profile, Form::course}))
   {
-    json.begin_object("items");
-    json.text("type", "object");
-    write_keys(json, key.keys, false);
-    json.end_object();
+    json["items"] = {{"type", "object"}};
+    add_keys(json["items"], key.keys, false);
   }
   if (!key.keys.empty() && may_be(key, {Form::table, Form::map, Form::coefficient, Form::course}))
-    write_keys(json, key.keys, key.form == Form::map);
+    add_keys(json, key.keys, key.form == Form::map);
 }
 
 /// @param below  tables that are declared by themselves; may be null
-void write_key(JsonWriter &json, const Key &key, const Place *below = nullptr)
+Json key_schema(const Key &key, const Place *below = nullptr)
 {
-  json.begin_object(key.name);
-  json.text("description", key.meaning + ": " + taken_by(key) + (key.demanded ? "; demanded" : ""));
-  write_texts(json, "type", types_of(key));
-  write_range(json, key.range);
+  Json json = {{"description", key.meaning + ": " + taken_by(key) + (key.demanded ? "; demanded" : "")},
+               {"type", types_of(key)}};
+  add_range(json, key.range);
   if (key.form == Key::Form::choice && key.others.empty())
-    write_texts(json, "enum", key.choices);
+    json["enum"] = key.choices;
   if (!below)
-    write_inside(json, key);
+    add_inside(json, key);
   else if (!may_be(key, {Key::Form::map})) // whose values may be something else as well
-    write_place(json, *below);
-  json.end_object();
+    add_place(json, *below);
+  return json;
 }
 
-void write_keys(JsonWriter &json, const std::vector<Key> &keys, bool open)
+void add_keys(Json &json, const std::vector<Key> &keys, bool open)
 {
-  json.begin_object("properties");
+  json["properties"] = Json::object();
   for (const Key &key : keys)
-    write_key(json, key);
-  json.end_object();
+    json["properties"][key.name] = key_schema(key);
   if (!open)
-    json.boolean("additionalProperties", false);
+    json["additionalProperties"] = false;
 }
 
 /// Keys of all tables without a type that stand here; one of the same name takes what any of them takes.
@@ -189,39 +174,20 @@ std::vector<Key> keys_here(const Place &place)
   return keys;
 }
 
-/// {"if": {"properties": {"type": {"const": "rope"}}}, "then": {"$ref": ...}}
-void write_case(JsonWriter &json, const DeclaredTable &table)
-{
-  json.begin_object();
-  json.begin_object("if");
-  json.begin_object("properties");
-  json.begin_object("type");
-  json.text("const", table.type);
-  json.end_object();
-  json.end_object();
-  write_texts(json, "required", {"type"});
-  json.end_object();
-  json.begin_object("then");
-  json.text("$ref", "#/$defs/" + table.path);
-  json.end_object();
-  json.end_object();
-}
-
 /// A table that is one of its types, by the key `type`.
-void write_types(JsonWriter &json, const Place &place)
+void add_types(Json &json, const Place &place)
 {
   Types names;
+  Json  cases = Json::array();
   for (const DeclaredTable *table : place.tables)
     if (!table->type.empty())
+    {
       names.push_back(table->type);
-  json.begin_object("properties");
-  write_key(json, key::choice("type", names, false, "what it is"));
-  json.end_object();
-  json.begin_array("allOf");
-  for (const DeclaredTable *table : place.tables)
-    if (!table->type.empty())
-      write_case(json, *table);
-  json.end_array();
+      cases.push_back({{"if", {{"properties", {{"type", {{"const", table->type}}}}}, {"required", Types{"type"}}}},
+                       {"then", {{"$ref", "#/$defs/" + table->path}}}});
+    }
+  json["properties"]["type"] = key_schema(key::choice("type", names, false, "what it is"));
+  json["allOf"]              = cases;
 }
 
 bool has_types(const Place &place)
@@ -230,29 +196,26 @@ bool has_types(const Place &place)
 }
 
 /// The members of a schema for what stands here.
-void write_place(JsonWriter &json, const Place &place)
+void add_place(Json &json, const Place &place)
 {
   if (place.named)
   {
-    json.begin_object("additionalProperties");
-    json.text("type", "object");
-    write_place(json, *place.named);
-    json.end_object();
+    json["additionalProperties"] = {{"type", "object"}};
+    add_place(json["additionalProperties"], *place.named);
     return;
   }
   if (has_types(place))
   {
-    write_types(json, place);
+    add_types(json, place);
     return;
   }
-  json.begin_object("properties");
+  json["properties"] = Json::object();
   for (const Key &key : keys_here(place))
   {
-    const auto below = place.below.find(key.name);
-    write_key(json, key, below == place.below.end() ? nullptr : &below->second);
+    const auto below             = place.below.find(key.name);
+    json["properties"][key.name] = key_schema(key, below == place.below.end() ? nullptr : &below->second);
   }
-  json.end_object();
-  json.boolean("additionalProperties", false);
+  json["additionalProperties"] = false;
 }
 
 /// Keys that every type of a family has, beside its own.
@@ -268,25 +231,17 @@ std::vector<Key> common_keys(const DeclaredTable &type)
 
 std::string json_schema()
 {
-  JsonWriter json;
-  json.begin_object();
-  json.text("$schema", "https://json-schema.org/draft/2020-12/schema");
-  json.text("title", "Scene of Gestell");
-  json.text("type", "object");
-  write_place(json, places());
-  json.begin_object("$defs");
+  Json json = {
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Scene of Gestell"}, {"type", "object"}};
+  add_place(json, places());
+  json["$defs"] = Json::object();
   for (const DeclaredTable &table : declared_tables())
     if (!table.type.empty())
     {
-      json.begin_object(table.path);
-      json.text("description", table.does);
-      json.text("type", "object");
-      write_keys(json, joined({common_keys(table), table.keys}), false);
-      json.end_object();
+      json["$defs"][table.path] = {{"description", table.does}, {"type", "object"}};
+      add_keys(json["$defs"][table.path], joined({common_keys(table), table.keys}), false);
     }
-  json.end_object();
-  json.end_object();
-  return json.document();
+  return json_text(json);
 }
 
 } // namespace gestell::apps

@@ -32,52 +32,38 @@ std::string points_json(const WorkPrecision &chart)
     for (const std::size_t i : pareto_front(chart, int(m)))
       on_front[i] = true;
 
-  JsonWriter json;
-  json.begin_object();
-  json.begin_array("models");
+  Json models = Json::array(), points = Json::array();
   for (const WorkModel &model : chart.models)
-  {
-    json.begin_object();
-    json.integer("coordinates", model.coordinates);
-    json.integer("modes", model.modes);
-    json.number("reference", model.reference_error);
-    json.end_object();
-  }
-  json.end_array();
-  json.begin_array("points");
+    models.push_back(
+        {{"coordinates", model.coordinates}, {"modes", model.modes}, {"reference", model.reference_error}});
   for (std::size_t i = 0; i < chart.points.size(); ++i)
   {
     const WorkPoint &p = chart.points[i];
-    if (!p.failure.empty() || !std::isfinite(p.error))
-      continue;
-    json.begin_object();
-    json.text("method", p.method);
-    json.text("family", p.family);
-    json.integer("colour", family_colour(p.family));
-    json.integer("model", p.model);
-    json.boolean("own", p.own);
-    json.boolean("events", p.events);
-    json.boolean("resolved", p.resolved);
-    json.boolean("front", on_front[i]);
-    json.text("setting", setting(p));
-    json.text("lines", p.settings);
-    json.number("value", p.setting());
-    json.number("error", p.error);
-    json.number("cpu", p.cpu_s);
-    json.number("setup", p.setup_s);
-    json.integer("steps", p.work.steps);
-    json.integer("rejected", p.work.rejected);
-    json.integer("newton", p.work.newton);
-    json.integer("factorisations", p.work.factorisations);
-    json.integer("solves", p.work.solves);
-    json.integer("evaluations", (long long)work_of(p, WorkMeasure::evaluations));
-    json.integer("located", p.n_events);
-    json.end_object();
+    if (p.failure.empty() && std::isfinite(p.error))
+      points.push_back({{"method", p.method},
+                        {"family", p.family},
+                        {"colour", family_colour(p.family)},
+                        {"model", p.model},
+                        {"own", p.own},
+                        {"events", p.events},
+                        {"resolved", p.resolved},
+                        {"front", bool(on_front[i])},
+                        {"setting", setting(p)},
+                        {"lines", p.settings},
+                        {"value", p.setting()},
+                        {"error", p.error},
+                        {"cpu", p.cpu_s},
+                        {"setup", p.setup_s},
+                        {"steps", p.work.steps},
+                        {"rejected", p.work.rejected},
+                        {"newton", p.work.newton},
+                        {"factorisations", p.work.factorisations},
+                        {"solves", p.work.solves},
+                        {"evaluations", std::lround(work_of(p, WorkMeasure::evaluations))},
+                        {"located", p.n_events}});
   }
-  json.end_array();
-  json.end_object();
-  std::string document = json.document(), safe;
-  for (const char c : document) // no "</script>" inside a script
+  std::string safe;
+  for (const char c : json_text({{"models", models}, {"points", points}})) // no "</script>" inside a script
     safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return safe;
 }

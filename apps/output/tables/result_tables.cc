@@ -23,307 +23,224 @@ std::string csv_field(const std::string &text)
   return quoted + '"';
 }
 
-void write_numbers(JsonWriter &json, const char *name, const double *x, int n)
+Json numbers(const double *x, int n)
 {
-  json.begin_array(name);
-  for (int i = 0; i < n; ++i)
-    json.number("", x[i]);
-  json.end_array();
+  return std::vector<double>(x, x + n);
 }
 
-void write_frame(JsonWriter &json, const ModelFacts &model)
+Json text_or_null(const std::string &text)
+{
+  return text.empty() ? Json() : Json(text);
+}
+
+/// Of a number that is 0 where nothing was asked for.
+Json number_or_null(double x)
+{
+  return x == 0. ? Json() : Json(x);
+}
+
+void add_frame(Json &json, const ModelFacts &model)
 {
   if (const fem::MassProperties &whole = model.frame.whole; whole.mass > 0.)
   {
-    write_numbers(json, "centre", whole.centre.data(), 3);
-    json.begin_array("inertia");
+    json["centre"]  = numbers(whole.centre.data(), 3);
+    json["inertia"] = Json::array();
     for (int i = 0; i < 3; ++i)
-      write_numbers(json, "", whole.inertia.data() + 3 * i, 3); // symmetric: a column is a row
-    json.end_array();
-    json.begin_array("parts");
+      json["inertia"].push_back(numbers(whole.inertia.data() + 3 * i, 3)); // symmetric: a column is a row
+    json["parts"] = Json::array();
     for (const auto &[name, material, mass] : model.frame.parts)
-    {
-      json.begin_object();
-      json.text("name", name);
-      json.text("material", material);
-      json.number("mass", mass);
-      json.end_object();
-    }
-    json.end_array();
-    json.number("rigid_energy", model.frame.rigid_energy);
+      json["parts"].push_back({{"name", name}, {"material", material}, {"mass", mass}});
+    json["rigid_energy"] = model.frame.rigid_energy;
   }
   if (model.damping.empty())
     return;
-  json.integer("free_motions", model.free_motions);
-  json.begin_array("free_motion_names");
-  for (const std::string &name : model.frame.free_motions)
-    json.text("", name);
-  json.end_array();
-  json.text("damping", model.damping);
+  json["free_motions"]      = model.free_motions;
+  json["free_motion_names"] = model.frame.free_motions;
+  json["damping"]           = model.damping;
   if (!model.mesh.empty())
-    json.text("mesh", model.mesh);
-  json.begin_array("statements");
-  for (const std::string &statement : model.statements)
-    json.text("", statement);
-  json.end_array();
+    json["mesh"] = model.mesh;
+  json["statements"] = model.statements;
 }
 
-void write_model(JsonWriter &json, const ModelFacts &model)
+Json model_json(const ModelFacts &model)
 {
+  Json       json  = Json::object();
   const auto count = [&](const char *name, int n)
   {
     if (n >= 0)
-      json.integer(name, n);
+      json[name] = n;
   };
-  json.begin_object("model");
   count("dofs", model.dofs);
   count("interface", model.interface);
   count("modes", model.modes);
   count("nonlinear", model.nonlinear);
   count("frame_dofs", model.frame_dofs);
   count("cells", model.cells);
-  json.number("frame_mass", model.frame_mass);
-  json.number("frequency_error", model.frequency_error);
-  json.number("static_residual", model.static_residual);
+  json["frame_mass"]      = model.frame_mass;
+  json["frequency_error"] = model.frequency_error;
+  json["static_residual"] = model.static_residual;
   if (!std::isnan(model.frequency_limit))
-    json.number("frequency_limit_hz", model.frequency_limit);
-  write_frame(json, model);
-  json.end_object();
+    json["frequency_limit_hz"] = model.frequency_limit;
+  add_frame(json, model);
+  return json;
 }
 
-void text_or_null(JsonWriter &json, const std::string &name, const std::string &text)
+Json request_json(const Request &asked)
 {
-  if (text.empty())
-    json.null(name);
-  else
-    json.text(name, text);
-}
-
-/// Of numbers that are 0 where nothing was asked for.
-void number_or_null(JsonWriter &json, const std::string &name, double x)
-{
-  if (x == 0.)
-    json.null(name);
-  else
-    json.number(name, x);
-}
-
-void write_request(JsonWriter &json, const Request &asked)
-{
-  json.begin_object("asked");
-  json.text("file", asked.file);
-  json.begin_array("set");
-  for (const std::string &entry : asked.set)
-    json.text("", entry);
-  json.end_array();
+  Json json = {{"file", asked.file}, {"set", asked.set}};
   if (asked.run)
-  {
-    const coupling::MethodOptions &method = asked.run->method;
-    json.text("method", coupling::method_name(method));
-    number_or_null(json, "tolerance", method.tolerance);
-    number_or_null(json, "step", method.step);
-    json.number("begin", asked.run->begin);
-    json.number("end", asked.run->end);
-    json.boolean("events", asked.run->events);
-  }
-  json.end_object();
+    json.update({{"method", coupling::method_name(asked.run->method)},
+                 {"tolerance", number_or_null(asked.run->method.tolerance)},
+                 {"step", number_or_null(asked.run->method.step)},
+                 {"begin", asked.run->begin},
+                 {"end", asked.run->end},
+                 {"events", asked.run->events}});
+  return json;
 }
 
 /// How a run went.
-void write_outcome(JsonWriter &json, const coupling::RunResult &run, const Request &asked)
+Json outcome_json(const coupling::RunResult &run, const Request &asked)
 {
   const std::size_t width = run.columns.size(), last_row = run.rows.size() - width;
-  const bool        rows = width > 0 && run.rows.size() >= width;
-  json.begin_object("outcome");
-  json.text("method", run.method);
-  json.number("begin", rows ? run.rows.front() : asked.run ? asked.run->begin : 0.);
-  json.number("end", rows ? run.rows[last_row] : asked.run ? asked.run->begin : 0.);
-  json.integer("events_located", static_cast<long long>(run.events.size()));
-  json.boolean("complete", run.failure.empty() && !run.interrupted);
-  json.boolean("interrupted", run.interrupted);
-  text_or_null(json, "failure", run.failure);
-  json.end_object();
+  const bool        rows  = width > 0 && run.rows.size() >= width;
+  const double      begin = asked.run ? asked.run->begin : 0.;
+  return {{"method", run.method},
+          {"begin", rows ? run.rows.front() : begin},
+          {"end", rows ? run.rows[last_row] : begin},
+          {"events_located", run.events.size()},
+          {"complete", run.failure.empty() && !run.interrupted},
+          {"interrupted", run.interrupted},
+          {"failure", text_or_null(run.failure)}};
 }
 
-void write_frequencies(JsonWriter &json, const std::string &name, const std::vector<coupling::Mode> &modes,
-                       double coupling::Mode::*frequency = &coupling::Mode::frequency_hz)
+/// An array of what `of` makes of each item.
+template <typename Items, typename Of>
+Json array_of(const Items &items, const Of &of)
 {
-  json.begin_array(name);
-  for (const coupling::Mode &mode : modes)
-    json.number("", mode.*frequency);
-  json.end_array();
+  Json array = Json::array();
+  for (const auto &item : items)
+    array.push_back(of(item));
+  return array;
 }
 
-void write_signals(JsonWriter &json, const std::vector<coupling::SignalSummary> &signals)
+Json frequencies_json(const std::vector<coupling::Mode> &modes,
+                      double coupling::Mode::*frequency = &coupling::Mode::frequency_hz)
 {
-  json.begin_object("signals");
+  return array_of(modes, [&](const coupling::Mode &mode) { return mode.*frequency; });
+}
+
+Json signals_json(const std::vector<coupling::SignalSummary> &signals)
+{
+  Json json = Json::object();
   for (const coupling::SignalSummary &signal : signals)
-  {
-    json.begin_object(signal.name);
-    json.text("unit", signal.unit);
-    json.number("min", signal.min);
-    json.number("t_min", signal.t_min);
-    json.number("max", signal.max);
-    json.number("t_max", signal.t_max);
-    json.number("final", signal.final);
-    json.end_object();
-  }
-  json.end_object();
+    json[signal.name] = {{"unit", signal.unit}, {"min", signal.min},     {"t_min", signal.t_min},
+                         {"max", signal.max},   {"t_max", signal.t_max}, {"final", signal.final}};
+  return json;
 }
 
-void write_events(JsonWriter &json, const std::vector<coupling::Event> &events)
+Json event_json(const coupling::Event &event)
 {
-  json.begin_array("events");
-  for (const coupling::Event &event : events)
-  {
-    json.begin_object();
-    json.number("t", event.t);
-    json.text("name", event.name);
-    json.text("kind", event.kind);
-    json.end_object();
-  }
-  json.end_array();
+  return {{"t", event.t}, {"name", event.name}, {"kind", event.kind}};
 }
 
-void write_work(JsonWriter &json, const coupling::WorkCounts &work)
+Json work_json(const coupling::WorkCounts &work)
 {
-  json.begin_object("work");
-  json.integer("steps", work.steps);
-  json.integer("rejected", work.rejected);
-  json.integer("newton", work.newton);
-  json.integer("factorisations", work.factorisations);
-  json.integer("solves", work.solves);
-  json.integer("evaluations", work.evaluations);
-  json.integer("chatter", work.chatter);
-  json.end_object();
+  return {{"steps", work.steps},    {"rejected", work.rejected},
+          {"newton", work.newton},  {"factorisations", work.factorisations},
+          {"solves", work.solves},  {"evaluations", work.evaluations},
+          {"chatter", work.chatter}};
 }
 
-void write_accuracy(JsonWriter &json, const std::vector<coupling::ModeAccuracy> &modes)
+Json accuracy_json(const coupling::ModeAccuracy &mode)
 {
-  json.begin_array("accuracy");
-  for (const coupling::ModeAccuracy &mode : modes)
-  {
-    json.begin_object();
-    json.text("modes_of", mode.origin == coupling::ModeOrigin::base ? "base" : "closed");
-    json.integer("number", mode.number);
-    json.number("frequency_hz", mode.mode.omega / (2. * M_PI));
-    json.number("damping_ratio", mode.mode.zeta);
-    json.number("omega_h", mode.omega_h);
-    json.number("spectral_radius", mode.spectral_radius);
-    json.number("numerical_damping", mode.numerical_damping);
-    json.number("period_error", mode.period_error);
-    json.boolean("unstable", mode.unstable);
-    json.end_object();
-  }
-  json.end_array();
+  return {{"modes_of", mode.origin == coupling::ModeOrigin::base ? "base" : "closed"},
+          {"number", mode.number},
+          {"frequency_hz", mode.mode.omega / (2. * M_PI)},
+          {"damping_ratio", mode.mode.zeta},
+          {"omega_h", mode.omega_h},
+          {"spectral_radius", mode.spectral_radius},
+          {"numerical_damping", mode.numerical_damping},
+          {"period_error", mode.period_error},
+          {"unstable", mode.unstable}};
 }
 
-void write_energy(JsonWriter &json, const coupling::EnergySummary &energy)
+Json energy_json(const coupling::EnergySummary &energy)
 {
-  json.begin_object("energy");
-  json.number("input", energy.input);
-  json.number("stored", energy.stored);
-  json.number("dissipated", energy.dissipated);
-  json.number("residual", energy.residual);
-  json.number("exchanged", energy.exchanged);
-  json.end_object();
+  return {{"input", energy.input},
+          {"stored", energy.stored},
+          {"dissipated", energy.dissipated},
+          {"residual", energy.residual},
+          {"exchanged", energy.exchanged}};
 }
 
-void write_poles(JsonWriter &json, const std::vector<coupling::Pole> &poles)
+Json pole_json(const coupling::Pole &pole)
 {
-  json.begin_array("operating_poles");
-  for (const coupling::Pole &pole : poles)
-  {
-    json.begin_object();
-    json.number("real", pole.s.real());
-    json.number("imaginary", pole.s.imag());
-    json.number("frequency_hz", pole.frequency_hz());
-    json.number("damping_ratio", pole.damping_ratio());
-    json.text("moves_most", pole.moves);
-    json.end_object();
-  }
-  json.end_array();
+  return {{"real", pole.s.real()},
+          {"imaginary", pole.s.imag()},
+          {"frequency_hz", pole.frequency_hz()},
+          {"damping_ratio", pole.damping_ratio()},
+          {"moves_most", pole.moves}};
 }
 
-void write_along(JsonWriter &json, const AlongResult &along)
+Json line_json(const coupling::ModesAlong &modes, std::size_t i)
 {
-  json.begin_object("modes_along");
-  json.text("coordinate", along.modes.coordinate.name);
-  json.text("unit", along.modes.coordinate.unit);
-  json.integer("positions", static_cast<long long>(along.modes.positions.size()));
-  json.integer("linearisations", along.modes.linearisations);
-  json.boolean("geometric", along.geometric == coupling::GeometricStiffness::included);
-  json.number("speed", along.speed);
-  json.begin_array("lines");
+  const LineExtremes own = line_extremes(modes, i);
+  return {{"min_hz", own.min},
+          {"at_min", own.x_min},
+          {"max_hz", own.max},
+          {"at_max", own.x_max},
+          {"least_mac", own.least_assurance},
+          {"moves_most", modes.moves_most[i]},
+          {"free", bool(modes.free[i])}};
+}
+
+Json meeting_json(const coupling::OrderMeeting &meeting)
+{
+  return {{"order", meeting.order}, {"line", meeting.line + 1}, {"from", meeting.begin},
+          {"to", meeting.end},      {"nearest_at", meeting.x},  {"frequency_hz", meeting.frequency_hz}};
+}
+
+Json along_json(const AlongResult &along)
+{
+  Json lines = Json::array();
   for (std::size_t i = 0; i < along.modes.free.size(); ++i)
-  {
-    const LineExtremes own = line_extremes(along.modes, i);
-    json.begin_object();
-    json.number("min_hz", own.min);
-    json.number("at_min", own.x_min);
-    json.number("max_hz", own.max);
-    json.number("at_max", own.x_max);
-    json.number("least_mac", own.least_assurance);
-    json.text("moves_most", along.modes.moves_most[i]);
-    json.boolean("free", along.modes.free[i]);
-    json.end_object();
-  }
-  json.end_array();
-  json.begin_array("order_meetings");
-  for (const coupling::OrderMeeting &meeting : along.meetings)
-  {
-    json.begin_object();
-    json.integer("order", meeting.order);
-    json.integer("line", meeting.line + 1);
-    json.number("from", meeting.begin);
-    json.number("to", meeting.end);
-    json.number("nearest_at", meeting.x);
-    json.number("frequency_hz", meeting.frequency_hz);
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
+    lines.push_back(line_json(along.modes, i));
+  return {{"coordinate", along.modes.coordinate.name},
+          {"unit", along.modes.coordinate.unit},
+          {"positions", along.modes.positions.size()},
+          {"linearisations", along.modes.linearisations},
+          {"geometric", along.geometric == coupling::GeometricStiffness::included},
+          {"speed", along.speed},
+          {"lines", lines},
+          {"order_meetings", array_of(along.meetings, meeting_json)}};
 }
 
-void write_stress_place(JsonWriter &json, const std::string &name, const StressPlace &place)
+Json stress_place_json(const StressPlace &place)
 {
-  const auto three = [&](const char *member, const Eigen::Vector3d &x)
-  {
-    json.begin_array(member);
-    for (const double value : x)
-      json.number("", value);
-    json.end_array();
-  };
-  json.begin_object(name);
-  json.number("von_mises", place.von_mises);
-  three("at", place.at);
-  three("principal", place.principal.values);
-  three("first_direction", place.principal.first);
-  json.number("disagreement", place.disagreement);
-  json.text("beside", place.beside);
-  json.end_object();
+  return {{"von_mises", place.von_mises},
+          {"at", numbers(place.at.data(), 3)},
+          {"principal", numbers(place.principal.values.data(), 3)},
+          {"first_direction", numbers(place.principal.first.data(), 3)},
+          {"disagreement", place.disagreement},
+          {"beside", place.beside}};
 }
 
-void write_stress(JsonWriter &json, const StressResult &stress)
+Json stress_at_json(const StressAt &at)
 {
-  json.begin_object("stress");
-  json.integer("points", static_cast<long long>(stress.points.size()));
-  json.integer("states", stress.n_states);
-  json.number("step", stress.step);
-  json.begin_array("instants");
-  for (const StressAt &at : stress.instants)
-  {
-    json.begin_object();
-    json.text("label", at.label);
-    json.number("t", at.t);
-    if (at.peak)
-      write_stress_place(json, "largest", *at.peak);
-    if (at.beside_rigid)
-      write_stress_place(json, "beside_rigid", *at.beside_rigid);
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
+  Json json = {{"label", at.label}, {"t", at.t}};
+  if (at.peak)
+    json["largest"] = stress_place_json(*at.peak);
+  if (at.beside_rigid)
+    json["beside_rigid"] = stress_place_json(*at.beside_rigid);
+  return json;
+}
+
+Json stress_json(const StressResult &stress)
+{
+  return {{"points", stress.points.size()},
+          {"states", stress.n_states},
+          {"step", stress.step},
+          {"instants", array_of(stress.instants, stress_at_json)}};
 }
 
 void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
@@ -369,44 +286,34 @@ std::string summary_json(const Result &result)
   // A result without a run has no signals, but all members, so that readers need not ask.
   const coupling::RunResult run = result.run.value_or(coupling::RunResult());
 
-  JsonWriter json;
-  json.begin_object();
-  json.text("scene", result.scene);
-  json.text("version", result.version);
-  text_or_null(json, "commit", result.commit);
-  json.text("command", result.command);
-  write_request(json, result.asked);
+  Json json = {{"scene", result.scene},
+               {"version", result.version},
+               {"commit", text_or_null(result.commit)},
+               {"command", result.command},
+               {"asked", request_json(result.asked)}};
   if (result.run)
-    write_outcome(json, *result.run, result.asked);
-  write_model(json, result.model);
-  json.begin_array("bodies_from_cad");
-  for (const std::string &body : result.bodies_from_cad)
-    json.text("", body);
-  json.end_array();
-  write_frequencies(json, "frequencies_hz", result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
-  write_frequencies(json, "frame_frequencies_hz", result.frame_modes);
-  write_frequencies(json, "frame_refined_frequencies_hz", result.frame_modes, &coupling::Mode::refined_hz);
-  write_poles(json, result.poles);
+    json["outcome"] = outcome_json(*result.run, result.asked);
+  json["model"]           = model_json(result.model);
+  json["bodies_from_cad"] = result.bodies_from_cad;
+  json["frequencies_hz"]  = frequencies_json(result.coupled_modes.empty() ? result.frame_modes : result.coupled_modes);
+  json["frame_frequencies_hz"]         = frequencies_json(result.frame_modes);
+  json["frame_refined_frequencies_hz"] = frequencies_json(result.frame_modes, &coupling::Mode::refined_hz);
+  json["operating_poles"]              = array_of(result.poles, pole_json);
   if (result.along)
-    write_along(json, *result.along);
+    json["modes_along"] = along_json(*result.along);
   if (result.stress)
-    write_stress(json, *result.stress);
-  write_signals(json, run.signals);
-  write_events(json, run.events);
-  json.text("method", run.method);
-  write_accuracy(json, run.accuracy);
-  write_work(json, run.work);
-  json.begin_object("wall_s");
+    json["stress"] = stress_json(*result.stress);
+  json["signals"]  = signals_json(run.signals);
+  json["events"]   = array_of(run.events, event_json);
+  json["method"]   = run.method;
+  json["accuracy"] = array_of(run.accuracy, accuracy_json);
+  json["work"]     = work_json(run.work);
+  json["wall_s"]   = Json::object();
   for (const auto &[phase, seconds] : result.wall_s)
-    json.number(phase, seconds);
-  json.end_object();
-  write_energy(json, run.energy);
-  json.begin_array("warnings");
-  for (const std::string &warning : all_warnings(result))
-    json.text("", warning);
-  json.end_array();
-  json.end_object();
-  return json.document();
+    json["wall_s"][phase] = seconds;
+  json["energy"]   = energy_json(run.energy);
+  json["warnings"] = all_warnings(result);
+  return json_text(json);
 }
 
 std::string history_csv(const coupling::RunResult &run)

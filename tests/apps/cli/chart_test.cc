@@ -189,7 +189,7 @@ TEST(ChartPage, IsOneFileWithoutANetwork)
   EXPECT_EQ(page.find("src="), std::string::npos);
   EXPECT_EQ(page.find("<link"), std::string::npos);
   EXPECT_EQ(page.find("</script><b>"), std::string::npos);
-  EXPECT_NE(page.find("\"error\": 1e-04"), std::string::npos);
+  EXPECT_NE(page.find("\"error\": 0.0001"), std::string::npos);
 }
 
 TEST(ChartMethods, AreChosenByNameAndByBeginning)

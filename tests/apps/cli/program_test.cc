@@ -372,7 +372,7 @@ x = "-frame.top.uz"
   EXPECT_EQ(member(summary, "outcome", "complete"), "false,");
   EXPECT_NE(member(summary, "outcome", "failure").find("t = "), std::string::npos);
   EXPECT_LT(std::stod(member(summary, "outcome", "end")), 1.);
-  EXPECT_EQ(member(summary, "asked", "end"), "1,");
+  EXPECT_EQ(member(summary, "asked", "end"), "1.0,");
 }
 
 } // namespace
