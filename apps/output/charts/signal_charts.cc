@@ -29,7 +29,7 @@ std::vector<double> column(const coupling::RunResult &run, std::size_t j)
   return values;
 }
 
-struct Range
+struct SignalRange
 {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
@@ -37,9 +37,9 @@ struct Range
   double size() const { return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.; }
 };
 
-Range range_of(const coupling::RunResult &run, std::size_t j)
+SignalRange range_of(const coupling::RunResult &run, std::size_t j)
 {
-  Range             range;
+  SignalRange       range;
   const std::size_t width = run.columns.size();
   for (std::size_t i = j; i < run.rows.size(); i += width)
     if (std::isfinite(run.rows[i]))

@@ -38,16 +38,9 @@ std::string right(const std::string &text, int width)
   return std::string(std::max(0, width - int(text.size())), ' ') + text + ' ';
 }
 
-std::string power_text(double x)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", x);
-  return text;
-}
-
 std::string setting_text(const WorkPoint &point)
 {
-  return point.step > 0. ? short_text(point.step * 1e6, 4) + " us" : "tol " + power_text(point.tolerance);
+  return point.step > 0. ? short_text(point.step * 1e6, 4) + " us" : "tol " + short_text(point.tolerance, 2);
 }
 
 std::string model_text(const WorkModel &model)
@@ -64,7 +57,7 @@ std::string front_table(const WorkPrecision &chart, int model)
   {
     const WorkPoint &point = chart.points[i];
     text += cell(point.method, 34) + cell(point.events ? "located" : "passed", 7) + cell(setting_text(point), 11) +
-            right(power_text(point.error), 9) + right(short_text(1e3 * point.cpu_s, 4), 10) +
+            right(short_text(point.error, 2), 9) + right(short_text(1e3 * point.cpu_s, 4), 10) +
             right(std::to_string(point.work.steps), 9) + right(std::to_string(point.work.newton), 9) +
             right(std::to_string(point.work.factorisations), 8) + "\n";
   }
@@ -73,7 +66,7 @@ std::string front_table(const WorkPrecision &chart, int model)
 
 std::string choice_text(const WorkPrecision &chart, const std::vector<WorkSeries> &series, int model, double target)
 {
-  std::string text = "best choice at " + power_text(target) + ": ";
+  std::string text = "best choice at " + short_text(target, 2) + ": ";
   const auto  best = best_at_error(chart, series, model, true, target);
   if (!best)
     return text + (target < 10. * chart.models[model].reference_error ? "not resolved by the reference\n"
@@ -82,7 +75,8 @@ std::string choice_text(const WorkPrecision &chart, const std::vector<WorkSeries
   text += point.method + ", " + setting_text(point) + ", events " + (point.events ? "located" : "passed over") + ", " +
           (best->at.bound ? "at most " : "") + short_text(1e3 * best->at.cpu_s, 3) + " ms";
   if (!best->at.bound && point.cpu_s > 1.1 * best->at.cpu_s)
-    text += " on its line (this run " + short_text(1e3 * point.cpu_s, 3) + " ms for " + power_text(point.error) + ")";
+    text +=
+        " on its line (this run " + short_text(1e3 * point.cpu_s, 3) + " ms for " + short_text(point.error, 2) + ")";
   if (const auto peer = best_at_error(chart, series, model, false, target))
     text += "; " + peer->series->method + (peer->series->events ? " with events " : " ") +
             (peer->at.bound ? "at most " : "") + short_text(1e3 * peer->at.cpu_s, 3) +
@@ -227,7 +221,7 @@ std::string work_precision_text(const WorkPrecision &chart)
     text += model_text(model) + "; reference: " + model.reference + ", its error " + power_text(model.reference_error) +
             "\n";
     if (std::isfinite(model.truncation))
-      text += "modes left out are worth " + power_text(model.truncation) + "\n";
+      text += "modes left out are worth " + short_text(model.truncation, 2) + "\n";
     text += "\nPareto front\n" + front_table(chart, int(m)) + "\n";
     for (const double target : chart.targets)
       text += choice_text(chart, series, int(m), target);
@@ -248,7 +242,7 @@ std::string work_precision_settings(const WorkPrecision &chart)
   for (const double target : chart.targets)
   {
     const auto best = best_at_error(chart, series, model, true, target);
-    text += "\n# error " + power_text(target) + ": ";
+    text += "\n# error " + short_text(target, 2) + ": ";
     if (!best)
     {
       text += "none of the runs is that accurate, or the reference does not resolve it\n";
@@ -256,7 +250,7 @@ std::string work_precision_settings(const WorkPrecision &chart)
     }
     const WorkPoint &point = chart.points[best->at.point];
     text +=
-        point.method + ", measured " + power_text(point.error) + " in " + short_text(1e3 * point.cpu_s, 3) + " ms\n";
+        point.method + ", measured " + short_text(point.error, 2) + " in " + short_text(1e3 * point.cpu_s, 3) + " ms\n";
     const std::string entries = "[run]\n" + point.settings;
     for (std::size_t i = 0; i < entries.size();)
     {
