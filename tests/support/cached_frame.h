@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
+#include "tests/support/scene_parts.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -9,27 +10,11 @@
 namespace gestell::test
 {
 
-/// Three masses of 100 kg in a row on springs of 1 kN/mm, the topmost an interface, to be reduced to all of its two
-/// modes.
-inline const std::string reduced_chain = R"(name    = "chain"
-gravity = [0, 0, -9.81]
-[frame]
-mass         = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]
-stiffness    = [[2e6, -1e6, 0], [-1e6, 2e6, -1e6], [0, -1e6, 1e6]]
-translations = [[0, 0, 1], [0, 0, 1], [0, 0, 1]]
-[frame.interface.top]
-rows = { uz = 3 }
-[frame.support.foot]
-stiffness_row = [1e6, 0, 0]
-[reduction]
-method = "craig-bampton"
-modes  = 2
-[run]
-step = "10 us"
-end  = "0.1 s"
-[output.signals]
-x = "frame.top.uz"
-)";
+/// The chain of masses, to be reduced to all of its two modes.
+inline const std::string reduced_chain = "name = \"chain\"\n" + tests::mass_chain() +
+                                         tests::table("frame.support.foot", {{"stiffness_row", "[1e6, 0, 0]"}}) +
+                                         tests::table("reduction", {{"method", "craig-bampton"}, {"modes", "2"}}) +
+                                         tests::steps("10 us", "0.1 s") + "[output.signals]\nx = \"frame.top.uz\"\n";
 
 /// What the reduction makes of it, (5.5.3/14-20) by hand.
 inline coupling::ReducedFrame chain_frame()

@@ -94,8 +94,7 @@ inline Machine pendulum()
                std::make_shared<mechanism::IdealJoint>(ground.placement, bob.placement,
                                                        std::vector<mechanism::IdealJoint::Equation>{rod}),
                bob.measures);
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// A02: N windows of uniform rods, 1 kg and 1 m each, upright; body "crank i" i = 0..N, "coupler i" i = 1..N.
@@ -117,8 +116,7 @@ inline Machine n_four_bar(int N)
     revolute(model, "left " + std::to_string(i), left, coupler, {i - 1., 1.});
     revolute(model, "right " + std::to_string(i), coupler, "crank " + std::to_string(i), {double(i), 1.});
   }
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// Velocities of A02 at its begin: the upper ends of the upright rods move at 1 m/s.
@@ -174,8 +172,7 @@ inline Machine andrews_squeezer()
   spring(model, "spring", "K3", B0 + PlanePoint{sc * s(gamma) + sd * c(gamma), -sc * c(gamma) + sd * s(gamma)},
          "ground", C, 4530., .07785);
   model.add_load("motor", model.marker("K1").about({0., 0., 1.}), 0.033, {}, "N m");
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 struct SliderCrankParameters
@@ -213,8 +210,7 @@ inline Machine slider_crank(const SliderCrankParameters &p, double friction = 0.
                  std::make_shared<mechanism::CoulombFriction>(
                      mechanism::CoulombFriction::Parameters{friction, 12. * friction, 0.}),
                  {{{model.coordinate("crank.angle"), 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// Its velocities for an angular velocity omega [rad/s] of the crank, slider guided.

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace gestell::tests
 {
@@ -20,6 +24,37 @@ struct Answer
 
   bool says(const std::string &part) const { return text.find(part) != std::string::npos; }
 };
+
+/// How often a part stands in a text.
+inline int count(const std::string &text, const std::string &part)
+{
+  int n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+    ++n;
+  return n;
+}
+
+/// The number behind the first occurrence of every name of the path, in order, in a text of JSON.
+inline double json_number(const std::string &json, const std::vector<std::string> &path)
+{
+  std::size_t at = 0;
+  for (const std::string &name : path)
+  {
+    at = json.find('"' + name + '"', at);
+    if (at == std::string::npos)
+      throw std::invalid_argument("no " + name);
+    at += name.size() + 2;
+  }
+  return std::stod(json.substr(json.find_first_of("0123456789-", at)));
+}
+
+/// The exit code of an answer, and what stands in it.
+inline void expect_answer(const Answer &answer, int exit_code, const std::vector<std::string> &words)
+{
+  EXPECT_EQ(answer.exit_code, exit_code) << answer.text;
+  for (const std::string &part : words)
+    EXPECT_TRUE(answer.says(part)) << "not: " << part << "\n" << answer.text;
+}
 
 inline Answer shell(const std::string &command)
 {

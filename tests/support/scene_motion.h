@@ -1,7 +1,9 @@
 #pragma once
 
-#include "tests/support/scene_text.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +16,30 @@ namespace gestell::tests
 
 using Settings = std::vector<std::string>;
 
-inline SceneRun run(const std::string &scene, const Settings &overrides = {})
+/// The run of a scene, wherever it stops.
+inline SceneRun stopped(const std::string &scene, const Settings &overrides = {})
 {
   const test::SceneFolder folder;
   return SceneRun(folder.write("scene.toml", scene), overrides);
 }
 
-inline void expect_complaint(const std::string &scene, const std::string &words)
+/// The run of a scene, which must come to its end.
+inline SceneRun run(const std::string &scene, const Settings &overrides = {})
 {
-  const std::string said = test::complaint(scene);
-  EXPECT_NE(said.find(words), std::string::npos) << "said: " << said << "\nnot: " << words;
+  SceneRun motion = stopped(scene, overrides);
+  EXPECT_EQ(motion.result.failure, "");
+  return motion;
+}
+
+inline void expect_complaint(const std::string &scene, const std::string &words, const Settings &overrides = {})
+{
+  EXPECT_THAT(test::complaint(scene, overrides), ::testing::HasSubstr(words));
+}
+
+/// Observed order of a method of which the second error is that of half the step.
+inline double order(double coarse, double fine)
+{
+  return std::log2(coarse / fine);
 }
 
 /// Time of the n-th event of a kind, from 0.
@@ -54,15 +70,13 @@ inline void expect_closed_balance(const SceneRun &motion, double part)
 /// One body, to which elements are added; the first step is the fixed one.
 inline std::string rotor(double inertia, const std::string &end)
 {
-  return "[body.shaft]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = " + std::to_string(inertia) +
-         "\n[run]\nstep = \"0.1 ms\"\nend = \"" + end +
-         "\"\n[output.signals]\nw = \"shaft.speed\"\nphi = \"shaft.angle\"\n";
+  return rotor_body("shaft", std::to_string(inertia), "[0, 0, 1]") + steps("0.1 ms", end) +
+         "[output.signals]\nw = \"shaft.speed\"\nphi = \"shaft.angle\"\n";
 }
 inline std::string slider(double mass, const std::string &end)
 {
-  return "[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = " + std::to_string(mass) +
-         "\n[run]\nstep = \"0.1 ms\"\nend = \"" + end +
-         "\"\n[output.signals]\nx = \"slide.displacement\"\nv = \"slide.velocity\"\n";
+  return slider_body("slide", std::to_string(mass), "[1, 0, 0]") + steps("0.1 ms", end) +
+         "[output.signals]\nx = \"slide.displacement\"\nv = \"slide.velocity\"\n";
 }
 
 // Fixed steps, and controlled ones up to 20 ms.

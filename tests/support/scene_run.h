@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/build_machine.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,13 +10,18 @@
 namespace gestell::tests
 {
 
+/// Path of a scene of apps/scenes.
+inline std::string shipped(const std::string &file)
+{
+  return std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/" + file;
+}
+
 /// A scene of apps/scenes, or any file by its full path, run from beginning to end.
 struct SceneRun
 {
   explicit SceneRun(const std::string &file, const std::vector<std::string> &overrides = {})
   {
-    const auto        path    = file[0] == '/' ? file : std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/" + file;
-    const apps::Scene scene   = apps::read_scene(path, overrides);
+    const apps::Scene scene   = apps::read_scene(file[0] == '/' ? file : shipped(file), overrides);
     coupling::Machine machine = apps::build_machine(scene);
     const auto        signals = apps::scene_signals(scene, machine);
     n                         = machine.size();
@@ -32,6 +38,14 @@ struct SceneRun
 
   std::size_t n_rows() const { return result.rows.size() / result.columns.size(); }
   double at(std::size_t row, std::size_t column) const { return result.rows[row * result.columns.size() + column]; }
+
+  std::size_t column(const std::string &name) const
+  {
+    const auto found = std::find(result.columns.begin(), result.columns.end(), name);
+    if (found == result.columns.end())
+      throw std::invalid_argument("no column " + name);
+    return std::size_t(found - result.columns.begin());
+  }
 
   coupling::RunResult result;
   int                 n = 0; ///< coordinates of the machine

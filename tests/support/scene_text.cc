@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -27,6 +28,37 @@ std::string SceneFolder::write(const std::string &name, const std::string &text)
   std::filesystem::create_directories((folder_ / name).parent_path());
   std::ofstream(folder_ / name) << text;
   return path(name);
+}
+
+std::string quoted(std::string text)
+{
+  std::replace(text.begin(), text.end(), '\'', '"');
+  return text;
+}
+
+std::string with(std::string text, const std::string &piece, const std::string &replacement)
+{
+  const auto found = text.find(quoted(piece));
+  if (found == std::string::npos)
+    throw std::logic_error("the scene has no \"" + piece + "\"");
+  return text.replace(found, piece.size(), quoted(replacement));
+}
+
+namespace
+{
+
+std::string write_scene(const SceneFolder &folder, const std::string &text)
+{
+  folder.write("frame.step", "ISO-10303-21;");
+  return folder.write("scene.toml", text);
+}
+
+} // namespace
+
+apps::Scene scene_of(const std::string &text, const std::vector<std::string> &overrides)
+{
+  const SceneFolder folder;
+  return apps::read_scene(write_scene(folder, text), overrides);
 }
 
 std::string small_scene()
@@ -97,17 +129,13 @@ x1  = "-frame.crown.uz"
 
 std::string small_scene(const std::string &piece, const std::string &replacement)
 {
-  std::string text  = small_scene();
-  const auto  found = text.find(piece);
-  if (found == std::string::npos)
-    throw std::logic_error("the small scene has no \"" + piece + "\"");
-  return text.replace(found, piece.size(), replacement);
+  return with(small_scene(), piece, replacement);
 }
 
 std::string complaint(const std::string &text, const std::vector<std::string> &overrides)
 {
   const SceneFolder folder;
-  const auto        path = folder.write("scene.toml", text);
+  const auto        path = write_scene(folder, text);
   try
   {
     apps::check_scene(apps::read_scene(path, overrides));
@@ -125,7 +153,7 @@ std::string complaint(const std::string &text, const std::vector<std::string> &o
 
 std::string cad_scene(const std::string &piece, const std::string &replacement)
 {
-  std::string text  = R"([frame]
+  return with(R"([frame]
 cad      = "frame.step"
 mesh     = { size = "60 mm", "bearing *" = "30 mm" }
 material = "steel"
@@ -144,27 +172,8 @@ foundation = { stiffness = "420 kN/mm", damping = [1, 2, 3] }
 surfaces = ["bearing left", "bearing right"]
 [frame.cut.columns]
 plane = { normal = [0, 0, 1], through = [0, 0, "1.4 m"] }
-)";
-  const auto  found = text.find(piece);
-  if (found == std::string::npos)
-    throw std::logic_error("the scene has no \"" + piece + "\"");
-  return text.replace(found, piece.size(), replacement);
-}
-
-std::string cad_complaint(const std::string &piece, const std::string &replacement)
-{
-  const SceneFolder folder;
-  folder.write("frame.step", "ISO-10303-21;");
-  const auto path = folder.write("scene.toml", cad_scene(piece, replacement));
-  try
-  {
-    apps::check_scene(apps::read_scene(path));
-  }
-  catch (const std::invalid_argument &e)
-  {
-    return e.what();
-  }
-  return "";
+)",
+              piece, replacement);
 }
 
 } // namespace gestell::test

@@ -14,9 +14,7 @@ namespace
 
 using namespace apps;
 
-class FailureAtlas : public ::testing::TestWithParam<AtlasEntry (*)()>
-{
-};
+using FailureAtlas = ::testing::TestWithParam<AtlasEntry (*)()>;
 
 TEST_P(FailureAtlas, PredictedIsMeasured)
 {

@@ -2,6 +2,7 @@
 
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
+#include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -14,70 +15,37 @@ namespace
 {
 
 /// A steel plate of 0.8 x 0.6 x 0.01 m between two walls; 1 kN is set down in its middle within 1 ms.
-const std::string plate = R"(name = "plate"
-[frame]
-cad      = "plate.geo"
-unit     = "1 m"
-mesh     = { size = "0.1 m" }
-material = "steel"
-damping  = { ratio = 0.01 }
-[frame.surface.walls]
-plane = { normal = [1, 0, 0], through = [0.8, 0, 0] }
-[frame.surface.other]
-plane = { normal = [-1, 0, 0], through = [0, 0, 0] }
-[frame.surface.pad]
-plane = { normal = [0, 0, 1], through = [0, 0, 0.01] }
-box   = { min = [0.34, 0.24, 0.009], max = [0.46, 0.36, 0.011] }
-[frame.support.walls]
-surfaces = ["walls", "other"]
-clamped  = true
-[frame.interface.pad]
-surface  = "pad"
-coupling = "average"
-[run]
-method = "bdf"
-order  = 2
-step   = "20 us"
-end    = "30 ms"
-[output]
-step = "20 us"
-[output.signals]
-z = "frame.pad.uz"
-)";
+const std::string plate =
+    "name = 'plate'\n" + cad_frame("plate.geo", "0.1 m", {{"damping", "{ ratio = 0.01 }"}}) +
+    plane_surface("walls", "[1, 0, 0]", "[0.8, 0, 0]") + plane_surface("other", "[-1, 0, 0]", "[0, 0, 0]") +
+    plane_surface("pad", "[0, 0, 1]", "[0, 0, 0.01]") +
+    "box = { min = [0.34, 0.24, 0.009], max = [0.46, 0.36, 0.011] }\n" +
+    table("frame.support.walls", {{"surfaces", "['walls', 'other']"}, {"clamped", "true"}}) +
+    table("frame.interface.pad", {{"surface", "pad"}, {"coupling", "average"}}) +
+    steps("20 us", "30 ms", {{"method", "bdf"}, {"order", "2"}}) + signals("z = 'frame.pad.uz'", {{"step", "20 us"}});
 
 /// @param direction  of a load on a slider, which knows its own: none
-std::string load_on(const std::string &body, const std::string &direction = "direction = [0, 0, -1]\n")
+std::string load_on(const std::string &body, const Keys &direction = {{"direction", "[0, 0, -1]"}})
 {
-  return "[element.load]\ntype = \"table force\"\nfrom = \"" + body + "\"\nto = \"ground\"\n" + direction +
-         "against = \"time\"\ntable = [[\"0 s\", 0], [\"1 ms\", 0], [\"2 ms\", \"1 kN\"], [\"1 s\", \"1 kN\"]]\n";
+  return table("element.load",
+               {{"type", "table force"},
+                {"from", body},
+                {"to", "ground"},
+                {"against", "time"},
+                {"table", "[['0 s', 0], ['1 ms', 0], ['2 ms', '1 kN'], ['1 s', '1 kN']]"}},
+               direction);
 }
 
 /// Fastened by an ideal joint.
-const std::string hammer = R"([body.hammer]
-type     = "rigid"
-mass     = "0.05 kg"
-inertia  = ["1e-5 kg m^2", "1e-5 kg m^2", "1e-5 kg m^2"]
-position = ["0.4 m", "0.3 m", "0.01 m"]
-[joint.bolt]
-type = "rigid"
-from = "frame.pad"
-to   = "hammer"
-at   = ["0.4 m", "0.3 m", "0.01 m"]
-)";
+const std::string hammer =
+    rigid_body("hammer", "0.05 kg", "['1e-5 kg m^2', '1e-5 kg m^2', '1e-5 kg m^2']", "['0.4 m', '0.3 m', '0.01 m']") +
+    joint("bolt", "rigid", "frame.pad", "hammer", "['0.4 m', '0.3 m', '0.01 m']");
 
 /// On a stiff spring.
-const std::string tool = R"([body.tool]
-type  = "slider"
-axis  = [0, 0, -1]
-mass  = "0.05 kg"
-guide = "frame.pad"
-[element.mount]
-type      = "spring-damper"
-from      = "tool"
-to        = "frame.pad"
-stiffness = "1e8 N/m"
-damping   = "500 N s/m"
-)";
+const std::string tool =
+    slider_body("tool", "0.05 kg", "[0, 0, -1]", {{"guide", "frame.pad"}}) +
+    element("mount", "spring-damper",
+            {{"from", "tool"}, {"to", "frame.pad"}, {"stiffness", "1e8 N/m"}, {"damping", "500 N s/m"}});
 
 struct Way
 {
@@ -141,7 +109,7 @@ TEST_P(Shock, IsToldWithTheErrorThatManyMoreModesShow)
 INSTANTIATE_TEST_SUITE_P(Ways, Shock,
                          ::testing::Values(Way{"OnThePad", load_on("frame.pad")},
                                            Way{"ByAJoint", hammer + load_on("hammer")},
-                                           Way{"ByASpring", tool + load_on("tool", "")}),
+                                           Way{"ByASpring", tool + load_on("tool", {})}),
                          [](const auto &way) { return way.param.name; });
 
 } // namespace

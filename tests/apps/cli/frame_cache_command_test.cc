@@ -59,28 +59,19 @@ TEST_F(FrameCacheCommand, MovesAsTheFrameItIsFrom)
 {
   const Answer reduced = shell(called + "run " + scene + folder.option());
   ASSERT_EQ(reduced.exit_code, 0) << reduced.text;
-  const auto final_x = [&]
-  {
-    const std::string summary = read(folder.results() / "summary.json");
-    const auto        at      = summary.find("\"final\"");
-    return std::stod(summary.substr(summary.find(':', at) + 1));
-  };
-  const double x     = final_x();
-  const Answer whole = shell(called + "run " + scene + folder.option() + "--set reduction.method='\"none\"'");
+  const auto   final_x = [&] { return json_number(read(folder.results() / "summary.json"), {"signals", "final"}); };
+  const double x       = final_x();
+  const Answer whole   = shell(called + "run " + scene + folder.option() + "--set reduction.method='\"none\"'");
   ASSERT_EQ(whole.exit_code, 0) << whole.text;
   EXPECT_NEAR(x, final_x(), 1e-4 * std::abs(x)); // the cached one has a damping of 1e-4/s for 0.1 s
 }
 
 TEST_F(FrameCacheCommand, ExplainsHitAndMiss)
 {
-  const Answer hit = shell(called + "reduce --explain " + scene);
-  EXPECT_EQ(hit.exit_code, 0) << hit.text;
-  EXPECT_TRUE(hit.says("is in the cache and would be used")) << hit.text;
+  expect_answer(shell(called + "reduce --explain " + scene), 0, {"is in the cache and would be used"});
 
-  const Answer miss = shell(called + "reduce --explain " + scene + " --set reduction.modes=1");
-  EXPECT_EQ(miss.exit_code, 0) << miss.text;
-  EXPECT_TRUE(miss.says("is not in the cache")) << miss.text;
-  EXPECT_TRUE(miss.says("reduction.modes: kept 2, asked 1")) << miss.text;
+  expect_answer(shell(called + "reduce --explain " + scene + " --set reduction.modes=1"), 0,
+                {"is not in the cache", "reduction.modes: kept 2, asked 1"});
 
   std::filesystem::resize_file(kept(), 1000);
   const Answer damaged = shell(called + "reduce --explain " + scene);
@@ -90,19 +81,12 @@ TEST_F(FrameCacheCommand, ExplainsHitAndMiss)
 TEST_F(FrameCacheCommand, NamesChoicesAsScenesDo)
 {
   folder.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n");
-  const std::string block  = folder.file("block.toml", R"(name = "block"
-[frame]
-cad  = "block.geo"
-unit = "1 m"
-mesh = { size = "0.5 m" }
-[frame.surface.top]
-plane = { normal = [0, 0, 1], through = [0, 0, 1] }
-[frame.interface.top]
-surface = "top"
-[reduction]
-modes = 2
-)");
-  const auto        origin = apps::frame_origin(apps::read_scene((folder / "block.toml").string()));
+  const std::string block = folder.file(
+      "block.toml", "name = 'block'\n" +
+                        table("frame", {{"cad", "block.geo"}, {"unit", "1 m"}, {"mesh", "{ size = '0.5 m' }"}}) +
+                        plane_surface("top", "[0, 0, 1]", "[0, 0, 1]") +
+                        table("frame.interface.top", {{"surface", "top"}}) + table("reduction", {{"modes", "2"}}));
+  const auto origin = apps::frame_origin(apps::read_scene((folder / "block.toml").string()));
   ASSERT_EQ(coupling::keep_in_cache(test::chain_frame(), origin), "");
   const Answer miss = shell(called + "reduce --explain " + block +
                             " --set frame.interface.top.coupling='\"average\"' "
@@ -116,10 +100,7 @@ modes = 2
 TEST_F(FrameCacheCommand, ListsAndPrunesWhatIsAskedForOnly)
 {
   const Answer list = shell(called + "reduce --list");
-  EXPECT_EQ(list.exit_code, 0) << list.text;
-  EXPECT_TRUE(list.says("1 file")) << list.text;
-  EXPECT_TRUE(list.says("3 -> 1 + 2 modes")) << list.text;
-  EXPECT_TRUE(list.says("chain.toml")) << list.text;
+  expect_answer(list, 0, {"1 file", "3 -> 1 + 2 modes", "chain.toml"});
 
   std::ofstream(cache + "/notes.txt") << "of the user";
   for (const std::string option : {"", " --older-than '1 d'", " --larger-than '1 GB'"})
@@ -159,11 +140,7 @@ TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
 TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
 {
   const auto says = [&](const std::string &arguments, const std::string &words)
-  {
-    const Answer answer = shell(called + arguments);
-    EXPECT_EQ(answer.exit_code, 2) << answer.text;
-    EXPECT_TRUE(answer.says(words)) << answer.text;
-  };
+  { expect_answer(shell(called + arguments), 2, {words}); };
   says("reduce", "names no scene");
   says("reduce --all", "add it");
   says("reduce --check", "--list or --prune");
@@ -175,10 +152,8 @@ TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
 
 TEST_F(FrameCacheCommand, WithoutAFolderIsEmpty)
 {
-  const Answer answer =
-      shell("GESTELL_CACHE='" + cache + "/absent' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --list");
-  EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_TRUE(answer.says("0 files")) << answer.text;
+  expect_answer(shell("GESTELL_CACHE='" + cache + "/absent' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --list"), 0,
+                {"0 files"});
 }
 
 } // namespace

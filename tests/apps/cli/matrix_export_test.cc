@@ -3,8 +3,8 @@
 #include "apps/cli/export_frame.h"
 #include "apps/scene/build/build_machine.h"
 #include "coupling/reduction/dense_frame.h"
-#include "tests/support/scene_text.h"
 #include "tests/support/cached_frame.h"
+#include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
 
@@ -33,9 +33,7 @@ coupling::ReducedFrame frame_with_picture()
   return frame;
 }
 
-class MatrixExport : public ::testing::TestWithParam<const char *>
-{
-};
+using MatrixExport = ::testing::TestWithParam<const char *>;
 
 TEST_P(MatrixExport, ComesBackAsTheSameFrame)
 {

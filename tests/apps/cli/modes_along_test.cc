@@ -3,7 +3,8 @@
 #include "apps/session/modes_along.h"
 #include "coupling/machine/configuration/loop_closure.h"
 #include "fem/values/two_pi.h"
-#include "tests/support/scene_text.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +26,7 @@ AlongResult along(const apps::Scene &scene, const ModesOptions &options)
 
 AlongResult along(const std::string &text, const ModesOptions &options)
 {
-  const test::SceneFolder folder;
-  return along(apps::read_scene(folder.write("scene.toml", text)), options);
+  return along(test::scene_of(text), options);
 }
 
 apps::Scene press(const std::vector<std::string> &overrides = {})
@@ -47,15 +47,7 @@ ModesOptions of(const std::string &coordinate, int positions = 73, const std::st
 
 std::string complaint(const std::string &text, const ModesOptions &options)
 {
-  try
-  {
-    along(text, options);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return refusal([&] { along(text, options); });
 }
 
 void expect_words(const std::string &said, const std::string &words)
@@ -66,28 +58,11 @@ void expect_words(const std::string &said, const std::string &words)
 // Crank J on a torsional spring c, ideal rod without mass, slide m.
 constexpr double r = 0.1, l = 0.4, J = 2., m = 200., c = 8000.;
 
-const std::string slider_crank = R"(
-[body.crank]
-type = "rotor"
-axis = [0, -1, 0]
-inertia = 2
-[body.slide]
-type = "slider"
-axis = [1, 0, 0]
-mass = 200
-position = [0.5, 0, 0]
-[joint.rod]
-type = "distance"
-from = "crank"
-at_from = [0.1, 0, 0]
-to = "slide"
-at_to = [0.5, 0, 0]
-[element.drive]
-type = "spring-damper"
-from = "crank"
-stiffness = 8000
-damping = 20
-)";
+const std::string slider_crank =
+    rotor_body("crank", "2", "[0, -1, 0]") + slider_body("slide", "200", "[1, 0, 0]", {{"position", "[0.5, 0, 0]"}}) +
+    joint("rod", "distance",
+          {{"from", "crank"}, {"at_from", "[0.1, 0, 0]"}, {"to", "slide"}, {"at_to", "[0.5, 0, 0]"}}) +
+    element("drive", "spring-damper", {{"from", "crank"}, {"stiffness", "8000"}, {"damping", "20"}});
 
 /// dx/dphi of x = r cos phi + sqrt(l^2 - r^2 sin^2 phi)
 double transmission(double phi)
@@ -104,16 +79,8 @@ double reduced_inertia(double phi)
 /// Beside the slider-crank an oscillator of 8.5 Hz, which the crank's passes on its way between 10.1 and 7 Hz.
 std::string with_oscillator(double coupling)
 {
-  std::string text = slider_crank + R"(
-[body.other]
-type = "slider"
-axis = [1, 0, 0]
-mass = 1
-[element.spring]
-type = "spring-damper"
-from = "other"
-stiffness = 2852.3
-)";
+  std::string text = slider_crank + slider_body("other", "1", "[1, 0, 0]") +
+                     element("spring", "spring-damper", {{"from", "other"}, {"stiffness", "2852.3"}});
   if (coupling > 0.)
     text += "[element.coupling]\ntype = \"spring-damper\"\nfrom = \"slide\"\nto = \"other\"\nstiffness = " +
             std::to_string(coupling) + "\n";
@@ -121,31 +88,14 @@ stiffness = 2852.3
 }
 
 // A load m on a rope of 2 m from a trolley.
-const std::string load_on_rope = R"(
-gravity = [0, 0, -9.81]
-[body.trolley]
-type = "slider"
-axis = [1, 0, 0]
-mass = 50
-position = [0, 0, 5]
-[body.load]
-type = "point"
-mass = 20
-position = [0, 0, 3]
-)";
-const std::string ideal_rope   = "[joint.rope]\ntype = \"distance\"\nfrom = \"trolley\"\nto = \"load\"\n";
+const std::string load_on_rope = "gravity = [0, 0, -9.81]\n" +
+                                 slider_body("trolley", "50", "[1, 0, 0]", {{"position", "[0, 0, 5]"}}) +
+                                 point_body("load", "20", "[0, 0, 3]");
+const std::string ideal_rope = "[joint.rope]\ntype = \"distance\"\nfrom = \"trolley\"\nto = \"load\"\n";
 // The rope stretches by 20 g / 9810 = 0.02 m; without load it is 2 m long.
-const std::string elastic_rope = R"(
-[measure.rope]
-type = "distance"
-from = "trolley"
-to = "load"
-[element.spring]
-type = "spring-damper"
-on = "rope"
-stiffness = 9810
-rest = 2
-)";
+const std::string elastic_rope =
+    measure("rope", "distance", {{"from", "trolley"}, {"to", "load"}}) +
+    element("spring", "spring-damper", {{"on", "rope"}, {"stiffness", "9810"}, {"rest", "2"}});
 
 } // namespace
 
@@ -172,21 +122,13 @@ TEST(ModesAlong, SliderCrankOnATorsionalSpringHasItsReducedMass)
 
 TEST(ModesAlong, ADrivenCrankHeldLeavesTheElasticRod)
 {
-  const std::string elastic = slider_crank.substr(0, slider_crank.find("[joint.rod]")) + R"(
-[measure.span]
-type = "distance"
-from = "crank"
-at_from = [0.1, 0, 0]
-to = "slide"
-at_to = [0.5, 0, 0]
-[element.rod]
-type = "spring-damper"
-on = "span"
-stiffness = 1e7
-rest = 0.4
-)";
-  ModesOptions      options = of("crank.angle", 25);
-  options.hold              = {"crank"};
+  const std::string elastic =
+      slider_crank.substr(0, slider_crank.find("[joint.rod]")) +
+      measure("span", "distance",
+              {{"from", "crank"}, {"at_from", "[0.1, 0, 0]"}, {"to", "slide"}, {"at_to", "[0.5, 0, 0]"}}) +
+      element("rod", "spring-damper", {{"on", "span"}, {"stiffness", "1e7"}, {"rest", "0.4"}});
+  ModesOptions options = of("crank.angle", 25);
+  options.hold         = {"crank"};
   for (const auto &at : along(elastic, options).modes.positions)
   {
     ASSERT_EQ(at.modes.size(), 1u);

@@ -22,14 +22,6 @@ std::string ranks(int n)
          std::to_string(n) + " ";
 }
 
-int count(const std::string &text, const std::string &part)
-{
-  int n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
-    ++n;
-  return n;
-}
-
 /// Calls the program with a cache that lasts as long as the folder.
 Answer call(const Folder &folder, const std::string &launcher, const std::string &arguments)
 {
@@ -41,32 +33,14 @@ Answer call(const Folder &folder, const std::string &launcher, const std::string
 std::string clamped(const Folder &folder, const std::string &script, const std::string &size, const std::string &height)
 {
   folder.file("frame.geo", "SetFactory(\"OpenCASCADE\");\n" + script);
-  return folder.file("scene.toml", R"(name = "clamped"
-[frame]
-cad = "frame.geo"
-unit = "1 m"
-material = "steel"
-damping = { ratio = 0.01 }
-mesh = { size = ")" + size + R"(" }
-[frame.surface.wall]
-plane = { normal = [-1, 0, 0], through = [0, 0, 0] }
-[frame.surface.pad]
-plane = { normal = [0, 0, 1], through = [0, 0, ")" +
-                                       height + R"("] }
-[frame.support.wall]
-surfaces = ["wall"]
-clamped = true
-[frame.interface.pad]
-surfaces = ["pad"]
-[reduction]
-method = "craig-bampton"
-modes = 24
-[run]
-step = "0.1 ms"
-end = "1 ms"
-[output.signals]
-z = "frame.pad.uz"
-)");
+  return folder.file("scene.toml", "name = 'clamped'\n" +
+                                       cad_frame("frame.geo", size, {{"damping", "{ ratio = 0.01 }"}}) +
+                                       plane_surface("wall", "[-1, 0, 0]", "[0, 0, 0]") +
+                                       plane_surface("pad", "[0, 0, 1]", "[0, 0, '" + height + "']") +
+                                       table("frame.support.wall", {{"surfaces", "['wall']"}, {"clamped", "true"}}) +
+                                       table("frame.interface.pad", {{"surfaces", "['pad']"}}) +
+                                       table("reduction", {{"method", "craig-bampton"}, {"modes", "24"}}) +
+                                       steps("0.1 ms", "1 ms") + "[output.signals]\nz = 'frame.pad.uz'\n");
 }
 
 /// A plate of 16 mm with a pad on it.
@@ -240,8 +214,7 @@ TEST(Mpi, AnotherLauncherIsRefused)
   const std::string other  = "PMI_SIZE=2 PMI_RANK=";
   const Answer      first  = call(folder, other + "0 ", "check " + scene("press.toml"));
   const Answer      second = call(folder, other + "1 ", "check " + scene("press.toml"));
-  EXPECT_EQ(first.exit_code, 2);
-  EXPECT_TRUE(first.says("belongs to another MPI")) << first.text;
+  expect_answer(first, 2, {"belongs to another MPI"});
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_FALSE(second.says("gestell")) << second.text;
 }

@@ -3,6 +3,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/read/frame/matrix_units.h"
 #include "coupling/reduction/dense_frame.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
@@ -37,15 +38,7 @@ protected:
   std::string complaint(const std::string &nodes, const std::string &more = "nodes = \"nodes.csv\"\n",
                         const std::string &of = matrices) const
   {
-    try
-    {
-      read(nodes, more, of);
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return error.what();
-    }
-    return "no complaint";
+    return tests::refusal([&] { read(nodes, more, of); });
   }
   static void expect(const std::string &text, const std::vector<std::string> &words)
   {

@@ -16,20 +16,6 @@ namespace
 // Quick to make and reduce: some 60 000 coordinates.
 const std::string coarse = " --set frame.mesh.size='\"150 mm\"' --set frame.mesh.'\"crown bearing *\"'='\"75 mm\"' ";
 
-/// "key": number behind the first occurrence of every name of the path, in order.
-double number(const std::string &json, const std::vector<std::string> &path)
-{
-  std::size_t at = 0;
-  for (const std::string &name : path)
-  {
-    at = json.find('"' + name + '"', at);
-    if (at == std::string::npos)
-      throw std::invalid_argument("no " + name);
-    at += name.size() + 2;
-  }
-  return std::stod(json.substr(json.find(':', at) + 1));
-}
-
 std::string run_press(const Folder &folder, const std::string &more = "")
 {
   const Answer answer = gestell("run " + scene("press.toml") + folder.option() + coarse + more);
@@ -45,14 +31,14 @@ TEST(Press, RunsFromStepFileToTheForceInTheRod)
     EXPECT_TRUE(std::filesystem::exists(folder.results() / name)) << name;
 
   // The tool force peaks at k_s L_s h; the rod adds the dynamic excess and carries it with the counterbalance.
-  EXPECT_NEAR(number(summary, {"signals", "F_u", "max"}), 1.024e6, 1.);
-  EXPECT_GT(number(summary, {"signals", "F_P", "max"}), 1.024e6);
-  EXPECT_LT(number(summary, {"signals", "F_P", "max"}), 1.15e6);
-  EXPECT_LT(number(summary, {"signals", "F_P", "min"}), -3e5);
+  EXPECT_NEAR(json_number(summary, {"signals", "F_u", "max"}), 1.024e6, 1.);
+  EXPECT_GT(json_number(summary, {"signals", "F_P", "max"}), 1.024e6);
+  EXPECT_LT(json_number(summary, {"signals", "F_P", "max"}), 1.15e6);
+  EXPECT_LT(json_number(summary, {"signals", "F_P", "min"}), -3e5);
   // Columns are pulled during the stroke and pushed after the shock.
-  EXPECT_GT(number(summary, {"signals", "F_col", "max"}), 8e5);
-  EXPECT_LT(number(summary, {"signals", "F_col", "min"}), -3e5);
-  EXPECT_LT(number(summary, {"energy", "residual"}), 1e-3 * number(summary, {"energy", "input"}));
+  EXPECT_GT(json_number(summary, {"signals", "F_col", "max"}), 8e5);
+  EXPECT_LT(json_number(summary, {"signals", "F_col", "min"}), -3e5);
+  EXPECT_LT(json_number(summary, {"energy", "residual"}), 1e-3 * json_number(summary, {"energy", "input"}));
 }
 
 TEST(Press, StandsWithItsWeightOnTheFoundationWhenItStarts)
@@ -72,7 +58,7 @@ TEST(Press, StandsWithItsWeightOnTheFoundationWhenItStarts)
   };
   // Vertical balance of the whole press: F_F = (frame + drive + die) g + what the slide's motion hands on: F_P - F_C -
   // F_S acts on the frame upwards with F_P, downwards with the others; the slide: m3 x3'' = m3 g + F_P - F_C - F_S.
-  const double frame = number(read(folder.results() / "summary.json"), {"model", "frame_mass"});
+  const double frame = json_number(read(folder.results() / "summary.json"), {"model", "frame_mass"});
   const double phi = 2.0943951023931953, r = 0.08, l = 0.8, omega = 3.141592653589793;
   const double w  = std::sqrt(l * l - std::pow(r * std::sin(phi), 2));
   const double u2 = r * std::cos(phi) - r * r * std::cos(2. * phi) / w -
@@ -99,20 +85,19 @@ TEST(Press, SecondRunFindsTheReducedFrame)
 TEST(Press, FrameAThousandTimesStifferChangesTheReboundPeak)
 {
   const Folder soft("press_soft"), stiff("press_stiff");
-  const double F_soft = number(run_press(soft), {"signals", "F_P", "min"});
+  const double F_soft = json_number(run_press(soft), {"signals", "F_P", "min"});
   const double F_stiff =
-      number(run_press(stiff, "--set frame.material='{ E = \"210000 GPa\", nu = 0.3, rho = \"7850 kg/m^3\" }' "),
-             {"signals", "F_P", "min"});
+      json_number(run_press(stiff, "--set frame.material='{ E = \"210000 GPa\", nu = 0.3, rho = \"7850 kg/m^3\" }' "),
+                  {"signals", "F_P", "min"});
   EXPECT_GT(std::abs(F_stiff - F_soft), 0.02 * std::abs(F_soft));
 }
 
 TEST(Press, FrameThatNothingHoldsUpIsNamedAndLeavesNothing)
 {
   const Folder folder("press_loose");
-  const Answer answer = gestell("run " + scene("press.toml") + folder.option() + coarse +
-                                "--set frame.support.feet.foundation.stiffness='[\"c_F\", \"c_F\", 0]'");
-  EXPECT_EQ(answer.exit_code, 2) << answer.text;
-  EXPECT_TRUE(answer.says("nothing holds the motion of frame.")) << answer.text;
+  expect_answer(gestell("run " + scene("press.toml") + folder.option() + coarse +
+                        "--set frame.support.feet.foundation.stiffness='[\"c_F\", \"c_F\", 0]'"),
+                2, {"nothing holds the motion of frame."});
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 

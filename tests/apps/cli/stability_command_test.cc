@@ -36,11 +36,9 @@ TEST(StabilityCommand, WritesMapsOfAllMethods)
 TEST(StabilityCommand, LaysTheModesOfASceneOverTheMaps)
 {
   const Folder folder("stability_scene");
-  const Answer answer = gestell("stability " + scene("press_minimal.toml") +
-                                " --set run.method=bdf --set run.order=3 --set run.step=1e-3" + folder.option());
-  ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  EXPECT_TRUE(answer.says("BDF 3")) << answer.text;
-  EXPECT_TRUE(answer.says("average acceleration"));
+  expect_answer(gestell("stability " + scene("press_minimal.toml") +
+                        " --set run.method=bdf --set run.order=3 --set run.step=1e-3" + folder.option()),
+                0, {"BDF 3", "average acceleration"});
   const CsvTable modes((folder.results() / "stability_modes.csv").string());
   ASSERT_GT(modes.rows(), 0);
   for (int i = 0; i < modes.rows(); ++i)
@@ -58,10 +56,7 @@ TEST(StabilityGuard, StopsARunThatWouldGrowUnlessItIsForced)
                           " --set run.method=bdf --set run.order=3 --set run.step=1.3e-3 --set run.end=0.02" +
                           folder.option();
   const Answer refused = gestell(run); // 123 Hz with 3.7 %: omega h = 1
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(refused.says("unstable")) << refused.text;
-  EXPECT_TRUE(refused.says("Hz, damping ratio")) << refused.text;
-  EXPECT_TRUE(refused.says("run.force_unstable")) << refused.text;
+  expect_answer(refused, 2, {"unstable", "Hz, damping ratio", "run.force_unstable"});
 
   const Answer forced = gestell(run + "--set run.force_unstable=true");
   EXPECT_NE(forced.exit_code, 2) << forced.text;

@@ -1,6 +1,7 @@
 // From a CAD file to the largest stress, through the program.
 
 #include "tests/support/program.h"
+#include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -15,53 +16,19 @@ namespace
 constexpr double length = 2., width = 0.2, height = 0.25, force = 2e4;
 
 /// A bar along x, clamped at its end, whose tip is pressed down by a force spread over its end face.
-std::string bar(const std::string &stress, const std::string &start = "rule = \"static\"")
+std::string bar(const std::string &stress, const std::string &begin = "rule = 'static'")
 {
-  return R"(name = "bar"
-[frame]
-cad      = "bar.geo"
-unit     = "1 m"
-mesh     = { size = "0.1 m" }
-material = { E = "210 GPa", nu = 0, rho = "7850 kg/m^3" }
-damping  = { ratio = 0.05 }
-[frame.surface.wall]
-plane = { normal = [-1, 0, 0], through = [0, 0, 0] }
-[frame.surface.end]
-plane = { normal = [1, 0, 0], through = [2, 0, 0] }
-[frame.support.wall]
-surface = "wall"
-clamped = true
-[frame.interface.tip]
-surface  = "end"
-coupling = "average"
-[element.load]
-type      = "force"
-from      = "frame.tip"
-direction = [0, 0, -1]
-constant  = "20 kN"
-[start]
-)" + start +
-         R"(
-[run]
-step = "0.1 ms"
-end  = "60 ms"
-[output.signals]
-u = "-frame.tip.uz"
-)" + stress;
-}
-
-/// "key": number behind the first occurrence of every name of the path, in order.
-double number(const std::string &json, const std::vector<std::string> &path)
-{
-  std::size_t at = 0;
-  for (const std::string &name : path)
-  {
-    at = json.find('"' + name + '"', at);
-    if (at == std::string::npos)
-      throw std::invalid_argument("no " + name);
-    at += name.size() + 2;
-  }
-  return std::stod(json.substr(json.find_first_of("0123456789-", at)));
+  return "name = 'bar'\n" +
+         table("frame", {{"cad", "bar.geo"},
+                         {"unit", "1 m"},
+                         {"mesh", "{ size = '0.1 m' }"},
+                         {"material", "{ E = '210 GPa', nu = 0, rho = '7850 kg/m^3' }"},
+                         {"damping", "{ ratio = 0.05 }"}}) +
+         plane_surface("wall", "[-1, 0, 0]", "[0, 0, 0]") + plane_surface("end", "[1, 0, 0]", "[2, 0, 0]") +
+         table("frame.support.wall", {{"surface", "wall"}, {"clamped", "true"}}) +
+         table("frame.interface.tip", {{"surface", "end"}, {"coupling", "average"}}) +
+         element("load", "force", {{"from", "frame.tip"}, {"direction", "[0, 0, -1]"}, {"constant", "20 kN"}}) +
+         start(begin) + steps("0.1 ms", "60 ms") + "[output.signals]\nu = '-frame.tip.uz'\n" + stress;
 }
 
 const std::string solid = "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 2, 0.2, 0.25};";
@@ -95,11 +62,11 @@ TEST(StressRun, OfABarAtRestIsThatOfABeam)
 {
   const Folder      folder("stress_static");
   const std::string summary = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"));
-  const double      x       = number(summary, {"stress", "largest", "at"});
+  const double      x       = json_number(summary, {"stress", "largest", "at"});
   EXPECT_LT(x, 0.2) << "near the wall, but not in its elements";
-  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 0.05 * at_edge(x));
-  EXPECT_LT(number(summary, {"stress", "largest", "disagreement"}), 0.2);
-  EXPECT_NEAR(number(summary, {"stress", "beside_rigid", "von_mises"}), at_edge(0.), 0.15 * at_edge(0.));
+  EXPECT_NEAR(json_number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 0.05 * at_edge(x));
+  EXPECT_LT(json_number(summary, {"stress", "largest", "disagreement"}), 0.2);
+  EXPECT_NEAR(json_number(summary, {"stress", "beside_rigid", "von_mises"}), at_edge(0.), 0.15 * at_edge(0.));
   for (const char *name : {"stress.pvd", "stress/stress_00001.vtp", "charts/stress-1.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder.results() / name)) << name;
   EXPECT_NE(read(folder.results() / "report.html").find("Stress in the frame"), std::string::npos);
@@ -110,11 +77,11 @@ TEST(StressRun, OfHexahedraInBendingIsThatOfABeam)
   // Cubic deflections are beyond quadratic cells, by (h / L)^2 / 12 of the curvature or so: 3e-4 of 16 cells.
   const Folder      folder("stress_hexahedra");
   const std::string summary = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"), bricks);
-  const double      x       = number(summary, {"stress", "largest", "at"});
+  const double      x       = json_number(summary, {"stress", "largest", "at"});
   EXPECT_EQ(x, 0.25) << "two cells from the wall";
-  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 1e-3 * at_edge(x));
-  EXPECT_NEAR(number(summary, {"stress", "largest", "principal"}), at_edge(x), 1e-3 * at_edge(x));
-  EXPECT_LT(number(summary, {"stress", "largest", "disagreement"}), 0.01);
+  EXPECT_NEAR(json_number(summary, {"stress", "largest", "von_mises"}), at_edge(x), 1e-3 * at_edge(x));
+  EXPECT_NEAR(json_number(summary, {"stress", "largest", "principal"}), at_edge(x), 1e-3 * at_edge(x));
+  EXPECT_LT(json_number(summary, {"stress", "largest", "disagreement"}), 0.01);
 }
 
 TEST(StressRun, OfHexahedraUnderTheirWeightIsExact)
@@ -125,9 +92,9 @@ TEST(StressRun, OfHexahedraUnderTheirWeightIsExact)
   std::string  scene = bar("[output.stress]\nat = [\"10 ms\"]\n");
   scene.replace(scene.find("20 kN"), 5, "0 kN");
   const std::string summary = run(folder, "gravity = [10, 0, 0]\n" + scene, bricks);
-  const double      x       = number(summary, {"stress", "largest", "at"});
-  EXPECT_NEAR(number(summary, {"stress", "largest", "von_mises"}), 7850. * 10. * (length - x), 1e-5 * 7850. * 20.);
-  EXPECT_NEAR(number(summary, {"stress", "beside_rigid", "von_mises"}), 7850. * 10. * length, 1e-5 * 7850. * 20.);
+  const double      x       = json_number(summary, {"stress", "largest", "at"});
+  EXPECT_NEAR(json_number(summary, {"stress", "largest", "von_mises"}), 7850. * 10. * (length - x), 1e-5 * 7850. * 20.);
+  EXPECT_NEAR(json_number(summary, {"stress", "beside_rigid", "von_mises"}), 7850. * 10. * length, 1e-5 * 7850. * 20.);
 }
 
 TEST(StressRun, OfASuddenLoadIsTwiceThatOfASlowOneButForDamping)
@@ -135,11 +102,11 @@ TEST(StressRun, OfASuddenLoadIsTwiceThatOfASlowOneButForDamping)
   // One mode, damping ratio 0.05: overshoot 1 + exp(-pi zeta) = 1.85; higher modes bend the root a little more.
   const Folder      folder("stress_sudden");
   const std::string summary = run(folder, bar("[output.stress]\nlargest = [\"stress\", \"u\"]\n", ""));
-  const double      x       = number(summary, {"stress", "largest", "at"});
-  const double      share   = number(summary, {"stress", "largest", "von_mises"}) / at_edge(x);
+  const double      x       = json_number(summary, {"stress", "largest", "at"});
+  const double      share   = json_number(summary, {"stress", "largest", "von_mises"}) / at_edge(x);
   EXPECT_GT(share, 1.7);
   EXPECT_LT(share, 2.3);
-  EXPECT_EQ(number(summary, {"stress", "states"}), 601. + 1.) << "every step, and the peak of u";
+  EXPECT_EQ(json_number(summary, {"stress", "states"}), 601. + 1.) << "every step, and the peak of u";
 }
 
 TEST(StressRun, AWarmStartTakesTheStressesFromTheCache)
@@ -147,7 +114,8 @@ TEST(StressRun, AWarmStartTakesTheStressesFromTheCache)
   const Folder      folder("stress_warm");
   const std::string cold = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"));
   const std::string warm = run(folder, bar("[output.stress]\nat = [\"10 ms\"]\n"));
-  EXPECT_EQ(number(cold, {"stress", "largest", "von_mises"}), number(warm, {"stress", "largest", "von_mises"}));
+  EXPECT_EQ(json_number(cold, {"stress", "largest", "von_mises"}),
+            json_number(warm, {"stress", "largest", "von_mises"}));
 }
 
 TEST(StressRun, AReducedFrameWrittenWithoutStressesIsRefused)
@@ -158,9 +126,7 @@ TEST(StressRun, AReducedFrameWrittenWithoutStressesIsRefused)
   std::string       scene = bar("[output.stress]\n");
   const std::size_t begin = scene.find("cad "), end = scene.find("[element.load]");
   scene.replace(begin, end - begin, "reduced = \"" + (folder.results() / "reduced_frame.h5").string() + "\"\n");
-  const Answer answer = gestell("run " + folder.file("again.toml", scene) + folder.option());
-  EXPECT_EQ(answer.exit_code, 2) << answer.text;
-  EXPECT_TRUE(answer.says("written without stresses")) << answer.text;
+  expect_answer(gestell("run " + folder.file("again.toml", scene) + folder.option()), 2, {"written without stresses"});
 }
 
 } // namespace

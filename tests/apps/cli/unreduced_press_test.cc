@@ -21,13 +21,7 @@ std::pair<double, double> peaks(const std::string &method)
               "--set frame.mesh.size='\"200 mm\"' --set frame.mesh.'\"crown bearing *\"'='\"100 mm\"' ");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   const std::string summary = read(folder.results() / "summary.json");
-  const std::size_t signal  = summary.find("\"F_P\"", summary.find("\"signals\""));
-  const auto        value   = [&](const char *key)
-  {
-    const std::size_t at = summary.find(key, signal);
-    return std::stod(summary.substr(summary.find(':', at) + 1));
-  };
-  return {value("\"min\""), value("\"max\"")};
+  return {json_number(summary, {"signals", "F_P", "min"}), json_number(summary, {"signals", "F_P", "max"})};
 }
 
 TEST(ReducedPress, MeetsThePeaksOfTheUnreducedOneWithinOnePercent)

@@ -13,9 +13,7 @@ namespace
 
 using test::complaint;
 
-class Bodies : public ::testing::TestWithParam<Settings>
-{
-};
+using Bodies = ::testing::TestWithParam<Settings>;
 INSTANTIATE_TEST_SUITE_P(Methods, Bodies, ::testing::Values(fixed, controlled));
 
 // --- rope
@@ -25,21 +23,12 @@ TEST_P(Bodies, OnARopeFlyFreelyWhileItIsSlack)
   // 2 kg pulled by 20 N along the rope, thrown back with 1 m/s: free for 2 m v/F, then half a swing about F/c.
   Settings settings = GetParam();
   settings.push_back("run.energy=true");
-  const SceneRun motion = run(slider(2., "1 s") + R"(F = "rope.force"
-[element.load]
-type     = "force"
-from     = "slide"
-constant = "20 N"
-[element.rope]
-type      = "rope"
-from      = "slide"
-stiffness = "2 kN/m"
-[start]
-v = { slide = "-1 m/s" }
-)",
-                              settings);
-  const double   omega = std::sqrt(2000. / 2.), d = 0.01, R = std::hypot(d, 1. / omega);
-  const double   free = 0.2, taut = 2. * (M_PI - std::acos(d / R)) / omega;
+  const SceneRun motion = run(
+      slider(2., "1 s") + "F = 'rope.force'\n" + element("load", "force", {{"from", "slide"}, {"constant", "20 N"}}) +
+          element("rope", "rope", {{"from", "slide"}, {"stiffness", "2 kN/m"}}) + start("v = { slide = '-1 m/s' }"),
+      settings);
+  const double omega = std::sqrt(2000. / 2.), d = 0.01, R = std::hypot(d, 1. / omega);
+  const double free = 0.2, taut = 2. * (M_PI - std::acos(d / R)) / omega;
   ASSERT_GE(count(motion, "slack"), 3);
   for (int n = 0; n < 3; ++n)
   {
@@ -57,17 +46,12 @@ TEST_P(Bodies, AgainstABallBearIndentAsHertzSays)
 {
   Settings settings = GetParam();
   settings.push_back("run.step=0.5 us");
-  const SceneRun motion = run(slider(0.5, "2 ms") + R"(F = "ball.force"
-[element.ball]
-type      = "stop"
-from      = "slide"
-stiffness = 5e9
-exponent  = 1.5
-[start]
-v = { slide = "2 m/s" }
-)",
-                              settings);
-  const double   c = 5e9, depth = std::pow(2.5 * 0.5 * 0.5 * 4. / c, 1. / 2.5);
+  const SceneRun motion =
+      run(slider(0.5, "2 ms") + "F = 'ball.force'\n" +
+              element("ball", "stop", {{"from", "slide"}, {"stiffness", "5e9"}, {"exponent", "1.5"}}) +
+              start("v = { slide = '2 m/s' }"),
+          settings);
+  const double c = 5e9, depth = std::pow(2.5 * 0.5 * 0.5 * 4. / c, 1. / 2.5);
   EXPECT_NEAR(motion.signal("x").max, depth, 5e-5 * depth); // 560 steps in contact
   EXPECT_NEAR(motion.signal("F").max, c * std::pow(depth, 1.5), 5e-5 * c * std::pow(depth, 1.5));
   // 2 d/v times the integral of dx/sqrt(1 - x^2.5) over (0, 1).
@@ -81,35 +65,27 @@ v = { slide = "2 m/s" }
 TEST_P(Bodies, SlideToAStopOnAStribeckCurve)
 {
   // m v' = -(R + D exp(-v/v_s)): with y = exp(v/v_s), y' = -(R y + D)/(m v_s).
-  const SceneRun motion = run(slider(2., "0.5 s") + R"([element.joint]
-type           = "dry friction"
-from           = "slide"
-kinetic_force  = "4 N"
-static_force   = "6 N"
-stribeck_speed = "0.1 m/s"
-[start]
-v = { slide = "0.6 m/s" }
-)",
-                              GetParam());
-  const double   stop   = 2. * 0.1 / 4. * std::log((std::exp(6.) + 0.5) / 1.5);
+  const SceneRun motion = run(
+      slider(2., "0.5 s") +
+          element(
+              "joint", "dry friction",
+              {{"from", "slide"}, {"kinetic_force", "4 N"}, {"static_force", "6 N"}, {"stribeck_speed", "0.1 m/s"}}) +
+          start("v = { slide = '0.6 m/s' }"),
+      GetParam());
+  const double stop = 2. * 0.1 / 4. * std::log((std::exp(6.) + 0.5) / 1.5);
   EXPECT_NEAR(time_of(motion, "stick"), stop, 1e-7);
   EXPECT_NEAR(motion.signal("v").final, 0., 1e-12);
 }
 
-const std::string bristles = R"(F = "joint.force"
-[element.load]
-type     = "force"
-from     = "slide"
-constant = "3 N"
-[element.joint]
-type              = "lugre friction"
-from              = "slide"
-kinetic_force     = "4 N"
-static_force      = "6 N"
-stribeck_speed    = "0.01 m/s"
-bristle_stiffness = "100 N/mm"
-bristle_damping   = "400 N s/m"
-)";
+const std::string bristles = "F = 'joint.force'\n" +
+                             element("load", "force", {{"from", "slide"}, {"constant", "3 N"}}) +
+                             element("joint", "lugre friction",
+                                     {{"from", "slide"},
+                                      {"kinetic_force", "4 N"},
+                                      {"static_force", "6 N"},
+                                      {"stribeck_speed", "0.01 m/s"},
+                                      {"bristle_stiffness", "100 N/mm"},
+                                      {"bristle_damping", "400 N s/m"}});
 
 TEST_P(Bodies, HeldByBristlesGiveWayLikeASpring)
 {
@@ -143,16 +119,14 @@ TEST_P(Bodies, DrawASheetAsFarAsTheirEnergyGoesAndAreThrownBackByItsElasticPart)
 {
   Settings settings = GetParam();
   settings.push_back("run.step=2 us");
-  const SceneRun motion = run(slider(50., "60 ms") + R"([element.sheet]
-type       = "drawing force"
-from       = "slide"
-force      = "20 kN"
-stiffness  = "40 kN/mm"
-contact_at = "5 mm"
-depth      = "30 mm"
-[start]
-v = { slide = "2 m/s" }
-)",
+  const SceneRun motion = run(slider(50., "60 ms") +
+                                  element("sheet", "drawing force",
+                                          {{"from", "slide"},
+                                           {"force", "20 kN"},
+                                           {"stiffness", "40 kN/mm"},
+                                           {"contact_at", "5 mm"},
+                                           {"depth", "30 mm"}}) +
+                                  start("v = { slide = '2 m/s' }"),
                               settings);
   const double   rise = 0.5e-3, drawn = (100. - 0.5 * 2e4 * rise) / 2e4;
   EXPECT_NEAR(motion.signal("x").max, 5e-3 + rise + drawn, 1e-8);
@@ -167,20 +141,17 @@ TEST_P(Bodies, AgainstEnclosedGasTurnBackWhereTheirEnergyIsSpent)
 {
   Settings settings = GetParam();
   settings.push_back("run.step=10 us");
-  const SceneRun motion = run(slider(2., "60 ms") + R"(P = "gas.pressure"
-[element.gas]
-type             = "gas force"
-from             = "slide"
-side             = "below"
-area             = "100 cm^2"
-clearance_volume = "50 cm^3"
-dead_centre_at   = "100 mm"
-initial_pressure = "1 bar"
-back_pressure    = "1 bar"
-exponent         = 1.4
-[start]
-v = { slide = "8 m/s" }
-)",
+  const SceneRun motion = run(slider(2., "60 ms") + "P = 'gas.pressure'\n" +
+                                  element("gas", "gas force",
+                                          {{"from", "slide"},
+                                           {"side", "below"},
+                                           {"area", "100 cm^2"},
+                                           {"clearance_volume", "50 cm^3"},
+                                           {"dead_centre_at", "100 mm"},
+                                           {"initial_pressure", "1 bar"},
+                                           {"back_pressure", "1 bar"},
+                                           {"exponent", "1.4"}}) +
+                                  start("v = { slide = '8 m/s' }"),
                               settings);
   const double   V_0 = 0.00105, K = 1e5 * std::pow(V_0, 1.4);
   const auto energy = [&](double V) { return K / 0.4 * (std::pow(V, -0.4) - std::pow(V_0, -0.4)) + 1e5 * (V - V_0); };
@@ -194,19 +165,16 @@ v = { slide = "8 m/s" }
 
 TEST(GasForce, RefusesWhatMakesNoSense)
 {
-  const std::string scene = slider(2., "60 ms") + R"([element.gas]
-type              = "gas force"
-from              = "slide"
-area              = "100 cm^2"
-clearance_volume  = "50 cm^3"
-suction_pressure  = "1 bar"
-delivery_pressure = "6 bar"
-)";
+  const std::string scene = slider(2., "60 ms") + element("gas", "gas force",
+                                                          {{"from", "slide"},
+                                                           {"area", "100 cm^2"},
+                                                           {"clearance_volume", "50 cm^3"},
+                                                           {"suction_pressure", "1 bar"},
+                                                           {"delivery_pressure", "6 bar"}});
   EXPECT_EQ(complaint(scene), "");
-  EXPECT_NE(complaint(scene, {"element.gas.delivery_pressure=0.5 bar"}).find("above the suction pressure"),
-            std::string::npos);
-  EXPECT_NE(complaint(scene, {"element.gas.area=1 m"}).find("needs an area"), std::string::npos);
-  EXPECT_NE(complaint(scene, {"element.gas.clearance_volume=1 m^2"}).find("volume"), std::string::npos);
+  expect_complaint(scene, "above the suction pressure", {"element.gas.delivery_pressure=0.5 bar"});
+  expect_complaint(scene, "needs an area", {"element.gas.area=1 m"});
+  expect_complaint(scene, "volume", {"element.gas.clearance_volume=1 m^2"});
 }
 
 } // namespace

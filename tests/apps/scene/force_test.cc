@@ -1,7 +1,6 @@
 // The element "force": external loads from the scene to the motion.
 
-#include "tests/support/scene_text.h"
-#include "tests/support/scene_run.h"
+#include "tests/support/scene_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -12,47 +11,23 @@ namespace gestell::tests
 namespace
 {
 
-using test::complaint;
+using test::with;
 
 /// Two sliders of 2 kg and 5 kg that nothing holds, and a rotor; a force between the sliders, a torque on the rotor.
-const std::string scene = R"([body.left]
-type = "slider"
-axis = [1, 0, 0]
-mass = 2
-[body.right]
-type = "slider"
-axis = [1, 0, 0]
-mass = 5
-[body.wheel]
-type    = "rotor"
-axis    = [0, 0, 1]
-inertia = 3
-[element.push]
-type      = "force"
-from      = "left"
-to        = "right"
-constant  = "4 N"
-harmonics = [{ amplitude = "30 N", frequency = "5 Hz", phase = "50 deg" }, { amplitude = 7, frequency = 2 }]
-[element.drive]
-type      = "force"
-from      = "wheel"
-harmonics = [{ amplitude = "9 N m", frequency = "1 Hz", phase = "90 deg" }]
-[run]
-step = "0.1 ms"
-end  = "1 s"
-[output.signals]
-left   = "left.displacement"
-right  = "right.displacement"
-wheel  = "wheel.angle"
-F      = "push.force"
-M      = "drive.torque"
-)";
-
-SceneRun run()
-{
-  const test::SceneFolder folder;
-  return SceneRun(folder.write("scene.toml", scene));
-}
+const std::string scene =
+    slider_body("left", "2", "[1, 0, 0]") + slider_body("right", "5", "[1, 0, 0]") +
+    rotor_body("wheel", "3", "[0, 0, 1]") +
+    element("push", "force",
+            {{"from", "left"},
+             {"to", "right"},
+             {"constant", "4 N"},
+             {"harmonics",
+              "[{ amplitude = '30 N', frequency = '5 Hz', phase = '50 deg' }, { amplitude = 7, frequency = 2 }]"}}) +
+    element("drive", "force",
+            {{"from", "wheel"}, {"harmonics", "[{ amplitude = '9 N m', frequency = '1 Hz', phase = '90 deg' }]"}}) +
+    steps("0.1 ms", "1 s") +
+    signals("left = 'left.displacement', right = 'right.displacement', wheel = 'wheel.angle', F = 'push.force', M = "
+            "'drive.torque'");
 
 /// Twice integrated from rest:  A sin(w t + p)  ->  A/w^2 (sin p + w t cos p - sin(w t + p)).
 double twice(double A, double f, double p, double t)
@@ -63,7 +38,7 @@ double twice(double A, double f, double p, double t)
 
 TEST(ForceElement, MovesFreeBodiesAsNewtonSays)
 {
-  const SceneRun motion = run();
+  const SceneRun motion = run(scene);
   const double   p      = 50. * M_PI / 180.;
   for (const std::size_t row : {1000u, 4321u, 10000u})
   {
@@ -77,7 +52,7 @@ TEST(ForceElement, MovesFreeBodiesAsNewtonSays)
 
 TEST(ForceElement, IsReadAsASignal)
 {
-  const SceneRun motion = run();
+  const SceneRun motion = run(scene);
   for (const std::size_t row : {0u, 777u, 10000u})
   {
     const double t = motion.at(row, 0);
@@ -91,34 +66,22 @@ TEST(ForceElement, IsReadAsASignal)
 
 TEST(ForceElement, KeepsTheEnergyBalance)
 {
-  const SceneRun motion = run();
+  const SceneRun motion = run(scene);
   EXPECT_GT(motion.result.energy.input, 1.);
   EXPECT_LT(motion.result.energy.residual, 1e-4 * motion.result.energy.input);
 }
 
-std::string without(const std::string &piece, const std::string &replacement)
-{
-  std::string text = scene;
-  return text.replace(text.find(piece), piece.size(), replacement);
-}
-
 TEST(ForceElement, RefusesWhatMakesNoSense)
 {
-  EXPECT_NE(complaint(without("frequency = \"5 Hz\"", "frequency = 0")).find("element.push.harmonics[1].frequency"),
-            std::string::npos);
-  EXPECT_NE(complaint(without("frequency = \"5 Hz\"", "frequency = \"5 rad/s\"")).find("needs a frequency"),
-            std::string::npos);
-  EXPECT_NE(complaint(without("amplitude = \"9 N m\"", "amplitude = \"9 N\"")).find("needs a torque"),
-            std::string::npos);
-  EXPECT_NE(complaint(without("amplitude = 7", "amplitud = 7")).find("'amplitude' is missing"), std::string::npos);
-  EXPECT_NE(complaint(without("amplitude = 7,", "amplitude = 7, delay = 3,")).find("unknown key 'delay'"),
-            std::string::npos);
-  EXPECT_NE(complaint(without("harmonics = [{ amplitude = \"9 N m\", frequency = \"1 Hz\", phase = \"90 deg\" }]", ""))
-                .find("needs 'constant' or 'harmonics'"),
-            std::string::npos);
-  EXPECT_NE(complaint(without("[{ amplitude = \"9 N m\", frequency = \"1 Hz\", phase = \"90 deg\" }]", "3"))
-                .find("needs an array of tables"),
-            std::string::npos);
+  expect_complaint(with(scene, "frequency = \"5 Hz\"", "frequency = 0"), "element.push.harmonics[1].frequency");
+  expect_complaint(with(scene, "frequency = \"5 Hz\"", "frequency = \"5 rad/s\""), "needs a frequency");
+  expect_complaint(with(scene, "amplitude = \"9 N m\"", "amplitude = \"9 N\""), "needs a torque");
+  expect_complaint(with(scene, "amplitude = 7", "amplitud = 7"), "'amplitude' is missing");
+  expect_complaint(with(scene, "amplitude = 7,", "amplitude = 7, delay = 3,"), "unknown key 'delay'");
+  expect_complaint(with(scene, "harmonics = [{ amplitude = \"9 N m\", frequency = \"1 Hz\", phase = \"90 deg\" }]", ""),
+                   "needs 'constant' or 'harmonics'");
+  expect_complaint(with(scene, "[{ amplitude = \"9 N m\", frequency = \"1 Hz\", phase = \"90 deg\" }]", "3"),
+                   "needs an array of tables");
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "apps/scene/build/build_machine.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace
 
 TEST(SceneFrame, MassesMaterialsAndPointsBecomeTheSpecification)
 {
-  const SceneFolder folder;
-  folder.write("frame.step", "ISO-10303-21;");
   const auto text =
       cad_scene("[frame.cut", "[frame.materials]\n\"crown *\" = \"cast iron\"\n"
                               "[frame.mass.motor]\nmass = \"80 kg\"\non = \"frame.crown\"\n"
@@ -25,7 +24,7 @@ TEST(SceneFrame, MassesMaterialsAndPointsBecomeTheSpecification)
                               "[frame.mass.weight]\nmass = 30\nsurface = \"feet\"\ncoupling = \"average\"\n"
                               "[frame.interface.lug]\nsurface = \"feet\"\ncoupling = \"point\"\n"
                               "position = [1, 0, 0]\nradius = \"50 mm\"\n[frame.cut");
-  const auto frame = apps::read_scene(folder.write("scene.toml", text)).frame.geometry;
+  const auto frame = scene_of(text).frame.geometry;
   ASSERT_EQ(frame.materials.size(), 1u);
   EXPECT_EQ(frame.materials[0].first, "crown *");
   EXPECT_DOUBLE_EQ(frame.materials[0].second.rho, 7200.);
@@ -45,23 +44,10 @@ TEST(SceneFrame, MassesMaterialsAndPointsBecomeTheSpecification)
 TEST(SceneFrame, ANodeTakesForcesAndPointsAtItsPositionButNothingThatTurnsWithIt)
 {
   const std::string node = "[frame.interface.lug]\ncoupling = \"node\"\nposition = [1, 0, 0]\n";
-  const auto        with = [&](const std::string &more)
-  {
-    const SceneFolder folder;
-    folder.write("frame.step", "ISO-10303-21;");
-    try
-    {
-      apps::check_scene(
-          apps::read_scene(folder.write("scene.toml", cad_scene("[frame.cut", node + more + "[frame.cut"))));
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(with(""), "");
-  EXPECT_EQ(with("[place.eye]\non = \"frame.lug\"\nat = [1, 0, 0]\n"
+  const auto        said = [&](const std::string &more)
+  { return complaint(cad_scene("[frame.cut", node + more + "[frame.cut")); };
+  EXPECT_EQ(said(""), "");
+  EXPECT_EQ(said("[place.eye]\non = \"frame.lug\"\nat = [1, 0, 0]\n"
                  "[element.spring]\ntype = \"spring-damper\"\nfrom = \"frame.lug\"\ndirection = [1, 0, 0]\n"
                  "stiffness = 1e6\n"
                  "[body.load]\ntype = \"rigid\"\nmass = 3\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\n"
@@ -81,7 +67,7 @@ TEST(SceneFrame, ANodeTakesForcesAndPointsAtItsPositionButNothingThatTurnsWithIt
       {"[measure.tilt]\ntype = \"angle\"\nfrom = \"frame.lug\"\nabout = [1, 0, 0]\n", "measure.tilt"}};
   for (const auto &[more, place] : refused)
   {
-    const std::string message = with(more);
+    const std::string message = said(more);
     EXPECT_NE(message.find(place), std::string::npos) << more << message;
     EXPECT_NE(message.find("'frame.lug' is a single node of the frame's mesh, which has no rotation"),
               std::string::npos)
@@ -91,13 +77,8 @@ TEST(SceneFrame, ANodeTakesForcesAndPointsAtItsPositionButNothingThatTurnsWithIt
 
 TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
 {
-  const SceneFolder folder;
-  folder.write("frame.step", "ISO-10303-21;");
   const auto ratios = [&](const std::string &ratio)
-  {
-    return apps::read_scene(folder.write("scene.toml", cad_scene("ratio = 0.02", ratio)))
-        .frame.geometry.modal_damping_ratio;
-  };
+  { return scene_of(cad_scene("ratio = 0.02", ratio)).frame.geometry.modal_damping_ratio; };
   EXPECT_EQ(ratios("ratio = [0.01, \"2 %\"]").by_mode, (std::vector<double>{0.01, 0.02}));
   const auto table = ratios("ratio = [[\"20 Hz\", 0.01], [\"1 kHz\", 0.03]]").by_frequency;
   EXPECT_EQ(table, (std::vector<std::pair<double, double>>{{20., 0.01}, {1000., 0.03}}));
@@ -105,10 +86,7 @@ TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
 
 TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
 {
-  const SceneFolder folder;
-  folder.write("frame.step", "ISO-10303-21;");
-  const auto scene = apps::read_scene(
-      folder.write("scene.toml", cad_scene("\"steel\"", "{ E = \"0.5 MPa\", nu = 0.45, rho = 1100 }")));
+  const auto scene = scene_of(cad_scene("\"steel\"", "{ E = \"0.5 MPa\", nu = 0.45, rho = 1100 }"));
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("frame.material.E: is 500000 Pa, softer than rubber"), std::string::npos)
       << scene.warnings[0];
@@ -116,28 +94,18 @@ TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
 
 TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
 {
-  try
-  {
-    const SceneFolder folder;
-    apps::build_machine(apps::read_scene(folder.write("scene.toml", "name = \"x\"\n")));
-    FAIL() << "built from nothing";
-  }
-  catch (const std::invalid_argument &refusal)
-  {
-    EXPECT_NE(std::string(refusal.what()).find("has nothing that moves; declare a [frame]"), std::string::npos)
-        << refusal.what();
-  }
+  tests::expect_refusal([] { apps::build_machine(scene_of("name = \"x\"\n")); },
+                        "has nothing that moves; declare a [frame]");
 }
 
 TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
 {
-  const SceneFolder folder;
-  const auto        scene = apps::read_scene(folder.write("scene.toml", small_scene()), {"gravity=[0, 0, -9810]"});
+  const auto scene = scene_of(small_scene(), {"gravity=[0, 0, -9810]"});
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("1000 times that of the earth"), std::string::npos) << scene.warnings[0];
 }
 
-TEST(SceneFrame, MistakesInMassesMaterialsAndDampingAreReportedWithPlaceAndRemedy)
+TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
 {
   const std::vector<std::array<std::string, 4>> cases = {
       {"ratio = 0.02", "ratio = [0.01, 2]", "scene.toml:5: frame.damping.ratio", "leaves no vibration"},
@@ -164,10 +132,35 @@ TEST(SceneFrame, MistakesInMassesMaterialsAndDampingAreReportedWithPlaceAndRemed
        "frame.interface.two", "'position'"},
       {"[frame.cut", "[frame.interface.two]\ncoupling = \"node\"\n[frame.cut", "frame.interface.two", "'position'"},
       {"[frame.cut", "[frame.interface.two]\nsurface = \"feet\"\nradius = 0.1\n[frame.cut",
-       "frame.interface.two.radius", "belongs to coupling"}};
+       "frame.interface.two.radius", "belongs to coupling"},
+      {"\"frame.step\"", "\"frame.stp\"", "scene.toml:2: frame.cad", "there is no file"},
+      {"\"frame.step\"", "\"scene.toml\"", "scene.toml:2: frame.cad", "'.step'"},
+      {"\"steel\"", "\"steal\"", "scene.toml:4: frame.material", "did you mean 'steel'"},
+      {"\"steel\"", "{ E = 0, nu = 0.3, rho = 7850 }", "scene.toml:4: frame.material.E", "above zero"},
+      {"\"steel\"", "{ E = 1e9, nu = 0.5, rho = 7850 }", "scene.toml:4: frame.material.nu", "below 0.5"},
+      {"\"bearing *\"", "\"baering *\"", "scene.toml:3: frame.mesh.\"baering *\"", "name of a surface"},
+      {"size = \"60 mm\"", "size = 0", "scene.toml:3: frame.mesh.size", "above zero"},
+      {"surface    = \"feet\"", "surface = \"fet\"", "scene.toml:14: frame.support.feet.surface",
+       "did you mean 'feet'"},
+      {"faces = \"any\"", "faces = 0", "scene.toml:12: frame.surface.feet.faces", "1 or more"},
+      {"foundation =", "clamped = true\nfoundation =", "scene.toml:13: frame.support.feet", "either"},
+      {"stiffness = \"420 kN/mm\"", "stiffness = \"-1 N/m\"", "scene.toml:15: ", "zero or more"},
+      {"left\", \"bearing right\"]\n", "left\", \"bearing left\"]\n", "scene.toml:17: frame.interface.crown.surfaces",
+       "twice"},
+      {"[frame.cut", "[frame.interface.two]\nsurfaces = \"bearing left\"\n[frame.cut",
+       "scene.toml:18: ", "belongs to interface"},
+      {"foundation = { stiffness = \"420 kN/mm\", damping = [1, 2, 3] }", "clamped = true\ndirections = [\"w\"]",
+       "scene.toml:16: frame.support.feet.directions", "no direction 'w'"},
+      {"radius = \"120 mm\"", "radius = \"120 kg\"", "scene.toml:7: frame.surface.\"bearing left\".cylinder.radius",
+       "length"},
+      {"cylinder =", "cylindre =", "scene.toml:6: frame.surface.\"bearing left\"", "'cylinder'"},
+      {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
+      {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
+      {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",
+       "damping.rayleigh", "feed"}};
   for (const auto &[piece, replacement, place, words] : cases)
   {
-    const auto message = cad_complaint(piece, replacement);
+    const auto message = complaint(cad_scene(piece, replacement));
     EXPECT_NE(message.find(place), std::string::npos) << replacement << ": " << message;
     EXPECT_NE(message.find(words), std::string::npos) << replacement << ": " << message;
   }

@@ -2,7 +2,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/modes.h"
-#include "tests/support/scene_text.h"
+#include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -16,24 +16,12 @@ using namespace gestell;
 constexpr double mass = 100., stiffness = 1e6, gravity = -9.81, end = 0.1;
 
 /// Three equal masses on equal springs, one above the other; only the topmost is an interface.
-const std::string chain = R"(gravity = [0, 0, -9.81]
-[frame]
-mass         = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]
-stiffness    = [[2e6, -1e6, 0], [-1e6, 2e6, -1e6], [0, -1e6, 1e6]]
-translations = [[0, 0, 1], [0, 0, 1], [0, 0, 1]]
-[frame.interface.top]
-rows = { uz = 3 }
-[run]
-step = "10 us"
-end  = "0.1 s"
-[output.signals]
-x = "frame.top.uz"
-)";
+const std::string chain =
+    tests::mass_chain() + tests::steps("10 us", "0.1 s") + "[output.signals]\nx = \"frame.top.uz\"\n";
 
 apps::Scene scene()
 {
-  const test::SceneFolder folder;
-  return apps::read_scene(folder.write("chain.toml", chain));
+  return test::scene_of(chain);
 }
 
 /// omega_j = 2 sqrt(k/m) sin(theta_j / 2), shape sin(i theta_j), theta_j = (2 j - 1) pi / 7 of a chain of three.
@@ -91,9 +79,8 @@ TEST(MatrixFrame, WithInnerRowsFallsAsTheoryAndAsTheSparseFrame)
 /// The chain with a rotation of no mass on the topmost node, held to it by a spring of 4 kN m and coupled to its lift.
 apps::Scene chain_with_massless_rotation(const std::string &damping = "")
 {
-  const test::SceneFolder folder;
-  std::string             text = chain;
-  const auto              put  = [&text](const std::string &piece, const std::string &replacement)
+  std::string text = chain;
+  const auto  put  = [&text](const std::string &piece, const std::string &replacement)
   { text.replace(text.find(piece), piece.size(), replacement); };
   put("[0, 0, 100]]", "[0, 0, 100, 0], [0, 0, 0, 0]]");
   put("[[100, 0, 0], [0, 100, 0]", "[[100, 0, 0, 0], [0, 100, 0, 0]");
@@ -102,7 +89,7 @@ apps::Scene chain_with_massless_rotation(const std::string &damping = "")
       "[[2e6, -1e6, 0, 0], [-1e6, 2e6, -1e6, 0], [0, -1e6, 1.16e6, 8e4], [0, 0, 8e4, 4e4]]" + damping);
   put("[0, 0, 1]]", "[0, 0, 1], [0, 0, 0]]");
   put("rows = { uz = 3 }", "rows = { uz = 3, ry = 4 }");
-  return apps::read_scene(folder.write("chain.toml", text));
+  return test::scene_of(text);
 }
 
 TEST(MatrixFrame, WithARotationOfNoMassMovesAsWithoutIt)

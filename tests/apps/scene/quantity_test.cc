@@ -70,9 +70,7 @@ void PrintTo(const Reading &reading, std::ostream *out)
   *out << '"' << reading.text << '"';
 }
 
-class QuantityOf : public ::testing::TestWithParam<Reading>
-{
-};
+using QuantityOf = ::testing::TestWithParam<Reading>;
 
 TEST_P(QuantityOf, HasTheValueAndDimensionAnEngineerMeans)
 {
@@ -219,9 +217,7 @@ TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
   EXPECT_EQ(complaint("50 Hz", kind::frequency), "no error");
 }
 
-class TurnsPerMinute : public ::testing::TestWithParam<std::string>
-{
-};
+using TurnsPerMinute = ::testing::TestWithParam<std::string>;
 
 TEST_P(TurnsPerMinute, AreTheSameTurnsOfAShaftInEverySpelling)
 {

@@ -1,7 +1,8 @@
 // [output.stress] of scenes.
 
 #include "apps/scene/scene.h"
-#include "tests/support/scene_text.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -28,14 +29,8 @@ surface = "wall"
 clamped = true
 [frame.interface.tip]
 surface = "end"
-[run]
-step = "1 ms"
-end  = "2 s"
-[output.signals]
-u   = "frame.tip.uz"
-phi = "frame.tip.ry"
-)" + stress +
-         more;
+)" + tests::steps("1 ms", "2 s") +
+         "[output.signals]\nu = 'frame.tip.uz'\nphi = 'frame.tip.ry'\n" + stress + more;
 }
 
 apps::Scene read(const std::string &text)
@@ -48,15 +43,7 @@ apps::Scene read(const std::string &text)
 /// What is said against a scene.
 std::string message(const std::string &text)
 {
-  try
-  {
-    read(text);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { read(text); });
 }
 
 TEST(StressScene, AsksTheFrameAndTheRunForWhatItNeeds)

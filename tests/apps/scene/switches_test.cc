@@ -11,9 +11,7 @@ namespace gestell::tests
 namespace
 {
 
-class Switches : public ::testing::TestWithParam<Settings>
-{
-};
+using Switches = ::testing::TestWithParam<Settings>;
 INSTANTIATE_TEST_SUITE_P(Methods, Switches, ::testing::Values(fixed, controlled));
 
 /// Keys of a switch [switch.NAME].
@@ -120,12 +118,10 @@ TEST_P(Switches, SetAForce)
   expect_closed_balance(motion, 1e-6);
 }
 
-const std::string controller = R"([element.drive]
-type              = "speed drive"
-on                = "shaft"
-proportional_gain = "10 N m s/rad"
-speed             = [{ at = "0.5 s", to = "30 rad/s", acceleration = "20 rad/s^2" }]
-)";
+const std::string controller = element("drive", "speed drive",
+                                       {{"on", "shaft"},
+                                        {"proportional_gain", "10 N m s/rad"},
+                                        {"speed", "[{ at = '0.5 s', to = '30 rad/s', acceleration = '20 rad/s^2' }]"}});
 
 TEST(Switches, StartAndBrakeADrive)
 {
@@ -145,13 +141,11 @@ TEST(Switches, StartAndBrakeADrive)
 // A joint's motion at constant speed is braked with the deceleration of the order: v^2/(2 a).
 TEST(Switches, BrakeAPrescribedMotion)
 {
-  const auto motion =
-      run("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n"
-          "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = \"0.5 m/s\" }\n"
-          "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
-          switched("stop", "when = \"t\"\nabove = \"0.4 s\"\ntell = \"feed\"\norder = \"brake\"\n"
-                           "acceleration = \"2 m/s^2\"\n"));
-  EXPECT_EQ(motion.result.failure, "");
+  const auto motion = run(slider_body("slide", "2", "[1, 0, 0]") +
+                          joint("feed", "prescribed motion", {{"on", "slide"}, {"motion", "{ speed = '0.5 m/s' }"}}) +
+                          steps("1 ms", "1 s") + "[output.signals]\nx = 'slide.displacement'\n" +
+                          switched("stop", "when = \"t\"\nabove = \"0.4 s\"\ntell = \"feed\"\norder = \"brake\"\n"
+                                           "acceleration = \"2 m/s^2\"\n"));
   EXPECT_NEAR(time_of(motion, "next_segment"), 0.65, 1e-9);
   EXPECT_NEAR(motion.signal("x").final, 0.2 + 0.25 / 4., 1e-8);
 }
@@ -286,10 +280,11 @@ TEST(Switches, EndARunInWhichASecondStartWouldMakeTheSpeedJump)
   const std::string feed =
       "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = [{ at = 0, to = "
       "\"0.5 m/s\", acceleration = \"2 m/s^2\" }], waits = true }\n";
-  const auto motion = run("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n" + feed +
-                          "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
-                          switched("go", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"feed\"\norder = \"start\"\n") +
-                          switched("again", "when = \"t\"\nabove = \"0.6 s\"\ntell = \"feed\"\norder = \"start\"\n"));
+  const auto motion =
+      stopped("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n" + feed +
+              "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
+              switched("go", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"feed\"\norder = \"start\"\n") +
+              switched("again", "when = \"t\"\nabove = \"0.6 s\"\ntell = \"feed\"\norder = \"start\"\n"));
   for (const std::string words : {"at t = 0.6 s, switch \"again\" tells \"feed\"", "jump from 0.5 to 0"})
     EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
   EXPECT_NEAR(motion.signal("x").final, 0.5 * 0.5 - 0.5 * 0.25 * 0.5, 1e-6); // saved until then
@@ -304,16 +299,8 @@ b = "stop.torque"
 c = "stop.displacement"
 d = "stop.angle"
 e = "hinge.force"
-[element.stop]
-type = "stop"
-from = "shaft"
-gap = "-1 deg"
-stiffness = "100 N m/rad"
-[element.hinge]
-type = "friction"
-from = "shaft"
-force = "1 N m"
-)");
+)" + element("stop", "stop", {{"from", "shaft"}, {"gap", "-1 deg"}, {"stiffness", "100 N m/rad"}}) +
+                          element("hinge", "friction", {{"from", "shaft"}, {"force", "1 N m"}}));
   EXPECT_EQ(motion.signal("a").unit, "N m");
   EXPECT_EQ(motion.signal("a").final, motion.signal("b").final);
   EXPECT_EQ(motion.signal("c").unit, "rad");
@@ -323,26 +310,15 @@ force = "1 N m"
 
 // --- motors react on what carries the rotor
 
-const std::string hung      = R"([frame]
+const std::string hung = R"([frame]
 mass = [[10]]
 stiffness = [[0]]
 [frame.interface.a]
 rows = { ry = 1 }
-[body.rotor]
-type = "rotor"
-axis = [0, 1, 0]
-on = "frame.a"
-inertia = 2
-[run]
-step = "1 ms"
-end = "0.5 s"
-[output.signals]
-frame = "frame.a.ry_rate"
-w = "rotor.speed"
-T = "motor.torque"
-[element.motor]
-on = "rotor"
-)";
+)" + rotor_body("rotor", "2", "[0, 1, 0]", {{"on", "frame.a"}}) +
+                         steps("1 ms", "0.5 s") +
+                         signals("frame = 'frame.a.ry_rate', w = 'rotor.speed', T = 'motor.torque'") +
+                         "[element.motor]\non = 'rotor'\n";
 const std::string kloss     = "type = \"asynchronous motor\"\nbreakdown_torque = 20\nbreakdown_slip = 0.2\n"
                               "synchronous_speed = 10\n";
 const std::string regulated = "type = \"speed drive\"\nproportional_gain = 3\nspeed = 10\n";
@@ -417,9 +393,8 @@ TEST(Switches, RefuseWhatElementsCannotObey)
   const std::string feed = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = 1 }\n";
   expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"off\"\n"),
                    "is an ideal joint");
-  const std::string pin =
-      "[body.bob]\ntype = \"point\"\nmass = 1\nposition = [0, 0, 0]\n[joint.pin]\ntype = \"spherical\"\n"
-      "from = \"ground\"\nto = \"bob\"\nat = [0, 0, 0]\nstiffness = 1e6\n";
+  const std::string pin = point_body("bob", "1", "[0, 0, 0]") +
+                          joint("pin", "spherical", "ground", "bob", "[0, 0, 0]", {{"stiffness", "1e6"}});
   expect_complaint(slider(2., "1 s") + pin + switched("s", at_time + "tell = \"pin\"\norder = \"off\"\n"),
                    "is a compliant joint");
   expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\n"),

@@ -13,8 +13,7 @@ TEST(Benchmark, KeepsTheModesApartFromTheInterface)
 {
   for (const int m : {20, 50, 200})
   {
-    const apps::Scene scene =
-        apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/benchmark/m" + std::to_string(m) + ".toml");
+    const apps::Scene       scene   = apps::read_scene(shipped("benchmark/m" + std::to_string(m) + ".toml"));
     const coupling::Machine machine = apps::build_machine(scene);
     EXPECT_EQ(machine.size(), 12 + m);
     EXPECT_EQ(machine.model().n_interface(), 12);

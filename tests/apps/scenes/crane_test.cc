@@ -100,8 +100,8 @@ TEST(Crane, TyresThatLiftOff)
 // Equilibrium and drift are given as numbers in the reference: q to 16 digits, v to 12.
 TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
 {
-  const apps::Scene scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
-                                               {"start.rule=\"static\"", "start.drift=true"});
+  const apps::Scene scene =
+      apps::read_scene(shipped("crane_minimal.toml"), {"start.rule=\"static\"", "start.drift=true"});
   coupling::Machine machine = apps::build_machine(scene);
   const auto        start   = apps::initial_state(scene, machine);
   const auto        lift    = machine.model().measure("q1").evaluate(start.q, start.v),
@@ -117,7 +117,7 @@ TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
 // Stage 3 of the reference: the cylinder stands at 2.752989795 m, the load hangs at rest.
 TEST(Crane, NaturalFrequenciesAboutItsEquilibrium)
 {
-  const apps::Scene scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+  const apps::Scene scene   = apps::read_scene(shipped("crane_minimal.toml"),
                                                {"start.rule=\"static\"", "joint.cylinder.length=\"2.752989795 m\""});
   coupling::Machine machine = apps::build_machine(scene);
   const auto        modes   = coupling::coupled_modes(machine, apps::modes_configuration(scene, machine), {}, 20);

@@ -13,48 +13,16 @@ namespace
 {
 
 /// A bar of 1 m on a pin without friction, 0.1 rad from where it hangs.
-const std::string pendulum = R"(
-gravity = [0, 0, -9.81]
-[body.bar]
-type = "planar"
-normal = [0, 1, 0]
-mass = "1 kg"
-inertia = "(1/12) kg m^2"
-position = [0, 0, "-0.5 m"]
-[joint.pin]
-type = "revolute"
-from = "ground"
-to = "bar"
-at = [0, 0, 0]
-[start]
-q = { "bar.angle" = 0.1 }
-[run]
-step = "0.1 s"
-end = "60 s"
-[output.signals]
-phi = "bar.angle"
-)";
+const std::string pendulum = "gravity = [0, 0, -9.81]\n" +
+                             planar_body("bar", "1 kg", "(1/12) kg m^2", "[0, 0, '-0.5 m']") +
+                             revolute("pin", "ground", "bar", "[0, 0, 0]") + start("q = { 'bar.angle' = 0.1 }") +
+                             steps("0.1 s", "60 s") + signals("phi = 'bar.angle'");
 
 /// 1 kg at 10 m/s between two elastic stops, half a metre apart; flies over a contact in a step.
-const std::string ball = R"(
-[body.ball]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 kg"
-[element.stops]
-type = "clearance"
-from = "ball"
-gap = "0.25 m"
-stiffness = 1e8
-[start]
-v = { ball = 10 }
-[run]
-events = false
-step = "1 ms"
-end = "1 s"
-[output.signals]
-v = "ball.velocity"
-)";
+const std::string ball = slider_body("ball", "1 kg", "[1, 0, 0]") +
+                         element("stops", "clearance", {{"from", "ball"}, {"gap", "0.25 m"}, {"stiffness", "1e8"}}) +
+                         start("v = { ball = 10 }") + steps("1 ms", "1 s", {{"events", "false"}}) +
+                         signals("v = 'ball.velocity'");
 
 std::vector<double> dissipated(const SceneRun &motion)
 {
@@ -81,7 +49,7 @@ TEST(EnergyOfRuns, AnIdealJointDissipatesNothingWhateverTheMethodErrs)
 
 TEST(EnergyOfRuns, AMethodThatMakesEnergyEndsTheRunAndIsNamed)
 {
-  const SceneRun motion = run(ball, {"run.method=newmark"});
+  const SceneRun motion = stopped(ball, {"run.method=newmark"});
   EXPECT_NE(motion.result.failure.find("came from nowhere: Newmark 0.25, 0.5 with a step of 0.001 s"),
             std::string::npos)
       << motion.result.failure;
@@ -104,7 +72,7 @@ TEST(EnergyOfRuns, AnElasticStopDissipatesNothingWhereTheStepGoesOverIt)
 {
   for (const char *method : {"bdf", "newmark", "hht", "wilson"})
   {
-    const SceneRun motion = run(ball, {std::string("run.method=") + method});
+    const SceneRun motion = stopped(ball, {std::string("run.method=") + method});
     const auto    &energy = motion.result.energy;
     EXPECT_LE(energy.dissipated, 1e-12 * energy.exchanged) << method; // rounding of -p u' - dE/dt, step by step
     EXPECT_GT(energy.residual, 1.) << method;

@@ -12,60 +12,26 @@ namespace
 {
 
 using test::complaint;
-
-std::string with(std::string scene, const std::string &piece, const std::string &replacement)
-{
-  const auto found = scene.find(piece);
-  if (found == std::string::npos)
-    throw std::logic_error("the scene has no \"" + piece + "\"");
-  return scene.replace(found, piece.size(), replacement);
-}
-
-std::size_t column(const SceneRun &motion, const std::string &name)
-{
-  std::size_t i = 0;
-  while (motion.result.columns.at(i) != name)
-    ++i;
-  return i;
-}
+using test::with;
 
 // --- a mass on an inclined guide
 
-const std::string incline = R"toml(
-gravity = [0, 0, -9.81]
-[parameters]
-a = "40 deg"
-[body.carriage]
-type = "planar"
-normal = [0, 1, 0]
-mass = "3 kg"
-inertia = "0.02 kg m^2"
-position = [0, 0, 0]
-[joint.guide]
-type = "prismatic"
-from = "ground"
-to = "carriage"
-at = [0, 0, 0]
-axis = ["cos(a)", 0, "-sin(a)"]
-friction = 0.25
-[start]
-v = { "carriage.ux" = "1 m/s * cos(a)", "carriage.uz" = "-1 m/s * sin(a)" }
-[run]
-step = "1 ms"
-end = "0.4 s"
-[output]
-picture_step = 0
-signals = { F = "guide.friction", v = "guide.sliding_speed", N = "guide.resultant", M = "guide.torque" }
-)toml";
+const std::string pushed =
+    start("v = { 'carriage.ux' = '1 m/s * cos(a)', 'carriage.uz' = '-1 m/s * sin(a)' }") + steps("1 ms", "0.4 s") +
+    signals("F = 'guide.friction', v = 'guide.sliding_speed', N = 'guide.resultant', M = 'guide.torque'");
+const std::string incline = "gravity = [0, 0, -9.81]\n[parameters]\na = '40 deg'\n" +
+                            planar_body("carriage", "3 kg", "0.02 kg m^2", "[0, 0, 0]") +
+                            joint("guide", "prismatic", "ground", "carriage", "[0, 0, 0]",
+                                  {{"axis", "['cos(a)', 0, '-sin(a)']"}, {"friction", "0.25"}}) +
+                            pushed;
 
 TEST(GuideFriction, AcceleratesByTheLawOfCoulomb)
 {
   const SceneRun motion = run(incline);
-  ASSERT_EQ(motion.result.failure, "");
-  const double g = 9.81, a = 40. * M_PI / 180., N = 3. * g * std::cos(a);
+  const double   g = 9.81, a = 40. * M_PI / 180., N = 3. * g * std::cos(a);
   // From the first instant on: the multipliers of the start know the friction, which knows them.
-  EXPECT_NEAR(motion.at(0, column(motion, "N")), N, 1e-9 * N);
-  EXPECT_NEAR(motion.at(0, column(motion, "F")), -0.25 * N, 1e-9 * N);
+  EXPECT_NEAR(motion.at(0, motion.column("N")), N, 1e-9 * N);
+  EXPECT_NEAR(motion.at(0, motion.column("F")), -0.25 * N, 1e-9 * N);
   EXPECT_NEAR(motion.signal("v").final, 1. + 0.4 * g * (std::sin(a) - 0.25 * std::cos(a)), 1e-9);
   expect_closed_balance(motion, 1e-9);
 }
@@ -73,20 +39,24 @@ TEST(GuideFriction, AcceleratesByTheLawOfCoulomb)
 TEST(GuideFriction, WorksWithTheMethodsOfNewmark)
 {
   const SceneRun motion = run(incline, {"run.method=generalised-alpha", "run.rho_inf=0.8"});
-  ASSERT_EQ(motion.result.failure, "");
-  const double a = 40. * M_PI / 180.;
+  const double   a      = 40. * M_PI / 180.;
   EXPECT_NEAR(motion.signal("v").final, 1. + 0.4 * 9.81 * (std::sin(a) - 0.25 * std::cos(a)), 1e-8);
+}
+
+/// Without weight, in a guide of 0.2 m under a moment M0 of 2 N m.
+std::string weightless(const std::string &at, const std::string &axis)
+{
+  return "[parameters]\na = '40 deg'\n" + planar_body("carriage", "3 kg", "0.02 kg m^2", "[0, 0, 0]") +
+         joint("guide", "prismatic", "ground", "carriage", at,
+               {{"axis", axis}, {"friction", "{ coefficient = 0.25, length = '0.2 m' }"}}) +
+         element("moment", "force", {{"from", "carriage"}, {"about", "[0, 1, 0]"}, {"constant", "2 N m"}}) + pushed;
 }
 
 // A guide of length L holds a moment by two forces M/L at its ends, which rub.
 TEST(GuideFriction, OfALongGuideCountsTheMoment)
 {
-  const std::string level =
-      with(with(incline, "-9.81", "0"), "friction = 0.25", "friction = { coefficient = 0.25, length = \"0.2 m\" }") +
-      "[element.moment]\ntype = \"force\"\nfrom = \"carriage\"\nabout = [0, 1, 0]\n"
-      "constant = \"2 N m\"\n";
-  const SceneRun motion = run(level, {"run.end=0.1 s"});
-  ASSERT_EQ(motion.result.failure, "");
+  const std::string level  = weightless("[0, 0, 0]", "['cos(a)', 0, '-sin(a)']");
+  const SceneRun    motion = run(level, {"run.end=0.1 s"});
   EXPECT_NEAR(motion.signal("F").final, -0.25 * 2. * 2. / 0.2, 1e-9);
   EXPECT_NEAR(motion.signal("v").final, 1. - 0.1 * 0.25 * 20. / 3., 1e-9);
 }
@@ -94,11 +64,7 @@ TEST(GuideFriction, OfALongGuideCountsTheMoment)
 /// Friction at the lever h to the centre of mass makes a moment itself: |M| = M0 + h F or M0 - h F by the direction.
 std::string lever(const std::string &height)
 {
-  return with(with(with(incline, "-9.81", "0"), "friction = 0.25",
-                   "friction = { coefficient = 0.25, length = \"0.2 m\" }"),
-              "at = [0, 0, 0]\naxis = [\"cos(a)\", 0, \"-sin(a)\"]",
-              "at = [0, 0, \"-" + height + "\"]\naxis = [1, 0, 0]") +
-         "[element.moment]\ntype = \"force\"\nfrom = \"carriage\"\nabout = [0, 1, 0]\nconstant = \"2 N m\"\n";
+  return weightless("[0, 0, '-" + height + "']", "[1, 0, 0]");
 }
 
 // F = k M0/(1 -+ k h), k = 2 mu/L = 2.5/m: the iteration converges by k h = 0.6.
@@ -108,16 +74,15 @@ TEST(GuideFriction, GrowsByTheMomentItMakes)
   {
     const SceneRun motion =
         run(lever("0.24 m"), {"start.v={ \"carriage.ux\" = " + std::to_string(way) + " }", "run.end=0.1 s"});
-    ASSERT_EQ(motion.result.failure, "");
     const double F = 2.5 * 2. / (1. - way * 0.6);
-    EXPECT_NEAR(motion.at(0, column(motion, "F")), -way * F, 1e-8);
+    EXPECT_NEAR(motion.at(0, motion.column("F")), -way * F, 1e-8);
     EXPECT_NEAR(motion.signal("v").final, way * (1. - 0.1 * F / 3.), 1e-7);
   }
 }
 
 TEST(GuideFriction, ThatJamsIsTold)
 {
-  const SceneRun motion = run(lever("0.6 m"), {"start.v={ \"carriage.ux\" = 1 }", "run.end=0.1 s"}); // k h = 1.5
+  const SceneRun motion = stopped(lever("0.6 m"), {"start.v={ \"carriage.ux\" = 1 }", "run.end=0.1 s"}); // k h = 1.5
   for (const char *words : {"the machine does not start", "the force of \"guide\"", "so that the joint jams"})
     EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
   EXPECT_TRUE(motion.result.rows.empty());
@@ -126,31 +91,13 @@ TEST(GuideFriction, ThatJamsIsTold)
 
 TEST(PlaneFriction, ActsAgainstTheSlidingInThePlane)
 {
-  const std::string puck   = R"toml(
-gravity = [0, 0, -9.81]
-[body.puck]
-type = "point"
-mass = "3 kg"
-position = [0, 0, 0]
-[joint.table]
-type = "in-plane"
-from = "ground"
-to = "puck"
-at = [0, 0, 0]
-axis = [0, 0, 1]
-friction = 0.1
-[start]
-v = { "puck.ux" = 3, "puck.uy" = -4 }
-[run]
-step = "1 ms"
-end = "1 s"
-[output]
-picture_step = 0
-signals = { vx = "puck.vx", vy = "puck.vy", F = "table.friction" }
-)toml";
-  const SceneRun    motion = run(puck);
-  ASSERT_EQ(motion.result.failure, "");
-  const double v = 5. - 0.981;
+  const std::string puck =
+      "gravity = [0, 0, -9.81]\n" + point_body("puck", "3 kg", "[0, 0, 0]") +
+      joint("table", "in-plane", "ground", "puck", "[0, 0, 0]", {{"axis", "[0, 0, 1]"}, {"friction", "0.1"}}) +
+      start("v = { 'puck.ux' = 3, 'puck.uy' = -4 }") + steps("1 ms", "1 s") +
+      signals("vx = 'puck.vx', vy = 'puck.vy', F = 'table.friction'");
+  const SceneRun motion = run(puck);
+  const double   v      = 5. - 0.981;
   EXPECT_NEAR(motion.signal("vx").final, 0.6 * v, 1e-8);
   EXPECT_NEAR(motion.signal("vy").final, -0.8 * v, 1e-8);
   EXPECT_NEAR(motion.signal("F").final, 0.1 * 3. * 9.81, 1e-8);
@@ -158,38 +105,19 @@ signals = { vx = "puck.vx", vy = "puck.vy", F = "table.friction" }
 
 // --- a pendulum in a pin that rubs
 
-const std::string pendulum = R"toml(
-gravity = [0, 0, -9.81]
-[body.bar]
-type = "planar"
-normal = [0, 1, 0]
-mass = "2 kg"
-inertia = "0.05 kg m^2"
-position = [0, 0, "-0.5 m"]
-[joint.pin]
-type = "revolute"
-from = "ground"
-to = "bar"
-at = [0, 0, 0]
-friction = { coefficient = 0.01, radius = "10 mm", speed = "0.1 um/s" }
-[start]
-q = { "bar.angle" = 0.02 }
-[run]
-step = "0.5 ms"
-end = "3 s"
-[output]
-step = "0.5 ms"
-picture_step = 0
-signals = { angle = "bar.angle", M = "pin.friction", N = "pin.resultant" }
-)toml";
+const std::string pendulum =
+    "gravity = [0, 0, -9.81]\n" + planar_body("bar", "2 kg", "0.05 kg m^2", "[0, 0, '-0.5 m']") +
+    revolute("pin", "ground", "bar", "[0, 0, 0]",
+             {{"friction", "{ coefficient = 0.01, radius = '10 mm', speed = '0.1 um/s' }"}}) +
+    start("q = { 'bar.angle' = 0.02 }") + steps("0.5 ms", "3 s") +
+    signals("angle = 'bar.angle', M = 'pin.friction', N = 'pin.resultant'", {{"step", "0.5 ms"}});
 
 // Small swings about two centres, +-mu r/l to either side: every half swing loses 2 mu r/l.
 TEST(PinFriction, TakesTheSameFromEveryHalfSwing)
 {
-  const SceneRun motion = run(pendulum);
-  ASSERT_EQ(motion.result.failure, "");
-  const std::size_t   angle = column(motion, "angle");
-  std::vector<double> turns = {0.02};
+  const SceneRun      motion = run(pendulum);
+  const std::size_t   angle  = motion.column("angle");
+  std::vector<double> turns  = {0.02};
   for (std::size_t i = 1; i + 1 < motion.n_rows(); ++i)
   {
     const double x = motion.at(i, angle), before = motion.at(i - 1, angle), after = motion.at(i + 1, angle);
@@ -207,18 +135,16 @@ TEST(PinFriction, TakesTheSameFromEveryHalfSwing)
 
 TEST(PinFriction, OfABodyInSpaceIsThatOfOneInAPlane)
 {
-  const std::string plane = with(with(pendulum, "signals = { angle = \"bar.angle\",", "signals = { x = \"bar.ux\","),
-                                 "coefficient = 0.01, radius = \"10 mm\", speed = \"0.1 um/s\"",
-                                 "coefficient = 0.1, radius = \"30 mm\", speed = \"1 mm/s\"");
-  const std::string given = "normal = [0, 1, 0]\nmass = \"2 kg\"\ninertia = \"0.05 kg m^2\"";
-  std::string       space =
-      with(with(plane, "\"planar\"", "\"rigid\""), given, "mass = \"2 kg\"\ninertia = [0.05, 0.05, 0.01]");
-  space = with(with(space, "at = [0, 0, 0]\n", "at = [0, 0, 0]\naxis = [0, 1, 0]\n"), "\"bar.angle\" = 0.02",
-               "\"bar.ry\" = 0.6");
-  const std::vector<std::string> fine{"run.step=0.2 ms", "run.end=1 s"};
-  const SceneRun                 in_plane = run(with(plane, "\"bar.angle\" = 0.02", "\"bar.angle\" = 0.6"), fine),
-                 in_space                 = run(space, fine);
-  ASSERT_EQ(in_space.result.failure, "");
+  const std::string friction = "{ coefficient = 0.1, radius = '30 mm', speed = '1 mm/s' }",
+                    gravity  = "gravity = [0, 0, -9.81]\n",
+                    settings = steps("0.2 ms", "1 s") + signals("x = 'bar.ux', M = 'pin.friction'");
+  const SceneRun in_plane    = run(gravity + planar_body("bar", "2 kg", "0.05 kg m^2", "[0, 0, -0.5]") +
+                                   revolute("pin", "ground", "bar", "[0, 0, 0]", {{"friction", friction}}) +
+                                   start("q = { 'bar.angle' = 0.6 }") + settings),
+                 in_space    = run(
+                        gravity + rigid_body("bar", "2 kg", "[0.05, 0.05, 0.01]", "[0, 0, -0.5]") +
+                        revolute("pin", "ground", "bar", "[0, 0, 0]", {{"axis", "[0, 1, 0]"}, {"friction", friction}}) +
+                        start("q = { 'bar.ry' = 0.6 }") + settings);
   // Angle and directors have errors of their own, of h^2: 4e-8 s^2 times x'' = 4 m/s^2 and the square of the frequency.
   EXPECT_NEAR(in_space.signal("x").final, in_plane.signal("x").final, 1e-5);
   EXPECT_NEAR(in_space.signal("M").max, in_plane.signal("M").max, 1e-4 * in_plane.signal("M").max);
@@ -227,35 +153,18 @@ TEST(PinFriction, OfABodyInSpaceIsThatOfOneInAPlane)
 
 // --- joints of more than one motion
 
-const std::string ball = R"toml(
-gravity = [0, 0, -10]
-[body.top]
-type = "rigid"
-mass = "3 kg"
-inertia = [0.04, 0.04, 0.04]
-position = [0, 0, 0]
-[joint.socket]
-type = "spherical"
-from = "ground"
-to = "top"
-at = [0, 0, 0]
-friction = { coefficient = 0.2, radius = "10 mm" }
-[start]
-v = { "top.wx" = 4, "top.wy" = 8, "top.wz" = -8 }
-[run]
-step = "0.5 ms"
-end = "1 s"
-[output]
-picture_step = 0
-signals = { wx = "top.wx", wy = "top.wy", wz = "top.wz", M = "socket.friction", v = "socket.sliding_speed" }
-)toml";
+const std::string ball =
+    "gravity = [0, 0, -10]\n" + rigid_body("top", "3 kg", "[0.04, 0.04, 0.04]", "[0, 0, 0]") +
+    joint("socket", "spherical", "ground", "top", "[0, 0, 0]",
+          {{"friction", "{ coefficient = 0.2, radius = '10 mm' }"}}) +
+    start("v = { 'top.wx' = 4, 'top.wy' = 8, 'top.wz' = -8 }") + steps("0.5 ms", "1 s") +
+    signals("wx = 'top.wx', wy = 'top.wy', wz = 'top.wz', M = 'socket.friction', v = 'socket.sliding_speed'");
 
 // A sphere in its socket: the torque r mu N opposes the spin, whatever its direction.
 TEST(BallFriction, BrakesTheSpinAboutAnyAxis)
 {
   const SceneRun motion = run(ball);
-  ASSERT_EQ(motion.result.failure, "");
-  const double M = 0.01 * 0.2 * 30., w = 12. - M / 0.04;
+  const double   M = 0.01 * 0.2 * 30., w = 12. - M / 0.04;
   // Directors turn 0.005 rad per step: their error of second order over 10 rad of the way.
   EXPECT_NEAR(motion.signal("wx").final, w / 3., 1e-3);
   EXPECT_NEAR(motion.signal("wy").final, 2. * w / 3., 1e-3);
@@ -271,14 +180,11 @@ TEST(BallFriction, BrakesTheSpinAboutAnyAxis)
 // m r^2 = J: sliding along and around is braked alike, at the angle at which it began.
 TEST(PinFriction, OfACylindricalJointActsAgainstTheSlidingOfItsSurface)
 {
-  std::string pin =
-      with(with(with(ball, "\"spherical\"", "\"cylindrical\""), "radius = \"10 mm\"", "radius = \"0.1 m\""),
-           "at = [0, 0, 0]\n", "at = [0, 0, 0]\naxis = [1, 0, 0]\n");
-  pin = with(with(pin, "[0.04, 0.04, 0.04]", "[0.03, 0.04, 0.04]"), "\"top.wx\" = 4, \"top.wy\" = 8, \"top.wz\" = -8",
-             "\"top.ux\" = 0.9, \"top.wx\" = 12");
-  pin = with(pin, "M = \"socket.friction\"", "ux = \"top.vx\", M = \"socket.friction\"");
-  const SceneRun motion = run(pin, {"run.end=0.5 s"});
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion = run("gravity = [0, 0, -10]\n" + rigid_body("top", "3 kg", "[0.03, 0.04, 0.04]", "[0, 0, 0]") +
+                              joint("pin", "cylindrical", "ground", "top", "[0, 0, 0]",
+                                    {{"axis", "[1, 0, 0]"}, {"friction", "{ coefficient = 0.2, radius = '0.1 m' }"}}) +
+                              start("v = { 'top.ux' = 0.9, 'top.wx' = 12 }") + steps("0.5 ms", "0.5 s") +
+                              signals("wx = 'top.wx', ux = 'top.vx', M = 'pin.friction', v = 'pin.sliding_speed'"));
   EXPECT_NEAR(motion.signal("M").final, 0.2 * 30., 1e-6);
   EXPECT_NEAR(motion.signal("v").final, 1.5 - 1., 1e-4);
   EXPECT_NEAR(motion.signal("ux").final, 0.9 / 3., 1e-4);
@@ -286,44 +192,15 @@ TEST(PinFriction, OfACylindricalJointActsAgainstTheSlidingOfItsSurface)
 }
 
 /// A slider-crank with friction in its pins and its guide, driven by its own speed.
-const std::string slider_crank = R"toml(
-[body.crank]
-type = "rotor"
-axis = [0, 1, 0]
-inertia = "0.5 kg m^2"
-position = [0, 0, 0]
-[body.rod]
-type = "planar"
-normal = [0, 1, 0]
-mass = "1 kg"
-inertia = "0.02 kg m^2"
-position = [0, 0, "0.35 m"]
-[body.ram]
-type = "slider"
-axis = [0, 0, 1]
-mass = "2 kg"
-position = [0, 0, "0.6 m"]
-[joint.pin]
-type = "revolute"
-from = "crank"
-to = "rod"
-at = [0, 0, "0.1 m"]
-friction = { coefficient = 0.1, radius = "20 mm", speed = "50 mm/s" }
-[joint.wrist]
-type = "revolute"
-from = "rod"
-to = "ram"
-at = [0, 0, "0.6 m"]
-friction = { coefficient = 0.1, radius = "15 mm", speed = "50 mm/s" }
-[start]
-v = { crank = 30 }
-[run]
-step = "1 ms"
-end = "0.3 s"
-[output]
-picture_step = 0
-signals = { angle = "crank.angle", w = "crank.speed" }
-)toml";
+const std::string slider_crank =
+    rotor_body("crank", "0.5 kg m^2", "[0, 1, 0]", {{"position", "[0, 0, 0]"}}) +
+    planar_body("rod", "1 kg", "0.02 kg m^2", "[0, 0, '0.35 m']") +
+    slider_body("ram", "2 kg", "[0, 0, 1]", {{"position", "[0, 0, '0.6 m']"}}) +
+    revolute("pin", "crank", "rod", "[0, 0, '0.1 m']",
+             {{"friction", "{ coefficient = 0.1, radius = '20 mm', speed = '50 mm/s' }"}}) +
+    revolute("wrist", "rod", "ram", "[0, 0, '0.6 m']",
+             {{"friction", "{ coefficient = 0.1, radius = '15 mm', speed = '50 mm/s' }"}}) +
+    start("v = { crank = 30 }") + steps("1 ms", "0.3 s") + signals("angle = 'crank.angle', w = 'crank.speed'");
 
 // Start values included; speed tells of wrong forces anywhere on the way.
 TEST(PinFriction, KeepsTheOrderOfTheMethod)
@@ -331,7 +208,6 @@ TEST(PinFriction, KeepsTheOrderOfTheMethod)
   const auto at = [](const std::string &step)
   {
     const SceneRun motion = run(slider_crank, {"run.step=" + step});
-    EXPECT_EQ(motion.result.failure, "");
     return std::array{motion.signal("angle").final, motion.signal("w").final};
   };
   const auto coarse = at("0.4 ms"), middle = at("0.2 ms"), fine = at("0.1 ms");
@@ -356,7 +232,6 @@ TEST(PinFriction, ClosesTheBalanceOfEnergy)
 TEST(PinFriction, OfCoefficientZeroIsNone)
 {
   const SceneRun motion = run(with(pendulum, "coefficient = 0.01", "coefficient = 0"), {"run.end=0.1 s"});
-  EXPECT_EQ(motion.result.failure, "");
   EXPECT_EQ(motion.signal("M").min, 0.);
   EXPECT_EQ(motion.signal("M").max, 0.);
 }

@@ -24,12 +24,6 @@ Point meet(Point p, double a, Point q, double b)
   return p + (q - p) / d * Point(x, std::sqrt(a * a - x * x));
 }
 
-std::size_t column(const SceneRun &run, const std::string &name)
-{
-  const auto &columns = run.result.columns;
-  return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
-}
-
 } // namespace
 
 TEST(DoubleFourBar, RockersStandWhereTheLoopsCloseAndEnergyIsKept)
@@ -39,12 +33,12 @@ TEST(DoubleFourBar, RockersStandWhereTheLoopsCloseAndEnergyIsKept)
   double         error = 0.;
   for (std::size_t i = 0; i < run.n_rows(); ++i)
   {
-    const double phi = run.at(i, column(run, "crank")); // clockwise, as all angles
+    const double phi = run.at(i, run.column("crank")); // clockwise, as all angles
     const Point  a   = A0 + std::polar(std::abs(A - A0), 0.5 * M_PI - phi);
     const Point  b   = meet(a, std::abs(B - A), B0, std::abs(B - B0));
     const Point  c   = meet(b, std::abs(C - B), C0, std::abs(C - C0));
-    error            = std::max(error, std::abs(run.at(i, column(run, "first")) + std::arg((b - B0) / (B - B0))));
-    error            = std::max(error, std::abs(run.at(i, column(run, "second")) + std::arg((c - C0) / (C - C0))));
+    error            = std::max(error, std::abs(run.at(i, run.column("first")) + std::arg((b - B0) / (B - B0))));
+    error            = std::max(error, std::abs(run.at(i, run.column("second")) + std::arg((c - C0) / (C - C0))));
   }
   EXPECT_GT(run.signal("crank").max, 6. * M_PI); // three turns and more
   EXPECT_LT(error, 1e-9);
@@ -55,7 +49,7 @@ TEST(ShippedScenes, CloseAtEveryAngleOfTheirCrankAndWarnOfNothing)
 {
   namespace fs = std::filesystem;
   int scenes   = 0;
-  for (const auto &entry : fs::recursive_directory_iterator(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes"))
+  for (const auto &entry : fs::recursive_directory_iterator(shipped("")))
   {
     if (entry.path().extension() != ".toml")
       continue;
@@ -83,7 +77,7 @@ TEST(ShippedScenes, CloseAtEveryAngleOfTheirCrankAndWarnOfNothing)
 
 TEST(Crane, IsDrawnWithARopeAndACylinderOfTheirLengths)
 {
-  const apps::Scene   scene   = apps::read_scene(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/crane_minimal.toml",
+  const apps::Scene   scene   = apps::read_scene(shipped("crane_minimal.toml"),
                                                  {"run.end=\"0.4 s\"", "run.step=\"1 ms\"", "output.picture_step=\"0.2 s\"",
                                                   "element.strut={type=\"cubic spring\", on=\"q4\", cubic=1}"});
   coupling::Machine   machine = apps::build_machine(scene);
@@ -125,9 +119,9 @@ TEST(CrankPress, RamFollowsTheCrankAndTheStoredEnergyIsThatOfTheSliderCrank)
   };
 
   double     error = 0.;
-  const auto last = run.n_rows() - 1, phi = column(run, "phi"), omega = column(run, "omega");
+  const auto last = run.n_rows() - 1, phi = run.column("phi"), omega = run.column("omega");
   for (std::size_t i = 0; i <= last; ++i)
-    error = std::max(error, std::abs(run.at(i, column(run, "x")) - ram(run.at(i, phi))));
+    error = std::max(error, std::abs(run.at(i, run.column("x")) - ram(run.at(i, phi))));
   EXPECT_LT(error, 1e-10);
   EXPECT_GT(run.at(last, phi), 1.5 * M_PI); // through bottom dead centre and up again
 

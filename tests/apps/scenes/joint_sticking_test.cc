@@ -11,46 +11,24 @@ namespace gestell::tests
 namespace
 {
 
-std::string with(std::string scene, const std::string &piece, const std::string &replacement)
-{
-  const auto found = scene.find(piece);
-  if (found == std::string::npos)
-    throw std::logic_error("the scene has no \"" + piece + "\"");
-  return scene.replace(found, piece.size(), replacement);
-}
+using test::with;
 
 // --- a carriage on an inclined guide: tan(a) = 0.4
 
-const std::string incline = R"toml(
-gravity = [0, 0, -10]
-[parameters]
-a = "atan(0.4)"
-[body.carriage]
-type = "planar"
-normal = [0, 1, 0]
-mass = "3 kg"
-inertia = "0.02 kg m^2"
-position = [0, 0, 0]
-[joint.guide]
-type = "prismatic"
-from = "ground"
-to = "carriage"
-at = [0, 0, 0]
-axis = ["cos(a)", 0, "-sin(a)"]
-friction = { law = "dry", coefficient = 0.3, static = 0.5 }
-[run]
-step = "1 ms"
-end = "0.5 s"
-[output]
-picture_step = 0
-signals = { x = "carriage.ux", z = "carriage.uz", F = "guide.friction", v = "guide.sliding_speed", N = "guide.resultant" }
-)toml";
-const double      a = std::atan(0.4), weight = 30.;
+const std::string incline =
+    "gravity = [0, 0, -10]\n[parameters]\na = 'atan(0.4)'\n" +
+    planar_body("carriage", "3 kg", "0.02 kg m^2", "[0, 0, 0]") +
+    joint("guide", "prismatic", "ground", "carriage", "[0, 0, 0]",
+          {{"axis", "['cos(a)', 0, '-sin(a)']"}, {"friction", "{ law = 'dry', coefficient = 0.3, static = 0.5 }"}}) +
+    steps("1 ms", "0.5 s") +
+    signals(
+        "x = 'carriage.ux', z = 'carriage.uz', F = 'guide.friction', v = 'guide.sliding_speed', N = 'guide.resultant'");
+const double   a = std::atan(0.4), weight = 30.;
+const Settings newmark = {"run.method=generalised-alpha", "run.rho_inf=0.8"};
 
 TEST(StickingGuide, HoldsABlockWhoseSlopeIsBelowTheStaticCoefficientExactly)
 {
   const SceneRun motion = run(incline);
-  ASSERT_EQ(motion.result.failure, "");
   // Exactly, but for what rounding leaves where the guide is closed.
   EXPECT_LT(std::abs(motion.signal("x").max) + std::abs(motion.signal("x").min), 1e-18);
   EXPECT_LT(std::abs(motion.signal("v").max) + std::abs(motion.signal("v").min), 1e-15);
@@ -63,7 +41,6 @@ TEST(StickingGuide, HoldsABlockWhoseSlopeIsBelowTheStaticCoefficientExactly)
 TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
 {
   const SceneRun motion = run(with(incline, "static = 0.5", "static = 0.35"));
-  ASSERT_EQ(motion.result.failure, "");
   ASSERT_EQ(motion.result.events.size(), 1u);
   EXPECT_EQ(time_of(motion, "slip_forward"), 0.);
   EXPECT_NEAR(motion.signal("v").final, 0.5 * 10. * (std::sin(a) - 0.3 * std::cos(a)), 1e-10);
@@ -77,15 +54,11 @@ TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
 /// A pull that jumps from 0 to 40 N at 0.1 s: until then it holds 30 sin(a), from then on it slides.
 TEST(StickingGuide, NeverTellsAForceBeyondItsLimitWhereTheLoadJumps)
 {
-  const SceneRun motion = run(incline + R"toml(
-[element.pull]
-type = "table force"
-from = "carriage"
-direction = ["cos(a)", 0, "-sin(a)"]
-against = "time"
-table = [[0, 0], ["0.1 s", 0], ["0.1 s", "40 N"]]
-)toml");
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion = run(incline + element("pull", "table force",
+                                                {{"from", "carriage"},
+                                                 {"direction", "['cos(a)', 0, '-sin(a)']"},
+                                                 {"against", "time"},
+                                                 {"table", "[[0, 0], ['0.1 s', 0], ['0.1 s', '40 N']]"}}));
   EXPECT_NEAR(time_of(motion, "slip_forward"), 0.1, 1e-12);
   EXPECT_NEAR(motion.at(0, 3), -weight * std::sin(a), 1e-10);
   EXPECT_NEAR(motion.signal("F").min, -weight * std::sin(a), 1e-10);
@@ -95,23 +68,19 @@ table = [[0, 0], ["0.1 s", 0], ["0.1 s", "40 N"]]
 /// Thrown up the slope with v_0 it stops after v_0/(g (sin a + mu cos a)), and stays: mu < tan a < mu_s.
 TEST(StickingGuide, StopsABlockThrownUpTheSlopeThatThenStaysThere)
 {
-  for (const std::string method : {"bdf", "generalised-alpha\nrho_inf = 0.8"})
+  const std::string thrown = incline + start("v = { 'carriage.ux' = '-2 m/s * cos(a)' }");
+  for (const auto &[method, error] : {std::pair{fixed, 1e-9}, {newmark, 1e-9}, {controlled, 1e-7}})
   {
-    const std::string thrown =
-        with(incline, "[run]\n", "[start]\nv = { \"carriage.ux\" = \"-2 m/s * cos(a)\" }\n[run]\n");
-    const SceneRun motion = run(
-        with(thrown, "step = \"1 ms\"",
-             method == "bdf" ? "step = \"1 ms\"" : "method = \"generalised-alpha\"\nrho_inf = 0.8\nstep = \"1 ms\""));
-    ASSERT_EQ(motion.result.failure, "");
-    const double brake = 10. * (std::sin(a) + 0.3 * std::cos(a)), way = 2. * 2. / (2. * brake);
+    const SceneRun motion = run(thrown, method);
+    const double   brake = 10. * (std::sin(a) + 0.3 * std::cos(a)), way = 2. * 2. / (2. * brake);
     EXPECT_EQ(count(motion, "slip_forward"), 0);
     EXPECT_EQ(count(motion, "stick"), 1);
-    EXPECT_NEAR(time_of(motion, "stick"), 2. / brake, 1e-9) << method;
-    EXPECT_NEAR(motion.signal("x").final, -way * std::cos(a), 1e-9);
-    EXPECT_NEAR(motion.signal("z").final, way * std::sin(a), 1e-9);
-    EXPECT_NEAR(motion.signal("F").final, -weight * std::sin(a), 1e-8);
-    EXPECT_NEAR(motion.result.energy.dissipated, 0.3 * weight * std::cos(a) * way, 1e-8);
-    expect_closed_balance(motion, 1e-9);
+    EXPECT_NEAR(time_of(motion, "stick"), 2. / brake, error);
+    EXPECT_NEAR(motion.signal("x").final, -way * std::cos(a), error);
+    EXPECT_NEAR(motion.signal("z").final, way * std::sin(a), error);
+    EXPECT_NEAR(motion.signal("F").final, -weight * std::sin(a), 10. * error);
+    EXPECT_NEAR(motion.result.energy.dissipated, 0.3 * weight * std::cos(a) * way, 10. * error);
+    expect_closed_balance(motion, error);
   }
 }
 
@@ -119,57 +88,35 @@ TEST(StickingGuide, StopsABlockThrownUpTheSlopeThatThenStaysThere)
 TEST(StickingGuide, BreaksAwayWhereTheForceReachesTheLimitOfItsOwnLoad)
 {
   // Pressed with 1 s^-1 t 12 N into the slope besides: the limit grows too.
-  const SceneRun motion = run(incline + R"toml(
-[element.pull]
-type = "formula force"
-from = "carriage"
-direction = ["cos(a)", 0, "-sin(a)"]
-force = "40 N/s*t"
-[element.press]
-type = "formula force"
-from = "carriage"
-direction = ["-sin(a)", 0, "-cos(a)"]
-force = "12 N/s*t"
-)toml");
-  ASSERT_EQ(motion.result.failure, "");
+  const std::string pulled =
+      incline +
+      element("pull", "formula force",
+              {{"from", "carriage"}, {"direction", "['cos(a)', 0, '-sin(a)']"}, {"force", "40 N/s*t"}}) +
+      element("press", "formula force",
+              {{"from", "carriage"}, {"direction", "['-sin(a)', 0, '-cos(a)']"}, {"force", "12 N/s*t"}});
   // 30 sin a + 40 t = 0.5 (30 cos a + 12 t)
   const double t = 30. * (0.5 * std::cos(a) - std::sin(a)) / (40. - 6.);
-  EXPECT_NEAR(time_of(motion, "slip_forward"), t, 1e-11);
-  EXPECT_EQ(motion.result.events.size(), 1u);
+  for (const auto &[method, error] : {std::pair{fixed, 1e-11}, {controlled, 1e-7}})
+  {
+    const SceneRun motion = run(pulled, method);
+    EXPECT_NEAR(time_of(motion, "slip_forward"), t, error);
+    EXPECT_EQ(motion.result.events.size(), 1u);
+  }
 }
 
 // --- a pendulum whose pin sticks
 
-const std::string pendulum = R"toml(
-gravity = [0, 0, -10]
-[body.bar]
-type = "planar"
-normal = [0, 1, 0]
-mass = "2 kg"
-inertia = "0.1 kg m^2"
-position = [0, 0, "-0.5 m"]
-[joint.pin]
-type = "revolute"
-from = "ground"
-to = "bar"
-at = [0, 0, 0]
-friction = { law = "dry", coefficient = 0.3, static = 0.4, radius = "150 mm" }
-[start]
-q = { "bar.angle" = 0.8 }
-[run]
-step = "0.5 ms"
-end = "5 s"
-[output]
-step = "5 ms"
-picture_step = 0
-signals = { angle = "bar.angle", M = "pin.friction", N = "pin.resultant", w = "bar.speed" }
-)toml";
+const std::string pendulum =
+    "gravity = [0, 0, -10]\n" + planar_body("bar", "2 kg", "0.1 kg m^2", "[0, 0, '-0.5 m']") +
+    revolute("pin", "ground", "bar", "[0, 0, 0]",
+             {{"friction", "{ law = 'dry', coefficient = 0.3, static = 0.4, radius = '150 mm' }"}}) +
+    start("q = { 'bar.angle' = 0.8 }") + steps("0.5 ms", "5 s") +
+    signals("angle = 'bar.angle', M = 'pin.friction', N = 'pin.resultant', w = 'bar.speed'", {{"step", "5 ms"}});
 
 TEST(StickingPin, APendulumComesToRestOffTheVerticalAndStays)
 {
   const SceneRun motion = run(pendulum);
-  ASSERT_EQ(motion.result.failure, "");
-  const double rest = motion.signal("angle").final;
+  const double   rest   = motion.signal("angle").final;
   EXPECT_GT(std::abs(rest), 1e-3);
   // Held by the moment of its weight, which the pin can hold: r mu_s m g.
   EXPECT_NEAR(motion.signal("M").final, 2. * 10. * 0.5 * std::sin(rest), 1e-9);
@@ -197,24 +144,18 @@ TEST(StickingPin, APendulumComesToRestOffTheVerticalAndStays)
 /// Two carriages of 3 kg and 2 kg on a level, a rod between them.
 std::string train(const std::string &rest)
 {
-  std::string scene = "gravity = [0, 0, -10]\n";
-  for (const std::string name : {"one", "two"})
-    scene += "[body." + name + "]\ntype = \"planar\"\nnormal = [0, 1, 0]\nmass = \"" +
-             (name == "one" ? "3 kg\"\nposition = [0, 0, 0]" : "2 kg\"\nposition = [1, 0, 0]") +
-             "\ninertia = \"0.02 kg m^2\"\n[joint.guide_" + name +
-             "]\ntype = \"prismatic\"\nfrom = \"ground\"\nto = \"" + name + "\"\nat = [" + (name == "one" ? "0" : "1") +
-             ", 0, 0]\naxis = [1, 0, 0]\nfriction = { law = \"dry\", coefficient = 0.2, static = 0.5 }\n";
-  return scene +
-         "[joint.rod]\ntype = \"distance\"\nfrom = \"one\"\nto = \"two\"\n[run]\nstep = \"1 ms\"\nend = \"1 s\"\n" +
-         "[output]\npicture_step = 0\nsignals = { x = \"two.ux\", v = \"two.vx\", F1 = \"guide_one.friction\", "
-         "F2 = \"guide_two.friction\" }\n" +
-         rest;
+  const Keys rubs = {{"axis", "[1, 0, 0]"}, {"friction", "{ law = 'dry', coefficient = 0.2, static = 0.5 }"}};
+  return "gravity = [0, 0, -10]\n" + planar_body("one", "3 kg", "0.02 kg m^2", "[0, 0, 0]") +
+         joint("guide_one", "prismatic", "ground", "one", "[0, 0, 0]", rubs) +
+         planar_body("two", "2 kg", "0.02 kg m^2", "[1, 0, 0]") +
+         joint("guide_two", "prismatic", "ground", "two", "[1, 0, 0]", rubs) +
+         joint("rod", "distance", {{"from", "one"}, {"to", "two"}}) + steps("1 ms", "1 s") +
+         signals("x = 'two.ux', v = 'two.vx', F1 = 'guide_one.friction', F2 = 'guide_two.friction'") + rest;
 }
 
 TEST(StickingJoints, ThatHoldOneMotionComeToRestTogether)
 {
-  const SceneRun motion = run(train("[start]\nv = { \"two.ux\" = 1 }\n"));
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion = run(train(start("v = { 'two.ux' = 1 }")));
   ASSERT_EQ(motion.result.events.size(), 1u); // the first one holds both
   EXPECT_NEAR(time_of(motion, "stick"), 1. / 2., 1e-9);
   EXPECT_NEAR(motion.signal("x").final, 0.25, 1e-9);
@@ -226,9 +167,8 @@ TEST(StickingJoints, ThatHoldOneMotionComeToRestTogether)
 // One after the other reaches its limit: 15 N of the first, then 6 N + 10 N with the first sliding.
 TEST(StickingJoints, ThatHoldOneMotionLetGoOneAfterTheOther)
 {
-  const SceneRun motion = run(train("[element.pull]\ntype = \"formula force\"\nfrom = \"two\"\ndirection = [1, 0, 0]\n"
-                                    "force = \"20 N/s*t\"\n"));
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion = run(
+      train(element("pull", "formula force", {{"from", "two"}, {"direction", "[1, 0, 0]"}, {"force", "20 N/s*t"}})));
   ASSERT_EQ(motion.result.events.size(), 2u);
   EXPECT_NEAR(time_of(motion, "slip_forward", 0), 15. / 20., 1e-9);
   EXPECT_NEAR(time_of(motion, "slip_forward", 1), 16. / 20., 1e-9);
@@ -239,12 +179,10 @@ TEST(StickingJoints, ThatHoldOneMotionLetGoOneAfterTheOther)
 // What a drive moves cannot stick: at its dead points it turns, and the friction with it.
 TEST(StickingJoints, ThatAreDrivenTurnAtTheirDeadPoints)
 {
-  std::string driven    = with(with(incline, "\"atan(0.4)\"", "0"), "[run]\n",
-                               "[joint.drive]\ntype = \"prescribed motion\"\non = \"carriage.ux\"\n"
-                                  "motion = { function = \"0.1 m*sin(10 rad/s*t)\" }\n[run]\n");
-  driven                = with(driven, "F = \"guide.friction\"", "P = \"drive.force\", F = \"guide.friction\"");
-  const SceneRun motion = run(driven, {"run.end=1 s"});
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion =
+      run(incline + joint("drive", "prescribed motion",
+                          {{"on", "carriage.ux"}, {"motion", "{ function = '0.1 m*sin(10 rad/s*t)' }"}}),
+          {"parameters.a=0", "output.signals.P=drive.force", "run.end=1 s"});
   EXPECT_EQ(count(motion, "stick"), 3);
   for (int n = 0; n < 3; ++n)
     EXPECT_NEAR(time_of(motion, "stick", n), (0.5 + n) * M_PI / 10., 1e-6);
@@ -257,62 +195,21 @@ TEST(StickingJoints, ThatAreDrivenTurnAtTheirDeadPoints)
 /// A slider-crank whose four joints all stick: left to itself, it comes to rest.
 TEST(StickingJoints, OfASliderCrankBringItToRest)
 {
-  const SceneRun motion = run(R"toml(
-gravity = [0, 0, -10]
-[body.crank]
-type = "planar"
-normal = [0, 1, 0]
-mass = "2 kg"
-inertia = "0.05 kg m^2"
-position = ["0.05 m", 0, 0]
-[body.rod]
-type = "planar"
-normal = [0, 1, 0]
-mass = "1 kg"
-inertia = "0.02 kg m^2"
-position = ["0.35 m", 0, 0]
-[body.ram]
-type = "planar"
-normal = [0, 1, 0]
-mass = "2 kg"
-inertia = "0.01 kg m^2"
-position = ["0.6 m", 0, 0]
-[joint.bearing]
-type = "revolute"
-from = "ground"
-to = "crank"
-at = [0, 0, 0]
-friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "20 mm" }
-[joint.pin]
-type = "revolute"
-from = "crank"
-to = "rod"
-at = ["0.1 m", 0, 0]
-friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "20 mm" }
-[joint.wrist]
-type = "revolute"
-from = "rod"
-to = "ram"
-at = ["0.6 m", 0, 0]
-friction = { law = "dry", coefficient = 0.1, static = 0.15, radius = "15 mm" }
-[joint.guide]
-type = "prismatic"
-from = "ground"
-to = "ram"
-at = ["0.6 m", 0, 0]
-axis = [1, 0, 0]
-friction = { law = "dry", coefficient = 0.1, static = 0.15 }
-[start]
-v = { "crank.angle" = 12 }
-[run]
-step = "0.5 ms"
-end = "7 s"
-[output]
-step = "10 ms"
-picture_step = 0
-signals = { angle = "crank.angle", w = "crank.speed", M = "bearing.friction", F = "guide.friction" }
-)toml");
-  ASSERT_EQ(motion.result.failure, "");
+  const SceneRun motion =
+      run("gravity = [0, 0, -10]\n" + planar_body("crank", "2 kg", "0.05 kg m^2", "['0.05 m', 0, 0]") +
+          planar_body("rod", "1 kg", "0.02 kg m^2", "['0.35 m', 0, 0]") +
+          planar_body("ram", "2 kg", "0.01 kg m^2", "['0.6 m', 0, 0]") +
+          revolute("bearing", "ground", "crank", "[0, 0, 0]",
+                   {{"friction", "{ law = 'dry', coefficient = 0.1, static = 0.15, radius = '20 mm' }"}}) +
+          revolute("pin", "crank", "rod", "['0.1 m', 0, 0]",
+                   {{"friction", "{ law = 'dry', coefficient = 0.1, static = 0.15, radius = '20 mm' }"}}) +
+          revolute("wrist", "rod", "ram", "['0.6 m', 0, 0]",
+                   {{"friction", "{ law = 'dry', coefficient = 0.1, static = 0.15, radius = '15 mm' }"}}) +
+          joint("guide", "prismatic", "ground", "ram", "['0.6 m', 0, 0]",
+                {{"axis", "[1, 0, 0]"}, {"friction", "{ law = 'dry', coefficient = 0.1, static = 0.15 }"}}) +
+          start("v = { 'crank.angle' = 12 }") + steps("0.5 ms", "7 s") +
+          signals("angle = 'crank.angle', w = 'crank.speed', M = 'bearing.friction', F = 'guide.friction'",
+                  {{"step", "10 ms"}}));
   double last = 0.;
   for (const auto &event : motion.result.events)
     last = std::max(last, event.t);
@@ -334,11 +231,10 @@ signals = { angle = "crank.angle", w = "crank.speed", M = "bearing.friction", F 
 TEST(BristlesInJoints, GiveWayElasticallyBelowTheLimit)
 {
   const std::string bristles =
-      with(incline, "law = \"dry\", coefficient = 0.3, static = 0.5",
-           "law = \"lugre\", coefficient = 0.5, bristle_stiffness = \"1 1/mm\", bristle_damping = \"100 s/m\"");
+      with(incline, "law = 'dry', coefficient = 0.3, static = 0.5",
+           "law = 'lugre', coefficient = 0.5, bristle_stiffness = '1 1/mm', bristle_damping = '100 s/m'");
   const SceneRun motion = run(bristles, {"run.end=4 s", "run.step=2 ms"});
-  ASSERT_EQ(motion.result.failure, "");
-  const double x = -0.5 / 1000. * std::log(1. - 0.4 / 0.5);
+  const double   x      = -0.5 / 1000. * std::log(1. - 0.4 / 0.5);
   EXPECT_NEAR(motion.signal("x").final, x * std::cos(a), 1e-4 * x);
   EXPECT_NEAR(motion.signal("F").final, -weight * std::sin(a), 1e-8);
 }
@@ -346,23 +242,21 @@ TEST(BristlesInJoints, GiveWayElasticallyBelowTheLimit)
 TEST(BristlesInJoints, SlideWithTheKineticCoefficientAboveIt)
 {
   const std::string bristles =
-      with(incline, "law = \"dry\", coefficient = 0.3, static = 0.5",
-           "law = \"lugre\", coefficient = 0.2, bristle_stiffness = \"1 1/mm\", bristle_damping = \"10 s/m\"");
+      with(incline, "law = 'dry', coefficient = 0.3, static = 0.5",
+           "law = 'lugre', coefficient = 0.2, bristle_stiffness = '1 1/mm', bristle_damping = '10 s/m'");
   const SceneRun at_1 = run(bristles, {"run.end=1 s"}), at_2 = run(bristles, {"run.end=2 s"});
-  ASSERT_EQ(at_2.result.failure, "");
   EXPECT_NEAR(at_2.signal("F").final, -0.2 * weight * std::cos(a), 1e-8);
   EXPECT_NEAR(at_2.signal("v").final - at_1.signal("v").final, 10. * (std::sin(a) - 0.2 * std::cos(a)), 1e-8);
 }
 
 TEST(BristlesInJoints, OfAPinSlideAtItsRadius)
 {
-  std::string pin = with(pendulum, "position = [0, 0, \"-0.5 m\"]", "position = [0, 0, 0]");
-  pin             = with(pin, "law = \"dry\", coefficient = 0.3, static = 0.4",
-                         "law = \"lugre\", coefficient = 0.3, bristle_stiffness = \"1 1/mm\", bristle_damping = \"100 s/m\"");
-  pin             = with(pin, "{ \"bar.angle\" = 0.8 }", "{}");
-  pin += "[element.pull]\ntype = \"force\"\nfrom = \"bar\"\nabout = [0, 1, 0]\nconstant = \"0.6 N m\"\n";
-  const SceneRun motion = run(pin, {"run.end=4 s", "run.step=2 ms"});
-  ASSERT_EQ(motion.result.failure, "");
+  const std::string pin =
+      with(with(pendulum, "-0.5 m", "0 m"), "law = 'dry', coefficient = 0.3, static = 0.4",
+           "law = 'lugre', coefficient = 0.3, bristle_stiffness = '1 1/mm', bristle_damping = '100 s/m'");
+  const SceneRun motion =
+      run(pin + element("pull", "force", {{"from", "bar"}, {"about", "[0, 1, 0]"}, {"constant", "0.6 N m"}}),
+          {"start.q={}", "run.end=4 s", "run.step=2 ms"});
   const double angle = -0.3 / 1000. / 0.15 * std::log(1. - 0.6 / (0.15 * 0.3 * 20.));
   EXPECT_NEAR(motion.signal("angle").final, angle, 1e-4 * angle);
   EXPECT_NEAR(motion.signal("M").final, -0.6, 1e-7);
@@ -378,7 +272,6 @@ TEST(BristlesInJoints, CloseTheBalanceOfEnergyAtTheOrderOfTheMethod)
   const auto lack = [&](const std::string &step)
   {
     const SceneRun motion = run(swings, {"run.step=" + step, "run.end=4 s"});
-    EXPECT_EQ(motion.result.failure, "");
     EXPECT_GT(motion.result.energy.dissipated, 1.);
     return std::abs(motion.result.energy.residual) / motion.result.energy.dissipated;
   };
@@ -404,27 +297,14 @@ TEST(StickingJoints, RefuseWhatMakesNoSense)
 TEST(StickingJoints, RefuseWhatTheyCannotHold)
 {
   const auto refused = [](const std::string &scene, const std::string &words)
-  {
-    try
-    {
-      run(scene);
-      ADD_FAILURE() << "runs";
-    }
-    catch (const std::invalid_argument &error)
-    {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
-  };
-  refused(with(with(incline, "[joint.guide]",
-                    "[body.arm]\ntype = \"planar\"\nnormal = [0, 1, 0]\nmass = \"1 kg\"\ninertia = \"1 kg m^2\"\n"
-                    "position = [0, 0, 0]\n[joint.guide]"),
-               "from = \"ground\"", "from = \"arm\""),
+  { expect_refusal([&] { run(scene); }, words); };
+  refused(with(incline + planar_body("arm", "1 kg", "1 kg m^2", "[0, 0, 0]"), "from = 'ground'", "from = 'arm'"),
           "here both bodies turn");
-  std::string space = with(pendulum, "normal = [0, 1, 0]\nmass = \"2 kg\"\ninertia = \"0.1 kg m^2\"",
-                           "mass = \"2 kg\"\ninertia = [0.1, 0.1, 0.01]");
-  space = with(with(space, "\"planar\"", "\"rigid\""), "at = [0, 0, 0]\n", "at = [0, 0, 0]\naxis = [0, 1, 0]\n");
-  space = with(with(space, "{ \"bar.angle\" = 0.8 }", "{}"), "angle = \"bar.angle\",", "");
-  refused(with(space, ", w = \"bar.speed\"", ""), "turns freely in space");
+  refused("gravity = [0, 0, -10]\n" + rigid_body("bar", "2 kg", "[0.1, 0.1, 0.01]", "[0, 0, -0.5]") +
+              revolute("pin", "ground", "bar", "[0, 0, 0]",
+                       {{"axis", "[0, 1, 0]"}, {"friction", "{ law = 'dry', coefficient = 0.3, radius = '150 mm' }"}}) +
+              steps("0.5 ms", "5 s"),
+          "turns freely in space");
 }
 
 } // namespace

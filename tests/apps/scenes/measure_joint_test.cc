@@ -12,10 +12,9 @@ namespace gestell::tests
 namespace
 {
 
-std::string settings(const std::string &step, const std::string &signals, const std::string &end = "1 s")
+std::string settings(const std::string &step, const std::string &list, const std::string &end = "1 s")
 {
-  return "[run]\nmethod = \"bdf\"\nstep = \"" + step + "\"\nend = \"" + end +
-         "\"\n[output]\npicture_step = 0\nsignals = { " + signals + " }\n";
+  return steps(step, end) + signals(list);
 }
 
 /// Largest distance of a signal from f(t) over the run.
@@ -28,21 +27,8 @@ double error(const SceneRun &motion, std::size_t column, const std::function<dou
   return largest;
 }
 
-double order(double coarse, double fine)
-{
-  return std::log2(coarse / fine);
-}
-
-const std::string shaft_and_slide = R"(
-[body.shaft]
-type = "rotor"
-axis = [0, 1, 0]
-inertia = "0.2 kg m^2"
-[body.slide]
-type = "slider"
-axis = [0, 0, 1]
-mass = "3 kg"
-)";
+const std::string shaft_and_slide =
+    rotor_body("shaft", "0.2 kg m^2", "[0, 1, 0]") + slider_body("slide", "3 kg", "[0, 0, 1]");
 
 // y = e (1 - cos x), x = W t: the contact force is m y'' + c y, the torque of the shaft y'/x' times that.
 TEST(Cam, HarmonicCamAtConstantSpeed)
@@ -50,22 +36,10 @@ TEST(Cam, HarmonicCamAtConstantSpeed)
   const double e = 0.02, m = 3., c = 5e3, b = 40., W = 12.;
   const auto   scene = [&](const std::string &step)
   {
-    const std::string cam = R"toml(
-[element.spring]
-type = "spring-damper"
-from = "slide"
-stiffness = "5 N/mm"
-damping = "40 N s/m"
-[joint.cam]
-type = "position function"
-from = "shaft"
-to = "slide"
-function = "20 mm*(1 - cos(x))"
-[joint.drive]
-type = "prescribed motion"
-on = "shaft.angle"
-motion = { speed = "12 rad/s" }
-)toml";
+    const std::string cam =
+        element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "5 N/mm"}, {"damping", "40 N s/m"}}) +
+        joint("cam", "position function", {{"from", "shaft"}, {"to", "slide"}, {"function", "20 mm*(1 - cos(x))"}}) +
+        joint("drive", "prescribed motion", {{"on", "shaft.angle"}, {"motion", "{ speed = '12 rad/s' }"}});
     return run(shaft_and_slide + cam +
                settings(step, "F = \"cam.force\", R = \"cam.reaction\", M = \"drive.torque\", P = \"drive.power\", "
                               "x = \"slide.displacement\""));
@@ -89,19 +63,13 @@ TEST(Cam, FreeCamKeepsItsEnergyAtTheOrderOfTheMethod)
 {
   const auto worst = [&](const std::string &step)
   {
-    const std::string cam     = R"toml(
-[joint.cam]
-type = "position function"
-from = "shaft.angle"
-to = "slide.displacement"
-function = "0.2 m*(1 - cos(x))"
-[start]
-v = { shaft = "5 rad/s" }
-)toml";
-    const auto        motion  = run(shaft_and_slide + cam +
-                                    settings(step, "x = \"shaft.angle\", w = \"shaft.speed\", y = \"slide.displacement\""));
-    double            largest = 0.;
-    EXPECT_EQ(motion.result.failure, "");
+    const std::string cam =
+        joint("cam", "position function",
+              {{"from", "shaft.angle"}, {"to", "slide.displacement"}, {"function", "0.2 m*(1 - cos(x))"}}) +
+        start("v = { shaft = '5 rad/s' }");
+    const auto motion  = run(shaft_and_slide + cam +
+                             settings(step, "x = \"shaft.angle\", w = \"shaft.speed\", y = \"slide.displacement\""));
+    double     largest = 0.;
     for (std::size_t i = 0; i < motion.n_rows(); ++i)
     {
       const double x = motion.at(i, 1), sine = 0.2 * std::sin(x);
@@ -118,18 +86,13 @@ v = { shaft = "5 rad/s" }
 TEST(Cam, ElementOnAPositionFunctionActsOnBoth)
 {
   const auto motion =
-      run(shaft_and_slide + R"(
-[measure.gap]
-type = "position function"
-from = "shaft"
-to = "slide"
-table = [["-1 rad", "-50 mm"], ["0 rad", "0 mm"], ["1 rad", "50 mm"]]
-[element.contact]
-type = "cubic spring"
-on = "gap"
-cubic = 0
-stiffness = "80 N/mm"
-)" + "[start]\nq = { slide = \"1 mm\" }\n" +
+      run(shaft_and_slide +
+          measure("gap", "position function",
+                  {{"from", "shaft"},
+                   {"to", "slide"},
+                   {"table", "[['-1 rad', '-50 mm'], ['0 rad', '0 mm'], ['1 rad', '50 mm']]"}}) +
+          element("contact", "cubic spring", {{"on", "gap"}, {"cubic", "0"}, {"stiffness", "80 N/mm"}}) +
+          "[start]\nq = { slide = \"1 mm\" }\n" +
           settings("20 us", R"(y = "slide.displacement", x = "shaft.angle", s = "gap.value")", "50 ms"));
   // s = y - r x, a free system: m y = 3 - its share; s swings with w^2 = c (1/m + r^2/J).
   const double r = 0.05, m = 3., J = 0.2, c = 8e4, w = std::sqrt(c * (1. / m + r * r / J));
@@ -144,18 +107,12 @@ TEST(Sum, AClearanceOnItIsTheBacklashOfAGear)
   std::string gears;
   for (const std::string name : {"pinion", "wheel"})
     gears += "[body." + name + "]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = \"0.1 kg m^2\"\n";
-  const auto motion = run(gears + R"toml(
-[measure.mesh]
-type = "sum"
-terms = [{ of = "pinion", factor = "40 mm" }, { of = "wheel.angle", factor = "80 mm" }]
-[element.teeth]
-type = "clearance"
-on = "mesh"
-gap = "1 mm"
-stiffness = "2 kN/mm"
-[start]
-v = { pinion = "0.5 rad/s" }
-)toml" + settings("20 us", "p = \"pinion.speed\", w = \"wheel.speed\"", "0.1 s"));
+  const auto motion = run(
+      gears +
+      measure("mesh", "sum",
+              {{"terms", "[{ of = 'pinion', factor = '40 mm' }, { of = 'wheel.angle', factor = '80 mm' }]"}}) +
+      element("teeth", "clearance", {{"on", "mesh"}, {"gap", "1 mm"}, {"stiffness", "2 kN/mm"}}) +
+      start("v = { pinion = '0.5 rad/s' }") + settings("20 us", "p = \"pinion.speed\", w = \"wheel.speed\"", "0.1 s"));
   EXPECT_NEAR(time_of(motion, "contact_positive"), 1e-3 / (0.04 * 0.5), 1e-10);
   // An elastic blow turns the speed of the mesh round: impulse P = 2 v / (r_1^2/J + r_2^2/J).
   const double P = 2. * 0.04 * 0.5 / ((0.0016 + 0.0064) / 0.1);
@@ -166,19 +123,10 @@ v = { pinion = "0.5 rad/s" }
 // Constant forces on constant ratios: the motion is a parabola, which BDF 2 follows to rounding.
 TEST(MeasureJoint, ScrewRackAndRollingWheelAccelerateTheirReducedInertia)
 {
-  const std::string screw   = R"(
-[joint.screw]
-type = "screw"
-from = "shaft"
-to = "slide"
-axis = [0, 0, 1]
-pitch = "-20 mm"
-[element.load]
-type = "force"
-from = "slide"
-constant = "90 N"
-)";
-  std::string       upright = shaft_and_slide;
+  const std::string screw =
+      joint("screw", "screw", {{"from", "shaft"}, {"to", "slide"}, {"axis", "[0, 0, 1]"}, {"pitch", "-20 mm"}}) +
+      element("load", "force", {{"from", "slide"}, {"constant", "90 N"}});
+  std::string upright = shaft_and_slide;
   upright.replace(upright.find("[0, 1, 0]"), 9, "[0, 0, 1]");
   const auto nut =
       run(upright + screw + settings("5 ms", R"(z = "slide.displacement", phi = "shaft.angle", F = "screw.force")"));
@@ -188,43 +136,21 @@ constant = "90 N"
             1e-9 * a / std::abs(i)); // the nut stays upright
   EXPECT_LT(error(nut, 3, [&](double) { return 3. * a - 90.; }), 1e-7 * 90.);
 
-  const auto   rack = run(shaft_and_slide + R"(
-[joint.rack]
-type = "rack"
-from = "shaft"
-to = "slide"
-radius = "40 mm"
-direction = [0, 0, 1]
-[element.motor]
-type = "force"
-from = "shaft"
-constant = "6 N m"
-)" + settings("5 ms", R"(z = "slide.displacement", phi = "shaft.angle", F = "rack.force")"));
+  const auto rack =
+      run(shaft_and_slide +
+          joint("rack", "rack", {{"from", "shaft"}, {"to", "slide"}, {"radius", "40 mm"}, {"direction", "[0, 0, 1]"}}) +
+          element("motor", "force", {{"from", "shaft"}, {"constant", "6 N m"}}) +
+          settings("5 ms", R"(z = "slide.displacement", phi = "shaft.angle", F = "rack.force")"));
   const double rack_a = 6. / 0.04 / (3. + 0.2 / 0.0016);
   EXPECT_LT(error(rack, 1, [&](double t) { return 0.5 * rack_a * t * t; }), 1e-9);
   EXPECT_LT(error(rack, 2, [&](double t) { return 0.5 * rack_a / 0.04 * t * t; }), 1e-9);
   EXPECT_LT(error(rack, 3, [&](double) { return 3. * rack_a; }), 1e-7);
 
-  const auto   wheel   = run(R"(
-gravity = ["3 m/s^2", 0, "-9 m/s^2"]
-[body.wheel]
-type = "planar"
-normal = [0, 1, 0]
-mass = "4 kg"
-inertia = "0.1 kg m^2"
-position = [0, 0, "0.2 m"]
-[joint.track]
-type = "in-plane"
-from = "ground"
-to = "wheel"
-axis = [0, 0, 1]
-at = [0, 0, "0.2 m"]
-[joint.grip]
-type = "rolling"
-from = "wheel"
-radius = "0.2 m"
-direction = [1, 0, 0]
-)" + settings("5 ms", R"(x = "wheel.ux", phi = "wheel.angle", F = "grip.force")"));
+  const auto wheel =
+      run("gravity = ['3 m/s^2', 0, '-9 m/s^2']\n" + planar_body("wheel", "4 kg", "0.1 kg m^2", "[0, 0, '0.2 m']") +
+          joint("track", "in-plane", "ground", "wheel", "[0, 0, '0.2 m']", {{"axis", "[0, 0, 1]"}}) +
+          joint("grip", "rolling", {{"from", "wheel"}, {"radius", "0.2 m"}, {"direction", "[1, 0, 0]"}}) +
+          settings("5 ms", R"(x = "wheel.ux", phi = "wheel.angle", F = "grip.force")"));
   const double wheel_a = 3. / (1. + 0.1 / (4. * 0.04));
   EXPECT_LT(error(wheel, 1, [&](double t) { return 0.5 * wheel_a * t * t; }), 1e-9);
   EXPECT_LT(error(wheel, 2, [&](double t) { return 0.5 * wheel_a / 0.2 * t * t; }), 1e-9);
@@ -237,22 +163,11 @@ TEST(MeasureJoint, AGearOnACarrierThatTurnsFulfilsWillisEquation)
   std::string bodies;
   for (const std::string name : {"sun", "ring", "arm"})
     bodies += "[body." + name + "]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = \"1 kg m^2\"\n";
-  const auto motion = run(bodies + R"(
-[joint.planets]
-type = "gear"
-from = "sun"
-to = "ring"
-ratio = "-20/60"
-carrier = "arm"
-[joint.hold]
-type = "prescribed motion"
-on = "ring.angle"
-motion = { speed = 0 }
-[joint.drive]
-type = "prescribed motion"
-on = "sun.angle"
-motion = { function = "3*t^2/s^2" }
-)" + settings("5 ms", R"(arm = "arm.angle", M = "drive.torque", H = "hold.torque")"));
+  const auto motion = run(
+      bodies + joint("planets", "gear", {{"from", "sun"}, {"to", "ring"}, {"ratio", "-20/60"}, {"carrier", "arm"}}) +
+      joint("hold", "prescribed motion", {{"on", "ring.angle"}, {"motion", "{ speed = 0 }"}}) +
+      joint("drive", "prescribed motion", {{"on", "sun.angle"}, {"motion", "{ function = '3*t^2/s^2' }"}}) +
+      settings("5 ms", R"(arm = "arm.angle", M = "drive.torque", H = "hold.torque")"));
   EXPECT_LT(error(motion, 1, [](double t) { return 0.75 * t * t; }), 1e-9);
   EXPECT_LT(error(motion, 2, [](double) { return 6. + 1.5 / 4.; }), 1e-7); // sun, and the arm reduced to it
   // All torques of the three shafts together turn all three: 6 + 0 + 1.5.
@@ -295,19 +210,15 @@ TEST(PrescribedMotion, FormulaTableAndProfileAreFollowedWithTheTorqueTheyNeed)
 // The frame is shaken by a prescribed motion of its foot: the force is what its mass and the rest demand.
 TEST(PrescribedMotion, OfTheFrame)
 {
-  const std::string shaken = R"toml(
-[frame]
+  const std::string shaken = R"([frame]
 mass = [["2 kg", 0], [0, "5 kg"]]
 stiffness = [["8 kN/m", "-8 kN/m"], ["-8 kN/m", "8 kN/m"]]
 [frame.interface.foot]
 rows = { ux = 1 }
 [frame.interface.head]
 rows = { ux = 2 }
-[joint.shaker]
-type = "prescribed motion"
-on = "frame.foot.ux"
-motion = { function = "1 mm*(1 - cos(15 rad/s*t))" }
-)toml";
+)" + joint("shaker", "prescribed motion",
+           {{"on", "frame.foot.ux"}, {"motion", "{ function = '1 mm*(1 - cos(15 rad/s*t))' }"}});
   const auto        motion = run(shaken + settings("0.2 ms", "F = \"shaker.force\", head = \"frame.head.ux\""));
   const double      w = 40., W = 15., x = 1e-3, A = w * w / (w * w - W * W); // head: 5 x'' + 8000 x = 8000 foot
   const auto        head = [&](double t) { return x * (1. - A * std::cos(W * t) + (A - 1.) * std::cos(w * t)); };
@@ -325,25 +236,23 @@ motion = { function = "1 mm*(1 - cos(15 rad/s*t))" }
 // sine has its extremes where the steps change their sign, and no level part.
 TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsIsWarnedOf)
 {
-  const test::SceneFolder folder;
-  const auto              warnings = [&](const std::string &rows, const std::string &more)
+  const auto warnings = [&](const std::string &rows, const std::string &period = "0")
   {
-    const auto path = folder.write("scene.toml", shaft_and_slide +
-                                                     "[joint.cam]\ntype = \"position function\"\nfrom = "
-                                                     "\"shaft\"\nto = \"slide\"\ntable = [" +
-                                                     rows + "]\n" + more);
-    return apps::read_scene(path).warnings;
+    Keys cam = {{"from", "shaft"}, {"to", "slide"}, {"table", "[" + rows + "]"}};
+    if (period != "0")
+      cam.push_back({"period", period});
+    return test::scene_of(shaft_and_slide + joint("cam", "position function", cam)).warnings;
   };
-  const auto step = warnings("[0, 0], [1, 0], [2, 0], [3, 1], [4, 1], [5, 1]", "");
-  EXPECT_NE(step.at(0).find("scene.toml:14: joint.cam.table: the spline swings"), std::string::npos) << step[0];
-  const auto level = warnings("[0, 0], [0.9, 0], [1, 0], [1.01, 1], [1.1, 1], [2, 1]", ""); // uneven rows
+  const auto step = warnings("[0, 0], [1, 0], [2, 0], [3, 1], [4, 1], [5, 1]");
+  EXPECT_NE(step.at(0).find("scene.toml:13: joint.cam.table: the spline swings"), std::string::npos) << step[0];
+  const auto level = warnings("[0, 0], [0.9, 0], [1, 0], [1.01, 1], [1.1, 1], [2, 1]"); // uneven rows
   EXPECT_NE(level.at(0).find("swings 133 beyond the rows on both sides of it at 1.6"), std::string::npos) << level[0];
   std::string sine;
   for (int i = 0; i < 12; ++i)
     sine +=
         (i ? ", [" : "[") + std::to_string(i * M_PI / 6.) + ", " + std::to_string(std::sin(0.1 + i * M_PI / 6.)) + "]";
-  EXPECT_TRUE(warnings(sine, "period = \"360 deg\"\n").empty());
-  EXPECT_TRUE(warnings("[0, 0], [1, 1], [2, 3], [3, 4]", "").empty());
+  EXPECT_TRUE(warnings(sine, "360 deg").empty());
+  EXPECT_TRUE(warnings("[0, 0], [1, 1], [2, 3], [3, 4]").empty());
 }
 
 // An ideal joint would make masses jump, with energy from nowhere; what only bends is followed.
@@ -351,11 +260,11 @@ TEST(PrescribedMotion, AJumpOfTheSpeedEndsTheRun)
 {
   const auto driven = [](const std::string &function)
   {
-    return run(rotor(0.2, "1 s") +
-                   "[joint.drive]\ntype = \"prescribed motion\"\non = \"shaft.angle\"\nmotion = { "
-                   "function = \"" +
-                   function + "\" }\n",
-               {"run.step=10 ms", "output.picture_step=0"});
+    return stopped(rotor(0.2, "1 s") +
+                       "[joint.drive]\ntype = \"prescribed motion\"\non = \"shaft.angle\"\nmotion = { "
+                       "function = \"" +
+                       function + "\" }\n",
+                   {"run.step=10 ms", "output.picture_step=0"});
   };
   const std::string failure = driven("if(t < 0.305 s, 0, 2*(t - 0.305 s)/s)").result.failure;
   EXPECT_NE(
@@ -366,7 +275,6 @@ TEST(PrescribedMotion, AJumpOfTheSpeedEndsTheRun)
   EXPECT_NE(driven("0.1*step(t - 0.305 s)").result.failure.find("the prescribed motion jumps from 0 to 0.1"),
             std::string::npos);
   const auto smooth = driven("if(t < 0.305 s, 0, 2*((t - 0.305 s)/s)^2)");
-  EXPECT_EQ(smooth.result.failure, "");
   EXPECT_NEAR(smooth.signal("phi").final, 2. * 0.695 * 0.695, 1e-9);
 }
 
@@ -374,10 +282,10 @@ TEST(Cam, AKinkOfItsCourseEndsTheRun)
 {
   const auto cam = [](const std::string &function)
   {
-    return run(shaft_and_slide +
-               "[start]\nq = { shaft = -0.5 }\nv = { shaft = 2 }\n[joint.cam]\ntype = \"position "
-               "function\"\nfrom = \"shaft\"\nto = \"slide\"\nfunction = \"" +
-               function + "\"\n" + settings("1 ms", "phi = \"shaft.angle\""));
+    return stopped(shaft_and_slide +
+                   "[start]\nq = { shaft = -0.5 }\nv = { shaft = 2 }\n[joint.cam]\ntype = \"position "
+                   "function\"\nfrom = \"shaft\"\nto = \"slide\"\nfunction = \"" +
+                   function + "\"\n" + settings("1 ms", "phi = \"shaft.angle\""));
   };
   const auto kink = cam("20 mm*abs(x)");
   EXPECT_NE(kink.result.failure.find("the slope of the position function jumps from -0.02 to 0.02 (abs_1_rises)"),
@@ -411,7 +319,7 @@ TEST(MeasureJoint, BadInputIsToldWithItsPlace)
 {
   const auto        joint = [](const std::string &keys) { return shaft_and_slide + "[joint.j]\n" + keys; };
   const std::string cam   = "type = \"position function\"\nfrom = \"shaft\"\n";
-  expect_complaint(joint(cam + "to = \"slide\"\nfunction = \"20 mm*sin(y)\"\n"), "scene.toml:14: joint.j.function: ");
+  expect_complaint(joint(cam + "to = \"slide\"\nfunction = \"20 mm*sin(y)\"\n"), "scene.toml:13: joint.j.function: ");
   expect_complaint(joint(cam + "to = \"slide\"\nfunction = \"20 mm*sin(y)\"\n"), "character 11");
   expect_complaint(joint(cam + "to = \"slide\"\nfunction = \"20 N*sin(x)\"\n"), "needs a length");
   expect_complaint(joint(cam + "to = \"shaft\"\nfunction = \"x\"\n"), "like `from`");

@@ -1,6 +1,6 @@
 // Modes of machines that would not stay, and of machines with drives, against closed forms.
 
-#include "tests/support/scene_text.h"
+#include "tests/support/scene_parts.h"
 
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/modes.h"
@@ -14,14 +14,11 @@ namespace gestell::tests
 namespace
 {
 
-using test::SceneFolder;
-
 struct Linearised
 {
   explicit Linearised(const std::string &text)
   {
-    const SceneFolder folder;
-    const apps::Scene scene   = apps::read_scene(folder.write("scene.toml", text));
+    const apps::Scene scene   = test::scene_of(text);
     coupling::Machine machine = apps::build_machine(scene);
     const auto        q       = apps::modes_configuration(scene, machine);
     modes                     = coupling::coupled_modes(machine, q, {}, 20);
@@ -31,15 +28,23 @@ struct Linearised
   std::vector<coupling::Pole> poles;
 };
 
-const std::string rotor = "[body.r]\ntype = \"rotor\"\naxis = [0, 1, 0]\ninertia = 2\n";
-const std::string run   = "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output]\nsignals = { a = \"r.angle\" }\n";
+const std::string rotor = rotor_body("r", "2", "[0, 1, 0]");
+const std::string run   = steps("1 ms", "1 s") + signals("a = 'r.angle'");
 
 std::string pendulum(const std::string &angle)
 {
-  return "gravity = [0, 0, -9.81]\n[body.r]\ntype = \"planar\"\nnormal = [0, 1, 0]\nmass = 2\ninertia = 0.5\n"
-         "position = [0, 0, -1]\n[joint.j]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"r\"\nat = [0, 0, 0]\n"
-         "[modes]\nat = { \"r.angle\" = \"" +
-         angle + "\" }\n" + run;
+  return "gravity = [0, 0, -9.81]\n" + planar_body("r", "2", "0.5", "[0, 0, -1]") +
+         revolute("j", "ground", "r", "[0, 0, 0]") + "[modes]\nat = { 'r.angle' = '" + angle + "' }\n" + run;
+}
+
+const std::string drive =
+    element("d", "speed drive", {{"on", "r"}, {"speed", "0"}, {"proportional_gain", "4"}, {"integral_gain", "200"}});
+
+std::string motor(const std::string &type, const std::string &speed, const Keys &more = {})
+{
+  Keys kloss = {{"on", "r"}, {"breakdown_torque", "200"}, {"breakdown_slip", "0.2"}, {"synchronous_speed", "10"}};
+  kloss.insert(kloss.end(), more.begin(), more.end());
+  return element("d", type, kloss) + start("v = { r = " + speed + " }");
 }
 
 TEST(OperatingModes, APendulumOnItsHeadGrowsAsFastAsItSwingsBelow)
@@ -66,39 +71,31 @@ TEST(OperatingModes, AFreeMotionNeitherVibratesNorGrows)
 // 2 s^2 + 4 s + 200 = 0: omega_0 = 10 rad/s, ratio 0.1.
 TEST(OperatingModes, ASpeedDriveHoldsItsInertiaLikeASpringAndADamper)
 {
-  const auto drive = Linearised(rotor +
-                                "[element.d]\ntype = \"speed drive\"\non = \"r\"\nspeed = 0\n"
-                                "proportional_gain = 4\nintegral_gain = 200\n" +
-                                run);
-  ASSERT_EQ(drive.poles.size(), 1u);
-  EXPECT_NEAR(std::abs(drive.poles[0].s), 10., 1e-6);
-  EXPECT_NEAR(drive.poles[0].damping_ratio(), 0.1, 1e-7);
-  EXPECT_NEAR(drive.poles[0].frequency_hz(), 10. * std::sqrt(0.99) / (2. * M_PI), 1e-7);
-  EXPECT_EQ(drive.poles[0].moves, "r");
+  const auto poles = Linearised(rotor + drive + run).poles;
+  ASSERT_EQ(poles.size(), 1u);
+  EXPECT_NEAR(std::abs(poles[0].s), 10., 1e-6);
+  EXPECT_NEAR(poles[0].damping_ratio(), 0.1, 1e-7);
+  EXPECT_NEAR(poles[0].frequency_hz(), 10. * std::sqrt(0.99) / (2. * M_PI), 1e-7);
+  EXPECT_EQ(poles[0].moves, "r");
 }
 
 // J s (T s + 1) + D = 0 with D = 2 M_b/(s_b omega_s) = 200 N m s at no load: s^2 + 2 s + 200 = 0.
 TEST(OperatingModes, AMotorThatLagsVibratesAgainstItsRotor)
 {
-  const auto motor = Linearised(rotor +
-                                "[element.d]\ntype = \"dynamic motor\"\non = \"r\"\nbreakdown_torque = 200\n"
-                                "breakdown_slip = 0.2\nsynchronous_speed = 10\ntime_constant = 0.5\n"
-                                "[start]\nv = { r = 10 }\n" +
-                                run);
-  ASSERT_EQ(motor.poles.size(), 1u);
-  EXPECT_NEAR(std::abs(motor.poles[0].s), std::sqrt(200.), 1e-6);
-  EXPECT_NEAR(motor.poles[0].damping_ratio(), 1. / std::sqrt(200.), 1e-7);
+  const auto poles = Linearised(rotor + motor("dynamic motor", "10", {{"time_constant", "0.5"}}) + run).poles;
+  ASSERT_EQ(poles.size(), 1u);
+  EXPECT_NEAR(std::abs(poles[0].s), std::sqrt(200.), 1e-6);
+  EXPECT_NEAR(poles[0].damping_ratio(), 1. / std::sqrt(200.), 1e-7);
 }
 
 // Bristles are friction, which does not act here; their lag is a scale of the computation (T = 1 ms), no motion.
 TEST(OperatingModes, TellNothingOfBristles)
 {
-  const std::string bristles = "[element.f]\ntype = \"lugre friction\"\nfrom = \"r\"\nkinetic_force = 10\n"
-                               "bristle_stiffness = 1e5\nbristle_damping = 100\n";
+  const std::string bristles =
+      element("f", "lugre friction",
+              {{"from", "r"}, {"kinetic_force", "10"}, {"bristle_stiffness", "1e5"}, {"bristle_damping", "100"}});
   EXPECT_TRUE(Linearised(rotor + bristles + run).poles.empty());
-  const std::string drive = "[element.d]\ntype = \"speed drive\"\non = \"r\"\nspeed = 0\nproportional_gain = 4\n"
-                            "integral_gain = 200\n";
-  const auto        both  = Linearised(rotor + bristles + drive + run);
+  const auto both = Linearised(rotor + bristles + drive + run);
   ASSERT_EQ(both.poles.size(), 1u); // as of the drive alone
   EXPECT_NEAR(std::abs(both.poles[0].s), 10., 1e-6);
   EXPECT_NEAR(both.poles[0].damping_ratio(), 0.1, 1e-7);
@@ -107,15 +104,12 @@ TEST(OperatingModes, TellNothingOfBristles)
 // Beyond its breakdown torque the characteristic falls with the speed: s = D/J > 0.
 TEST(OperatingModes, AMotorBeyondItsBreakdownGrows)
 {
-  const auto motor = Linearised(rotor +
-                                "[element.d]\ntype = \"asynchronous motor\"\non = \"r\"\nbreakdown_torque = 200\n"
-                                "breakdown_slip = 0.2\nsynchronous_speed = 10\n[start]\nv = { r = 5 }\n" +
-                                run);
+  const auto poles = Linearised(rotor + motor("asynchronous motor", "5") + run).poles;
   // Kloss: M = 2 M_b/(s/s_b + s_b/s), slip 0.5; dM/dv = -dM/ds/omega_s.
   const double x = 0.5 / 0.2, slope = 2. * 200. * (1. - 1. / (x * x)) / std::pow(x + 1. / x, 2) / (0.2 * 10.);
-  ASSERT_EQ(motor.poles.size(), 1u);
-  EXPECT_NEAR(motor.poles[0].s.real(), slope / 2., 1e-6);
-  EXPECT_FALSE(motor.poles[0].vibrates());
+  ASSERT_EQ(poles.size(), 1u);
+  EXPECT_NEAR(poles[0].s.real(), slope / 2., 1e-6);
+  EXPECT_FALSE(poles[0].vibrates());
 }
 
 } // namespace

@@ -11,12 +11,6 @@ namespace gestell::tests
 namespace
 {
 
-std::size_t column(const SceneRun &run, const std::string &name)
-{
-  const auto &columns = run.result.columns;
-  return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
-}
-
 TEST(GenevaDrive, IndexesBySixtyDegreesAndFollowsTheExactPositionFunction)
 {
   const SceneRun run("geneva_drive.toml", {"output.picture_step=0"});
@@ -29,7 +23,7 @@ TEST(GenevaDrive, IndexesBySixtyDegreesAndFollowsTheExactPositionFunction)
                                                  : std::copysign(M_PI / n, inner);
     return index + 2. * M_PI / n * turns;
   };
-  const auto phi = column(run, "phi"), psi = column(run, "psi");
+  const auto phi = run.column("phi"), psi = run.column("psi");
   double     error = 0.;
   for (std::size_t i = 0; i < run.n_rows(); ++i)
     error = std::max(error, std::abs(run.at(i, psi) - exact(run.at(i, phi))));

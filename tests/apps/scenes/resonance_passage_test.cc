@@ -1,13 +1,12 @@
 // Passage through resonance against its exact peaks (tests/reference/numerics/order, case e): omega_0 = 1, static
 // deflection 1, load cos or sin of alpha t^2/2 from rest.
 
-#include "tests/support/scene_motion.h"
 #include "tests/support/reference_table.h"
+#include "tests/support/scene_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace gestell::tests
 {
@@ -17,15 +16,12 @@ namespace
 /// @param wave  "cos" or "sin"
 std::string passage(double zeta, double alpha, const std::string &wave, double end)
 {
-  std::ostringstream scene;
-  scene.precision(17);
-  scene << "[parameters]\nalpha = " << alpha << "\n[body.mass]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 1\n"
-        << "[element.spring]\ntype = \"spring-damper\"\nfrom = \"mass\"\nstiffness = 1\ndamping = " << 2. * zeta << "\n"
-        << "[element.sweep]\ntype = \"formula force\"\nfrom = \"mass\"\nforce = \"1 N * " << wave
-        << "(alpha * 1 s^-2 * t^2/2)\"\n"
-        << "[run]\nmethod = \"exact\"\norder = 6\ntolerance = 1e-7\nstep = 0.5\nend = " << end << "\n"
-        << "[output]\nstep = 1\npicture_step = 0\nsignals = { x = \"mass.displacement\" }\n";
-  return scene.str();
+  return "[parameters]\nalpha = " + number(alpha) + "\n" + slider_body("mass", "1", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "mass"}, {"stiffness", "1"}, {"damping", number(2. * zeta)}}) +
+         element("sweep", "formula force",
+                 {{"from", "mass"}, {"force", "1 N * " + wave + "(alpha * 1 s^-2 * t^2/2)"}}) +
+         steps("0.5", number(end), {{"method", "exact"}, {"order", "6"}, {"tolerance", "1e-7"}}) +
+         signals("x = 'mass.displacement'", {{"step", "1"}});
 }
 
 TEST(ResonancePassage, PeaksMeetTheExactOnes)

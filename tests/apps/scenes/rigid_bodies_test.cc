@@ -16,35 +16,30 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 std::string text(const Vector3d &x)
 {
-  std::ostringstream out;
-  out.precision(17);
-  out << "[" << x[0] << ", " << x[1] << ", " << x[2] << "]";
-  return out.str();
+  return vector(x[0], x[1], x[2]);
 }
 
+/// The entries of a vector of start values: 'body.wx' = 1, ...
 std::string entries(const std::string &body, const std::string &letter, const Vector3d &x)
 {
-  std::ostringstream out;
-  out.precision(17);
+  std::string list;
   for (int d = 0; d < 3; ++d)
-    out << (d ? ", " : "") << '"' << body << '.' << letter << "xyz"[d] << "\" = " << x[d];
-  return out.str();
+    list += (d ? ", '" : "'") + body + '.' + letter + "xyz"[d] + "' = " + number(x[d]);
+  return list;
 }
 
 std::string top(double mass, const Vector3d &inertia, const Vector3d &position)
 {
-  return "[body.top]\ntype = \"rigid\"\nmass = " + std::to_string(mass) + "\ninertia = " + text(inertia) +
-         "\nposition = " + text(position) + "\n";
+  return rigid_body("top", number(mass), text(inertia), text(position));
 }
 
 std::string settings(double step, double end)
 {
-  std::ostringstream out;
-  out.precision(17);
-  out << "[run]\nstep = " << step << "\nend = " << end << "\n[output]\npicture_step = 0\nstep = " << end / 10.
-      << "\nsignals = [\"top.x\", \"top.y\", \"top.z\", \"top.vx\", \"top.vy\", \"top.vz\", \"top.rx\", \"top.ry\", "
-         "\"top.rz\", \"top.wx\", \"top.wy\", \"top.wz\"]\n";
-  return out.str();
+  return steps(number(step), number(end)) +
+         table("output", {{"picture_step", "0"},
+                          {"step", number(end / 10.)},
+                          {"signals", "['top.x', 'top.y', 'top.z', 'top.vx', 'top.vy', 'top.vz', 'top.rx', 'top.ry', "
+                                      "'top.rz', 'top.wx', 'top.wy', 'top.wz']"}});
 }
 
 /// Position, velocity, rotation or angular velocity in a row of a run with those settings.
@@ -64,11 +59,6 @@ Matrix3d matrix(const Vector3d &rotation)
 {
   return rotation.norm() > 0. ? Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix()
                               : Matrix3d(Matrix3d::Identity());
-}
-
-double order(double coarse, double fine)
-{
-  return std::log2(coarse / fine);
 }
 
 /// A rotation R and the angular velocity in axes of the body, by Euler's equations J w' = -w x J w, R' = R [w x].
@@ -108,10 +98,9 @@ struct TopErrors
 TopErrors tumbling(double step)
 {
   const Vector3d J(1., 2., 2.5), w(0.5, 4., 0.3); // about the middle axis: it tumbles over
-  const auto     motion = run(top(3., J, {1., 0., 0.}) + "[start]\nv = { \"top.uy\" = 2, " + entries("top", "w", w) +
-                              " }\n" + settings(step, 4.));
-  EXPECT_EQ(motion.result.failure, "");
-  const Vector3d L = J.cwiseProduct(w);
+  const auto     motion = run(top(3., J, {1., 0., 0.}) + start("v = { 'top.uy' = 2, " + entries("top", "w", w) + " }") +
+                              settings(step, 4.));
+  const Vector3d L      = J.cwiseProduct(w);
   EulerTop       exact{J, w};
   TopErrors      errors;
   for (std::size_t i = 1; i < motion.n_rows(); ++i)
@@ -147,10 +136,10 @@ double cone_error(double step)
   const double   J_1 = 1., J_3 = 1.6;
   const Vector3d w(1.5, 0., 5.), L(J_1 * w[0], 0., J_3 * w[2]);
   // Described about axes of its own, which the tensor tells.
-  const auto motion = run("[body.top]\ntype = \"rigid\"\nmass = 1\nposition = [0, 0, 0]\ninertia = [1.6, 1, 1]\n"
-                          "principal_axes = [[0, 0, 2], [1, 1, 0]]\n[start]\nv = { " +
-                          entries("top", "w", w) + " }\n" + settings(step, 2.));
-  double     error  = 0.;
+  const auto motion =
+      run(rigid_body("top", "1", "[1.6, 1, 1]", "[0, 0, 0]", {{"principal_axes", "[[0, 0, 2], [1, 1, 0]]"}}) +
+          start("v = { " + entries("top", "w", w) + " }") + settings(step, 2.));
+  double error = 0.;
   for (std::size_t i = 0; i < motion.n_rows(); ++i)
   {
     const Vector3d figure = Eigen::AngleAxisd(L.norm() / J_1 * motion.at(i, 0), L.normalized()) * Vector3d(0., 0., 1.);
@@ -180,11 +169,8 @@ struct HeavyTop
   }
   std::string scene(const std::string &body, const Vector3d &w) const
   {
-    return "gravity = [0, 0, -9.81]\n" + body +
-           "[joint.tip]\ntype = \"spherical\"\nfrom = \"ground\"\nto = \"top\"\nat = [0, 0, 0]\n[start]\nq = { "
-           "\"top.rx\" = "
-           "\"30 deg\" }\nv = { " +
-           entries("top", "w", w) + " }\n";
+    return "gravity = [0, 0, -9.81]\n" + body + joint("tip", "spherical", "ground", "top", "[0, 0, 0]") +
+           start("q = { 'top.rx' = '30 deg' }\nv = { " + entries("top", "w", w) + " }");
   }
 };
 
@@ -193,7 +179,6 @@ double precession_error(double step, Kind kind)
   const HeavyTop top_on_tip;
   const auto     motion =
       run(top_on_tip.scene(top(1., {0.011, 0.011, 0.02}, {0., 0., 0.1}), top_on_tip.steady()) + settings(step, 1.));
-  EXPECT_EQ(motion.result.failure, "");
   double error = 0.;
   for (std::size_t i = 0; i < motion.n_rows(); ++i)
   {
@@ -220,9 +205,10 @@ TEST(RigidBody, APointMassTurnsWithItsBody)
 {
   const HeavyTop    whole;
   const double      moved = 2. * 0.5 * 0.04 * 0.04;
-  const std::string parts = top(0.5, {0.014 - moved, 0.014 - moved, 0.016}, {0., 0., 0.06}) +
-                            "[element.lump]\ntype = \"point mass\"\non = \"top\"\nmass = 0.5\noffset = [0, 0, 0.08]\n"
-                            "inertia = [0.002, 0.002, 0.004]\n";
+  const std::string parts =
+      top(0.5, {0.014 - moved, 0.014 - moved, 0.016}, {0., 0., 0.06}) +
+      element("lump", "point mass",
+              {{"on", "top"}, {"mass", "0.5"}, {"offset", "[0, 0, 0.08]"}, {"inertia", "[0.002, 0.002, 0.004]"}});
   const Vector3d w(0.3, -0.2, 12.); // nutates
   const auto     one = run(whole.scene(top(1., {0.016, 0.016, 0.02}, {0., 0., 0.1}), w) + settings(1e-3, 1.));
   const auto     two = run(whole.scene(parts, w) + settings(1e-3, 1.));
@@ -234,14 +220,15 @@ TEST(RigidBody, APointMassTurnsWithItsBody)
 // On a rod through its centre of mass a body swings as a point does, whatever its inertia.
 TEST(RigidBody, SwingsAsASphericalPendulum)
 {
-  const std::string rest =
-      "position = [0.6, 0, -0.8]\n[joint.rod]\ntype = \"distance\"\nfrom = \"ground\"\nto = \"top\"\n"
-      "[start]\nv = { \"top.uy\" = 2 }\n[run]\nstep = \"1 ms\"\nend = \"2 s\"\n[output]\n"
-      "picture_step = 0\nstep = \"0.1 s\"\nsignals = [\"top.x\", \"top.y\", \"top.z\", \"top.vx\", "
-      "\"top.vy\", \"rod.force\"]\n";
-  const std::string head  = "gravity = [0, 0, -9.81]\n[body.top]\nmass = 2\n";
-  const auto        point = run(head + "type = \"point\"\n" + rest);
-  const auto        body  = run(head + "type = \"rigid\"\ninertia = [0.3, 0.4, 0.5]\n" + rest);
+  const std::string gravity = "gravity = [0, 0, -9.81]\n", at = "[0.6, 0, -0.8]",
+                    rest =
+                        joint("rod", "distance", {{"from", "ground"}, {"to", "top"}}) + start("v = { 'top.uy' = 2 }") +
+                        steps("1 ms", "2 s") +
+                        table("output", {{"picture_step", "0"},
+                                         {"step", "0.1 s"},
+                                         {"signals", "['top.x', 'top.y', 'top.z', 'top.vx', 'top.vy', 'rod.force']"}});
+  const auto point = run(gravity + point_body("top", "2", at) + rest);
+  const auto body  = run(gravity + rigid_body("top", "2", "[0.3, 0.4, 0.5]", at) + rest);
   for (std::size_t i = 0; i < point.n_rows(); ++i)
   {
     for (std::size_t k = 1; k < 7; ++k)
@@ -251,17 +238,18 @@ TEST(RigidBody, SwingsAsASphericalPendulum)
   }
 }
 
+/// A body on a hinge along z through its centre of mass, whose angle is measured.
+const std::string hinged = rigid_body("top", "1", "[0.4, 0.3, 0.5]", "[0.1, 0, 0]") +
+                           revolute("hinge", "ground", "top", "[0.1, 0, 0]", {{"axis", "[0, 0, 1]"}}) +
+                           measure("twist", "angle", {{"from", "top"}, {"to", "ground"}, {"about", "[0, 0, 1]"}});
+
 // Large angles of twist about a joint's axis: a spring on them is linear.
 double torsion_error(double step)
 {
   const double c = 8., J_z = 0.5;
-  const auto motion = run("[body.top]\ntype = \"rigid\"\nmass = 1\ninertia = [0.4, 0.3, 0.5]\nposition = [0.1, 0, 0]\n"
-                          "[joint.hinge]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"top\"\nat = [0.1, 0, 0]\n"
-                          "axis = [0, 0, 1]\n[measure.twist]\ntype = \"angle\"\nfrom = \"top\"\nto = \"ground\"\n"
-                          "about = [0, 0, 1]\n[element.spring]\ntype = \"cubic spring\"\non = \"twist\"\n"
-                          "stiffness = 8\ncubic = 0\n[start]\nq = { \"top.rz\" = \"120 deg\" }\n" +
-                          settings(step, 2.));
-  EXPECT_EQ(motion.result.failure, "");
+  const auto   motion =
+      run(hinged + element("spring", "cubic spring", {{"on", "twist"}, {"stiffness", "8"}, {"cubic", "0"}}) +
+          start("q = { 'top.rz' = '120 deg' }") + settings(step, 2.));
   double error = 0.;
   for (std::size_t i = 0; i < motion.n_rows(); ++i)
     error = std::max(error, std::abs(triple(motion, i, rotation)[2] -
@@ -273,13 +261,8 @@ double torsion_error(double step)
 TEST(RigidBody, IsDrivenThroughManyTurnsByAnAngleThatTellsNone)
 {
   const auto motion =
-      run("[body.top]\ntype = \"rigid\"\nmass = 1\ninertia = [0.4, 0.3, 0.5]\nposition = [0.1, 0, 0]\n"
-          "[joint.hinge]\ntype = \"revolute\"\nfrom = \"ground\"\nto = \"top\"\nat = [0.1, 0, 0]\naxis = [0, 0, 1]\n"
-          "[measure.twist]\ntype = \"angle\"\nfrom = \"top\"\nto = \"ground\"\nabout = [0, 0, 1]\n"
-          "[joint.drive]\ntype = \"prescribed motion\"\non = \"twist\"\nmotion = { speed = \"3 rad/s\" }\n"
-          "[start]\nv = { \"top.wz\" = 3 }\n" +
-          settings(1e-3, 3.));
-  EXPECT_EQ(motion.result.failure, "");
+      run(hinged + joint("drive", "prescribed motion", {{"on", "twist"}, {"motion", "{ speed = '3 rad/s' }"}}) +
+          start("v = { 'top.wz' = 3 }") + settings(1e-3, 3.));
   const std::size_t last = motion.n_rows() - 1;
   EXPECT_NEAR(triple(motion, last, rotation)[2], 9. - 2. * M_PI, 1e-9);
 }
@@ -291,16 +274,12 @@ TEST(RigidBody, ATorsionSpringActsOnTheAngleBetweenBodies)
   EXPECT_LT(fine, 1e-3);
 }
 
-const std::string hanging = "gravity = [0, 0, -9.81]\n[body.top]\ntype = \"rigid\"\nmass = 2\n"
-                            "inertia = [0.02, 0.03, 0.04]\nposition = [0, 0, -0.3]\n";
+const std::string hanging = "gravity = [0, 0, -9.81]\n" + rigid_body("top", "2", "[0.02, 0.03, 0.04]", "[0, 0, -0.3]");
 
 // Frequencies of the physical pendulum about either axis; nothing holds its spin.
 TEST(RigidBody, HangsWithTheFrequenciesOfAPhysicalPendulum)
 {
-  const test::SceneFolder folder;
-  const std::string       file = folder.write(
-            "scene.toml", hanging + "[joint.hook]\ntype = \"spherical\"\nfrom = \"ground\"\nto = \"top\"\nat = [0, 0, 0]\n");
-  const apps::Scene scene   = apps::read_scene(file);
+  const apps::Scene scene   = test::scene_of(hanging + joint("hook", "spherical", "ground", "top", "[0, 0, 0]"));
   coupling::Machine machine = apps::build_machine(scene);
   const auto        modes   = coupling::coupled_modes(machine, apps::modes_configuration(scene, machine), {}, 6);
   const auto        hertz   = [](double J) { return std::sqrt(2. * 9.81 * 0.3 / (J + 2. * 0.09)) / (2. * M_PI); };
@@ -313,11 +292,10 @@ TEST(RigidBody, HangsWithTheFrequenciesOfAPhysicalPendulum)
 // On a cross the spin is held: the centre of mass comes to rest below it.
 TEST(RigidBody, ComesToRestBelowItsJoint)
 {
-  const auto motion = run(hanging +
-                          "[joint.hook]\ntype = \"universal\"\nfrom = \"ground\"\nto = \"top\"\nat = [0.1, 0.05, 0]\n"
-                          "axis_from = [1, 0, 0]\naxis_to = [0, 1, 0]\n[start]\nrule = \"static\"\n" +
-                          settings(1e-3, 0.1));
-  EXPECT_EQ(motion.result.failure, "");
+  const auto   motion = run(hanging +
+                            joint("hook", "universal", "ground", "top", "[0.1, 0.05, 0]",
+                                  {{"axis_from", "[1, 0, 0]"}, {"axis_to", "[0, 1, 0]"}}) +
+                            start("rule = 'static'") + settings(1e-3, 0.1));
   const double length = std::sqrt(0.1 * 0.1 + 0.05 * 0.05 + 0.3 * 0.3);
   for (const std::size_t row : {std::size_t(0), motion.n_rows() - 1})
     EXPECT_LT((triple(motion, row, position) - Vector3d(0.1, 0.05, -length)).norm(), 1e-9);
@@ -326,22 +304,9 @@ TEST(RigidBody, ComesToRestBelowItsJoint)
 // 0.1 rad a step: BDF 2 damps the directors by about (w h)^4/4 a step, so that the spin dies away; and says what helps.
 TEST(RigidBody, ALossOfSpinIsWarnedOfWithItsRemedy)
 {
-  const std::string top    = R"(
-[body.top]
-type = "rigid"
-mass = 1
-inertia = [0.2, 0.3, 0.4]
-position = [0, 0, 0]
-[start]
-v = { "top.wz" = "100 rad/s" }
-[run]
-step = "1 ms"
-end = "0.5 s"
-[output]
-picture_step = 0
-signals = { w = "top.wz" }
-)";
-  const auto        second = run(top), fourth = run(top, {"run.order=4"});
+  const std::string top = rigid_body("top", "1", "[0.2, 0.3, 0.4]", "[0, 0, 0]") +
+                          start("v = { 'top.wz' = '100 rad/s' }") + steps("1 ms", "0.5 s") + signals("w = 'top.wz'");
+  const auto second = run(top), fourth = run(top, {"run.order=4"});
   ASSERT_FALSE(second.result.warnings.empty());
   EXPECT_NE(second.result.warnings.back().find("order = 4 with 60 steps or more per turn"), std::string::npos)
       << second.result.warnings.back();
@@ -362,8 +327,7 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(body("inertia = [[2, 0.1, 0], [0.2, 2, 0], [0, 0, 2]]\n"), "symmetric");
   expect_complaint(body("inertia = [[2, 0], [0, 2]]\n"), "three rows");
   expect_complaint(body("inertia = [1, 2, 2]\nprincipal_axes = [[1, 0, 0], [1, 1, 0]]\n"), "right angles");
-  expect_complaint(good + "[body.wheel]\ntype = \"rotor\"\naxis = [0, 0, 1]\ninertia = 1\non = \"top\"\n",
-                   "turns freely in space");
+  expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "turns freely in space");
   expect_complaint(good + "[element.spring]\ntype = \"spring-damper\"\nfrom = \"top\"\nabout = [0, 0, 1]\n"
                           "stiffness = \"1 N m/rad\"\n",
                    "act on a [measure]");
