@@ -49,9 +49,7 @@ PeerOptions options(PeerKind kind, int order, PeerSolver solver = PeerSolver::co
   return peer;
 }
 
-class EveryPeer : public ::testing::TestWithParam<PeerOptions>
-{
-};
+using EveryPeer = ::testing::TestWithParam<PeerOptions>;
 INSTANTIATE_TEST_SUITE_P(Peers, EveryPeer,
                          ::testing::Values(options(PeerKind::cvode_bdf, 2), options(PeerKind::cvode_bdf, 5),
                                            options(PeerKind::cvode_bdf, 5, PeerSolver::dense),
@@ -77,9 +75,7 @@ void set_accuracy(PeerOptions &peer, double tolerance, double step)
 }
 
 /// PETSc stands in a plugin that not every build has; its second order needs looser bounds.
-class EveryPetsc : public ::testing::TestWithParam<PeerOptions>
-{
-};
+using EveryPetsc = ::testing::TestWithParam<PeerOptions>;
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryPetsc);
 INSTANTIATE_TEST_SUITE_P(Petsc, EveryPetsc, ::testing::ValuesIn(of_petsc()), test_name);
 

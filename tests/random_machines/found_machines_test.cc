@@ -9,9 +9,7 @@ namespace gestell::tests
 namespace
 {
 
-class FoundMachines : public ::testing::TestWithParam<std::uint64_t>
-{
-};
+using FoundMachines = ::testing::TestWithParam<std::uint64_t>;
 
 TEST_P(FoundMachines, ObeyWhatHoldsOfAllMotions)
 {

@@ -9,9 +9,7 @@ namespace gestell::tests
 namespace
 {
 
-class RandomMachines : public ::testing::TestWithParam<std::uint64_t>
-{
-};
+using RandomMachines = ::testing::TestWithParam<std::uint64_t>;
 
 TEST_P(RandomMachines, ObeyWhatHoldsOfAllMotions)
 {

@@ -47,12 +47,7 @@ inline ModalSystem oscillator(double m, double c, double k, SmallSystem::Law law
 inline ModalSystem duffing(double a, double b)
 {
   return oscillator(1., 0., a,
-                    [b](double u, double, double &p, double &dp_du, double &dp_dv)
-                    {
-                      p     = -b * u * u * u;
-                      dp_du = -3. * b * u * u;
-                      dp_dv = 0.;
-                    });
+                    law_of([b](double u) { return -b * u * u * u; }, [b](double u) { return -3. * b * u * u; }));
 }
 
 } // namespace gestell::tests

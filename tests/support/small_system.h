@@ -143,4 +143,15 @@ private:
   mutable Matrix       tangent_;
 };
 
+/// A force of the displacement alone, with its slope.
+inline SmallSystem::Law law_of(std::function<double(double)> force, std::function<double(double)> slope)
+{
+  return [force = std::move(force), slope = std::move(slope)](double u, double, double &p, double &dp_du, double &dp_dv)
+  {
+    p     = force(u);
+    dp_du = slope(u);
+    dp_dv = 0.;
+  };
+}
+
 } // namespace gestell::tests

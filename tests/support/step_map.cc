@@ -1,12 +1,7 @@
 #include "tests/support/step_map.h"
 
-#include "coupling/integration/newmark/newmark.h"
-#include "coupling/integration/newmark/wilson.h"
 #include "tests/support/small_system.h"
 
-#include <Eigen/Eigenvalues>
-
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::tests
@@ -30,28 +25,6 @@ SmallSystem oscillator(double zeta, double omega)
                      Matrix::Constant(1, 1, omega * omega));
 }
 
-std::unique_ptr<OneStep> newmark(const SecondOrderSystem &system, Newmark::Options options, double h)
-{
-  options.step = h;
-  return std::make_unique<Newmark>(system, options);
-}
-
-/// Rows and columns scaled by powers of two until they weigh alike (Parlett & Reinsch 1969): no rounding.
-void balance(Matrix &A)
-{
-  for (int sweep = 0; sweep < 20; ++sweep)
-    for (int i = 0; i < A.rows(); ++i)
-    {
-      const double own = std::abs(A(i, i));
-      const double row = A.row(i).cwiseAbs().sum() - own, column = A.col(i).cwiseAbs().sum() - own;
-      if (!(row > 0.) || !(column > 0.))
-        continue;
-      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
-      A.row(i) /= factor;
-      A.col(i) *= factor;
-    }
-}
-
 } // namespace
 
 int bdf_order(const std::string &name)
@@ -59,40 +32,42 @@ int bdf_order(const std::string &name)
   return begins(name, "bdf") ? name.at(3) - '0' : 0;
 }
 
-std::unique_ptr<OneStep> one_step_method(const std::string &name, const SecondOrderSystem &system, double h)
+std::optional<MethodOptions> named_method(const std::string &name)
 {
   const std::string value = name.substr(name.rfind('_') + 1);
-  Newmark::Options  options;
-  if (begins(name, "wilson"))
+  MethodOptions     options;
+  const auto        of = [&](const char *method, const char *parameter, double x)
   {
-    Wilson::Options wilson;
-    wilson.theta = value == "(1+sqrt3)/2" ? 0.5 * (1. + std::sqrt(3.)) : std::stod(value);
-    wilson.step  = h;
-    return std::make_unique<Wilson>(system, wilson);
-  }
-  if (begins(name, "hht"))
-    return newmark(system, Newmark::hht(std::stod(value)), h);
-  if (begins(name, "galpha"))
-    return newmark(system, Newmark::generalised_alpha(std::stod(value)), h);
-  if (name == "central_difference" || begins(name, "newmark_explicit"))
-    return newmark(system, Newmark::central_difference(), h);
-  if (begins(name, "newmark_average"))
-    return newmark(system, options, h);
-  if (begins(name, "newmark_linear"))
-    options.beta = 1. / 6.;
+    options.method = method;
+    options.set(parameter, x);
+  };
+  if (const int order = bdf_order(name))
+    options.order = order;
+  else if (begins(name, "wilson"))
+    of("wilson", "theta", value == "(1+sqrt3)/2" ? 0.5 * (1. + std::sqrt(3.)) : std::stod(value));
+  else if (begins(name, "hht"))
+    of("hht", "alpha", std::stod(value));
+  else if (begins(name, "galpha"))
+    of("generalised-alpha", "rho_inf", std::stod(value));
+  else if (name == "central_difference")
+    options.method = "central-difference";
   else if (begins(name, "newmark_g")) // newmark_g<gamma>_b<beta>
   {
-    options.gamma = std::stod(name.substr(9));
-    options.beta  = std::stod(name.substr(name.find("_b") + 2));
+    of("newmark", "gamma", std::stod(name.substr(9)));
+    options.set("beta", std::stod(name.substr(name.find("_b") + 2)));
   }
+  else if (begins(name, "newmark"))
+    of("newmark", "beta", begins(name, "newmark_average") ? 0.25 : begins(name, "newmark_linear") ? 1. / 6. : 0.);
   else
-    return nullptr;
-  return newmark(system, options, h);
+    return std::nullopt;
+  return options;
 }
 
-bool has_method(const std::string &name)
+std::unique_ptr<OneStep> one_step_method(const std::string &name, const SecondOrderSystem &system, double h)
 {
-  return bdf_order(name) > 0 || one_step_method(name, oscillator(0., 1.), 1.);
+  MethodOptions options = named_method(name).value();
+  options.step          = h;
+  return std::unique_ptr<OneStep>(dynamic_cast<OneStep *>(make_integrator(system, options).release()));
 }
 
 Matrix step_map(const std::string &name, double zeta, double omega_h)
@@ -129,21 +104,6 @@ Matrix step_map(const std::string &name, double zeta, double omega_h)
     map.col(j) << method->instant().q[0], method->instant().v[0] / omega, method->acceleration()[0] / (omega * omega);
   }
   return map;
-}
-
-std::vector<std::complex<double>> roots(Matrix map)
-{
-  balance(map);
-  const auto values = Eigen::EigenSolver<Matrix>(map, false).eigenvalues().eval();
-  return {values.begin(), values.end()};
-}
-
-double spectral_radius(const std::string &name, double zeta, double omega_h)
-{
-  double radius = 0.;
-  for (const auto &root : roots(step_map(name, zeta, omega_h)))
-    radius = std::max(radius, std::abs(root));
-  return radius;
 }
 
 } // namespace gestell::tests

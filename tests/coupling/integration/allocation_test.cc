@@ -49,9 +49,7 @@ std::unique_ptr<TimeIntegrator> make(const std::string &method, const SecondOrde
   return std::make_unique<Bdf>(system, options);
 }
 
-class EveryMethod : public ::testing::TestWithParam<const char *>
-{
-};
+using EveryMethod = ::testing::TestWithParam<const char *>;
 
 TEST_P(EveryMethod, TakesNothingFromTheHeapAfterItsStart)
 {

@@ -82,13 +82,8 @@ TEST(BdfControlled, NothingOfARejectedStepSurvives)
 TEST(BdfControlled, StepsWhoseNewtonFailsAreHalved)
 {
   // u = u_free + h_b^2 400 u^2 has no root for large steps.
-  const ModalSystem      system = oscillator(1., 0., 1e-6,
-                                             [](double u, double, double &p, double &dp_du, double &dp_dv)
-                                             {
-                                          p     = 400. * u * u;
-                                          dp_du = 800. * u;
-                                          dp_dv = 0.;
-                                        });
+  const ModalSystem system =
+      oscillator(1., 0., 1e-6, law_of([](double u) { return 400. * u * u; }, [](double u) { return 800. * u; }));
   BdfControlled::Options options;
   options.tolerance    = 0.1;
   options.largest_step = 32.;
@@ -129,21 +124,14 @@ TEST(BdfControlled, AtTheFloorTheMessageNamesTimeStepReasonAndCoordinate)
   };
   const auto contains = [](const std::string &text, const std::string &part) { return text.find(part) != text.npos; };
   // No force is defined beyond 1.2; before, 400 pushes there within 0.0316 s.
-  const std::string undefined = message(oscillator(1., 0., 1.,
-                                                   [](double u, double, double &p, double &dp_du, double &dp_dv)
-                                                   {
-                                                     p     = u > 1.2 ? std::nan("") : 400.;
-                                                     dp_du = dp_dv = 0.;
-                                                   }));
+  const std::string undefined = message(oscillator(
+      1., 0., 1., law_of([](double u) { return u > 1.2 ? std::nan("") : 400.; }, [](double) { return 0.; })));
   for (const char *part : {"t = 0.0316", "smallest", "1e-06 s", "Newton", "q0"})
     EXPECT_TRUE(contains(undefined, part)) << part << " in " << undefined;
   // A force that jumps back and forth with every micrometre.
-  const std::string rough = message(oscillator(1., 0., 1.,
-                                               [](double u, double, double &p, double &dp_du, double &dp_dv)
-                                               {
-                                                 p     = std::fmod(1e6 * u, 2.) < 1. ? 1e5 : -1e5;
-                                                 dp_du = dp_dv = 0.;
-                                               }));
+  const std::string rough = message(
+      oscillator(1., 0., 1.,
+                 law_of([](double u) { return std::fmod(1e6 * u, 2.) < 1. ? 1e5 : -1e5; }, [](double) { return 0.; })));
   for (const char *part : {"times the tolerance 1e-06", "q0", "Locate events"})
     EXPECT_TRUE(contains(rough, part)) << part << " in " << rough;
 }
@@ -175,14 +163,8 @@ TEST(BdfControlled, IsNotDeceivedByStepsNearThePoleOfAFallingCharacteristic)
   for (const double tolerance : {1e-4, 1e-6})
     for (int i = 0; i < 50; ++i)
     {
-      const double           k = 1024. * std::pow(4., (i + 0.5) / 50.), w = std::sqrt(k - 1e-6);
-      const auto             system = oscillator(1., 0., 1e-6,
-                                                 [k](double u, double, double &p, double &dp_du, double &dp_dv)
-                                                 {
-                                       p     = k * u;
-                                       dp_du = k;
-                                       dp_dv = 0.;
-                                     });
+      const double k = 1024. * std::pow(4., (i + 0.5) / 50.), w = std::sqrt(k - 1e-6);
+      const auto system = oscillator(1., 0., 1e-6, law_of([k](double u) { return k * u; }, [k](double) { return k; }));
       BdfControlled::Options options;
       options.tolerance    = tolerance;
       options.largest_step = 1.;

@@ -92,9 +92,7 @@ Outcome end_errors(const BdfControlled::Options &options)
   return outcome;
 }
 
-class ControlledOrder : public ::testing::TestWithParam<int>
-{
-};
+using ControlledOrder = ::testing::TestWithParam<int>;
 
 // Steps are powers of two; between these tolerances the mean step falls about eight times.
 TEST_P(ControlledOrder, ErrorFallsWithThePowerOfTheMeanStep)

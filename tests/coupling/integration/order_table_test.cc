@@ -162,9 +162,7 @@ TEST(OrderTable, ErrorsAreThoseOfTheReferenceToSixDigits)
     EXPECT_EQ(count, 6) << method;
 }
 
-class Order : public ::testing::TestWithParam<std::pair<const char *, double>>
-{
-};
+using Order = ::testing::TestWithParam<std::pair<const char *, double>>;
 
 /// From steps that resolve the faster mode (73 rad/s) well, and errors above rounding: 0.1, but for BDF6, which meets
 /// rounding (1e-12) before it has come closer than 0.104.

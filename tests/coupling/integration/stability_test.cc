@@ -6,15 +6,16 @@
 #include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/polynomial_roots.h"
 #include "coupling/integration/stability/stability.h"
+#include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
+#include "tests/support/step_map.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <optional>
+#include <set>
 
 namespace gestell::tests
 {
@@ -23,76 +24,13 @@ namespace
 
 using namespace coupling;
 
-const double limit_theta = 0.5 * (1. + std::sqrt(3.));
-
-/// Rows of a table whose cells may be quoted.
-std::vector<std::vector<std::string>> rows_of(const std::string &name)
-{
-  std::ifstream                         file(GESTELL_SOURCE_DIR "/tests/reference/numerics/stability/" + name);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(file, line);)
-  {
-    rows.emplace_back(1);
-    bool quoted = false;
-    for (const char c : line)
-      if (c == '"')
-        quoted = !quoted;
-      else if (c == ',' && !quoted)
-        rows.back().emplace_back();
-      else
-        rows.back().back() += c;
-  }
-  EXPECT_GT(rows.size(), 1u) << name;
-  rows.erase(rows.begin());
-  return rows;
-}
-
-/// The method that a table calls so; none for central differences with lagged damping, which Gestell does not have.
-std::optional<MethodOptions> named(std::string name)
-{
-  MethodOptions o;
-  name            = name.substr(0, name.find("(order ramp"));
-  const auto has  = [&](const std::string &begin) { return name.rfind(begin, 0) == 0; };
-  const auto tail = [&](const std::string &begin) { return std::stod(name.substr(begin.size())); };
-  if (has("bdf"))
-    o.order = static_cast<int>(tail("bdf"));
-  else if (has("newmark"))
-  {
-    o.method = "newmark";
-    o.set("beta", has("newmark_average") ? 0.25 : has("newmark_linear") ? 1. / 6. : has("newmark_g0.6") ? 0.3025 : 0.);
-    o.set("gamma", has("newmark_g0.6") ? 0.6 : 0.5);
-  }
-  else if (has("wilson_theta_"))
-  {
-    o.method = "wilson";
-    o.set("theta", has("wilson_theta_(") ? limit_theta : tail("wilson_theta_"));
-  }
-  else if (has("hht_alpha_"))
-  {
-    o.method = "hht";
-    o.set("alpha", tail("hht_alpha_"));
-  }
-  else if (has("galpha_rhoinf_"))
-  {
-    o.method = "generalised-alpha";
-    o.set("rho_inf", tail("galpha_rhoinf_"));
-  }
-  else if (name == "central_difference")
-    o.method = "central-difference";
-  else if (name == "central_difference_lagged_damping")
-    return std::nullopt;
-  else
-    throw std::invalid_argument(name);
-  return o;
-}
-
 /// Every method that is there, for properties that all have.
 std::vector<MethodOptions> all_methods()
 {
   std::vector<MethodOptions> methods;
-  std::map<std::string, int> seen;
-  for (const auto &row : rows_of("spectral_radius.csv"))
-    if (const auto o = named(row[0]); o && seen[row[0]]++ == 0)
+  std::set<std::string>      seen;
+  for (const auto &row : read_reference("stability/spectral_radius.csv"))
+    if (const auto o = named_method(row["method"]); o && seen.insert(row["method"]).second)
       methods.push_back(*o);
   return methods;
 }
@@ -100,14 +38,14 @@ std::vector<MethodOptions> all_methods()
 TEST(Stability, SpectralRadiusAgreesWithTheTable)
 {
   int rows = 0;
-  for (const auto &row : rows_of("spectral_radius.csv"))
-    if (const auto o = named(row[0]))
+  for (const auto &row : read_reference("stability/spectral_radius.csv"))
+    if (const auto o = named_method(row["method"]))
     {
-      const TestOscillator oscillator{std::stod(row[1]), std::stod(row[2])};
+      const TestOscillator oscillator{row.number("zeta"), row.number("omega_h")};
       // 13 digits are given; simple roots are known to long double, two that meet to sqrt(1e-19).
-      const double wanted = std::stod(row[3]);
+      const double wanted = row.number("spectral_radius");
       EXPECT_NEAR(spectral_radius(*o, oscillator), wanted, 1e-9 * std::max(1., wanted))
-          << row[0] << ' ' << row[1] << ' ' << row[2];
+          << row["method"] << ' ' << oscillator.zeta << ' ' << oscillator.omega_h;
       ++rows;
     }
   EXPECT_EQ(rows, 26 * 100);
@@ -115,20 +53,22 @@ TEST(Stability, SpectralRadiusAgreesWithTheTable)
 
 TEST(Stability, RadiusAtInfinityAndLimitOfWilson)
 {
-  for (const auto &row : rows_of("limits.csv"))
+  for (const auto &row : read_reference("stability/limits.csv"))
   {
-    if (row[0].rfind("rho_inf(", 0) == 0)
+    const std::string &quantity = row["quantity"];
+    if (quantity.rfind("rho_inf(", 0) == 0)
     {
-      std::string name = row[0].substr(8, row[0].size() - 9);
+      std::string name = quantity.substr(8, quantity.size() - 9);
       if (name == "newmark_g0.6_b0.3025" || name.rfind("hht", 0) == 0 || name.rfind("galpha", 0) == 0)
       {
         // Three roots meet at infinity: at omega h = 1e8 they lie (1e8)^(-2/3) = 5e-6 away from there.
-        EXPECT_NEAR(spectral_radius(*named(name), {0., 1e8}), std::stod(row[2]), 1e-5) << name;
+        EXPECT_NEAR(spectral_radius(*named_method(name), {0., 1e8}), row.number("value"), 1e-5) << name;
       }
     }
-    if (row[0].rfind("wilson_rho_inf_theta_", 0) == 0)
+    if (quantity.rfind("wilson_rho_inf_theta_", 0) == 0)
     {
-      EXPECT_NEAR(spectral_radius(*named("wilson_theta_" + row[0].substr(21)), {0., 1e8}), std::stod(row[2]), 1e-9);
+      EXPECT_NEAR(spectral_radius(*named_method("wilson_theta_" + quantity.substr(21)), {0., 1e8}), row.number("value"),
+                  1e-9);
     }
   }
   for (int order = 1; order <= 6; ++order) // r^p omega_h -> const: zero as omega h grows
@@ -141,16 +81,16 @@ TEST(Stability, RadiusAtInfinityAndLimitOfWilson)
 
 TEST(Stability, UnstableIntervalsAgreeWithTheTable)
 {
-  std::map<std::string, std::vector<std::vector<std::string>>> cases;
-  for (const auto &row : rows_of("unstable_intervals.csv"))
-    cases[row[0] + " " + row[1]].push_back(row);
+  std::map<std::string, std::vector<ReferenceRow>> cases;
+  for (const auto &row : read_reference("stability/unstable_intervals.csv"))
+    cases[row["method"] + " " + row["zeta"]].push_back(row);
   for (const auto &[name, rows] : cases)
   {
-    const auto o = named(rows[0][0]);
+    const auto o = named_method(rows[0]["method"]);
     if (!o)
       continue;
-    const auto intervals = unstable_intervals(*o, std::stod(rows[0][1]));
-    if (rows[0][2] == "none")
+    const auto intervals = unstable_intervals(*o, rows[0].number("zeta"));
+    if (rows[0]["unstable_from_omega_h"] == "none")
     {
       EXPECT_TRUE(intervals.empty()) << name << " from " << intervals[0].from;
       continue;
@@ -159,17 +99,18 @@ TEST(Stability, UnstableIntervalsAgreeWithTheTable)
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       // The table's own ends were found by bisection in 1e-14 of growth: 1e-12 relative where growth is steep.
-      const double from = std::stod(rows[i][2]);
+      const double from = rows[i].number("unstable_from_omega_h");
       EXPECT_NEAR(intervals[i].from, from, 1e-9 * (1. + from)) << name;
-      if (rows[i][3] == "inf")
+      if (rows[i]["unstable_to_omega_h"] == "inf")
         EXPECT_TRUE(std::isinf(intervals[i].to)) << name;
       else
       {
-        EXPECT_NEAR(intervals[i].to, std::stod(rows[i][3]), 1e-9 * std::stod(rows[i][3])) << name;
+        const double to = rows[i].number("unstable_to_omega_h"), growth = rows[i].number("max_growth_per_step");
+        EXPECT_NEAR(intervals[i].to, to, 1e-9 * to) << name;
         // The table's largest growth is that of a grid of omega h, a little below the peak.
-        EXPECT_GE(intervals[i].growth, std::stod(rows[i][4]) - 1e-8) << name;
-        EXPECT_NEAR(intervals[i].growth, std::stod(rows[i][4]), 1e-5) << name;
-        EXPECT_NEAR(intervals[i].at_omega_h, std::stod(rows[i][5]), 0.02) << name;
+        EXPECT_GE(intervals[i].growth, growth - 1e-8) << name;
+        EXPECT_NEAR(intervals[i].growth, growth, 1e-5) << name;
+        EXPECT_NEAR(intervals[i].at_omega_h, rows[i].number("at_omega_h"), 0.02) << name;
       }
     }
   }
@@ -177,18 +118,18 @@ TEST(Stability, UnstableIntervalsAgreeWithTheTable)
 
 TEST(Stability, PeriodAndDampingAgreeWithTheTable)
 {
-  for (const auto &row : rows_of("dispersion_dissipation.csv"))
-    if (const auto o = named(row[0]))
+  for (const auto &row : read_reference("stability/dispersion_dissipation.csv"))
+    if (const auto o = named_method(row["method"]))
     {
-      const auto        properties = step_properties(*o, {std::stod(row[1]), std::stod(row[2])});
-      const std::string where      = row[0] + " " + row[1] + " " + row[2];
-      if (row[3] == "overdamped")
+      const auto        properties = step_properties(*o, {row.number("zeta"), row.number("omega_h")});
+      const std::string where      = row["method"] + " " + row["zeta"] + " " + row["omega_h"];
+      if (row["period_elongation_rel"] == "overdamped")
       {
         EXPECT_TRUE(std::isnan(properties.period_elongation)) << where;
         continue;
       }
       // 12 digits are given; ln r and zeta come with 1e-19, which is what counts where nearly nothing is left.
-      const double period = std::stod(row[3]), damping = std::stod(row[4]);
+      const double period = row.number("period_elongation_rel"), damping = row.number("numerical_damping_ratio_extra");
       EXPECT_NEAR(properties.period_elongation, period, 1e-11 * std::abs(period) + 1e-17) << where;
       EXPECT_NEAR(properties.numerical_damping, damping, 1e-11 * std::abs(damping) + 1e-17) << where;
     }
@@ -196,15 +137,17 @@ TEST(Stability, PeriodAndDampingAgreeWithTheTable)
 
 TEST(Stability, OvershootAgreesWithTheTable)
 {
-  for (const auto &row : rows_of("overshoot.csv"))
-    if (const auto o = named(row[0]))
+  for (const auto &row : read_reference("stability/overshoot.csv"))
+    if (const auto o = named_method(row["method"]))
     {
-      const auto start  = row[2] == "x0=1,v0=0" ? OscillatorStart::displaced : OscillatorStart::moving;
-      const auto result = overshoot(*o, {0., std::stod(row[1])}, start, FirstSteps::order_ramp);
+      const auto start  = row["start"] == "x0=1,v0=0" ? OscillatorStart::displaced : OscillatorStart::moving;
+      const auto result = overshoot(*o, {0., row.number("omega_h")}, start, FirstSteps::order_ramp);
       // 11 digits; 20 steps of a state whose parts differ by omega_h^2 = 1e6 lose as many.
-      const double x = std::stod(row[3]), v = std::stod(row[5]);
-      EXPECT_NEAR(result.displacement, x, 1e-9 * std::max(1., x)) << row[0] << ' ' << row[1] << ' ' << row[2];
-      EXPECT_NEAR(result.velocity, v, 1e-9 * std::max(1., v)) << row[0] << ' ' << row[1] << ' ' << row[2];
+      const double x          = row.number("max_abs_x_first_20_steps_rel"),
+                   v          = row.number("max_abs_v_over_w_first_20_steps_rel");
+      const std::string where = row["method"] + " " + row["omega_h"] + " " + row["start"];
+      EXPECT_NEAR(result.displacement, x, 1e-9 * std::max(1., x)) << where;
+      EXPECT_NEAR(result.velocity, v, 1e-9 * std::max(1., v)) << where;
     }
 }
 
@@ -238,19 +181,19 @@ TEST(Stability, OvershootOfBdfIsThatOfTheIntegratorItself)
 
 TEST(Stability, SufficientDampingOfBdfAgreesWithTheTable)
 {
-  for (const auto &row : rows_of("bdf_sufficient_damping.csv"))
+  for (const auto &row : read_reference("stability/bdf_sufficient_damping.csv"))
   {
     MethodOptions o;
-    o.order            = std::stoi(row[0].substr(3));
+    o.order            = bdf_order(row["method"]);
     const double ratio = sufficient_damping(o.order);
-    EXPECT_NEAR(ratio, std::stod(row[2]), 1e-12) << row[0];
-    EXPECT_TRUE(unstable_intervals(o, ratio * (1. + 1e-9)).empty()) << row[0];
+    EXPECT_NEAR(ratio, row.number("sufficient_damping_ratio"), 1e-12) << row["method"];
+    EXPECT_TRUE(unstable_intervals(o, ratio * (1. + 1e-9)).empty()) << row["method"];
     if (ratio > 0.) // just below, a narrow interval about the critical omega h must not be stepped over
     {
       const auto intervals = unstable_intervals(o, ratio * (1. - 1e-9));
-      ASSERT_EQ(intervals.size(), 1u) << row[0];
-      EXPECT_LT(intervals[0].from, std::stod(row[3]));
-      EXPECT_GT(intervals[0].to, std::stod(row[3]));
+      ASSERT_EQ(intervals.size(), 1u) << row["method"];
+      EXPECT_LT(intervals[0].from, row.number("critical_omega_h"));
+      EXPECT_GT(intervals[0].to, row.number("critical_omega_h"));
       EXPECT_LT(intervals[0].to - intervals[0].from, 1e-2);
     }
   }

@@ -107,21 +107,6 @@ TEST(Wilson, AMeasureThatSticksKeepsItsRate)
   }
 }
 
-// README of the reference: theta = 1.4 and omega h = 10, 100 from x0 = 1 give |x| = 14.35 and 1428.7 after one step.
-TEST(Wilson, OvershootsInItsFirstStepLikeTheSquareOfOmegaH)
-{
-  for (const auto &[omega_h, x] : {std::pair{10., 14.35}, std::pair{100., 1428.7}})
-  {
-    const SmallSystem system(Matrix::Identity(1, 1), Matrix::Zero(1, 1), Matrix::Constant(1, 1, omega_h * omega_h));
-    Wilson::Options   o;
-    o.step = 1.;
-    Wilson wilson(system, o);
-    wilson.begin(0., one(1.), one(0.));
-    wilson.advance();
-    EXPECT_NEAR(std::abs(wilson.instant().q[0]), x, 5e-4 * x); // as many digits as are given
-  }
-}
-
 TEST(Wilson, RefusesParametersOutsideTheirRange)
 {
   const SmallSystem system = hardening();

@@ -25,9 +25,7 @@ MethodOptions of(const std::string &method, int order = 2, ForceRule force = For
   return options;
 }
 
-class WorkCount : public ::testing::TestWithParam<MethodOptions>
-{
-};
+using WorkCount = ::testing::TestWithParam<MethodOptions>;
 
 TEST_P(WorkCount, HoldsEveryLookAtTheForces)
 {

@@ -71,8 +71,7 @@ Machine swinging_on_the_held()
   model.add_linear("spring", {{free, 1.}, {held, -1.}}, {stiffness, 0., 0., 0.}, "N");
   model.add_load("load", {{held, 1.}}, 0., {{Omega, F, 0.}}, "N");
   model.attach("brake", dry(1000., 1000.), {{{held, 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// Largest error of the holding force at nine places in every step of a run of 0.5 s, relative to its size.
@@ -101,9 +100,7 @@ double error_of_holding_force(const MethodOptions &method)
   return largest / (stiffness * 0.1);
 }
 
-class FixedStepHolds : public ::testing::TestWithParam<Way>
-{
-};
+using FixedStepHolds = ::testing::TestWithParam<Way>;
 
 TEST_P(FixedStepHolds, WithAForceOfTheOrderOfTheMethodAtEveryInstant)
 {
@@ -119,9 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, FixedStepHolds,
                                            Way{"generalised_alpha", fixed("generalised-alpha", 2e-3)}),
                          name_of);
 
-class CarriedStepHolds : public ::testing::TestWithParam<Way>
-{
-};
+using CarriedStepHolds = ::testing::TestWithParam<Way>;
 
 // The motion beside what is held is linear: exact propagation and dense output carry it to their rounding or tolerance.
 TEST_P(CarriedStepHolds, WithTheForceOfTheEquationOfMotion)
@@ -146,8 +141,7 @@ Machine loaded_beyond_its_limit()
   const int    x = model.add_slider("mass", {1., 0., 0.}, mass, "ground");
   model.add_load("load", {{x, 1.}}, 0., {{w, load, 0.}}, "N");
   model.attach("friction", dry(kinetic, limit), {{{x, 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// Way and velocity at t of m x'' = F sin(w t) - R from t_0 on, where the velocity is v.
@@ -181,9 +175,7 @@ RunResult run(Machine machine, const MethodOptions &method, double end)
                   {machine.signal("x", "mass.displacement"), machine.signal("R", "friction.force")});
 }
 
-class BriefOverload : public ::testing::TestWithParam<Way>
-{
-};
+using BriefOverload = ::testing::TestWithParam<Way>;
 
 TEST_P(BriefOverload, LetsGoWhatSticksAndIsNeverHeldByMore)
 {

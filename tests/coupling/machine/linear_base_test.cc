@@ -1,6 +1,7 @@
 #include "coupling/eigensolvers/sparse_modes.h"
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/sparse_base.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -76,9 +77,7 @@ struct CraigBamptonLike
   }
 };
 
-class DenseBaseOf : public ::testing::TestWithParam<ModalBlock>
-{
-};
+using DenseBaseOf = ::testing::TestWithParam<ModalBlock>;
 
 TEST_P(DenseBaseOf, MultipliesLikeItsMatrices)
 {
@@ -154,15 +153,7 @@ TEST(DenseBase, NamesTheCoordinateThatMakesTheStepMatrixSingular)
 {
   MatrixXd M = MatrixXd::Identity(4, 4), zero = MatrixXd::Zero(4, 4);
   M(2, 2) = 0.;
-  try
-  {
-    DenseBase(M, zero, zero, {0, 1}).factorise(1., 1e-3, 1e-6);
-    FAIL();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    EXPECT_NE(std::string(error.what()).find("coordinate 2"), std::string::npos) << error.what();
-  }
+  tests::expect_refusal([&] { DenseBase(M, zero, zero, {0, 1}).factorise(1., 1e-3, 1e-6); }, "coordinate 2");
 }
 
 TEST(DenseBase, RefusesWhatItsStructureDoesNotHold)
@@ -258,15 +249,7 @@ TEST(SparseBase, NamesTheCoordinateWithoutMassAndStiffness)
   chain.M.coeffRef(3, 3) = 0.;
   const SparseBase base(chain.M, chain.B, chain.C);
   EXPECT_NO_THROW(base.factorise(1., 0.1, 0.01));
-  try
-  {
-    base.factorise(1., 0., 0.);
-    FAIL();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    EXPECT_NE(std::string(error.what()).find("coordinate 3"), std::string::npos) << error.what();
-  }
+  tests::expect_refusal([&] { base.factorise(1., 0., 0.); }, "coordinate 3");
 }
 
 } // namespace

@@ -29,8 +29,7 @@ Machine rubbed(int n_elements, double weight)
                  std::make_shared<mechanism::CoulombFriction>(
                      mechanism::CoulombFriction::Parameters{6. / n_elements, 6. / n_elements, 0.}),
                  {{{x, i == 0 ? 1. : weight}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 RunOptions options(const std::string &method, double step, ForceRule force = ForceRule::collocation)
@@ -45,9 +44,7 @@ RunOptions options(const std::string &method, double step, ForceRule force = For
 
 const InitialState rest{0., Vector::Zero(1), Vector::Zero(1)};
 
-class Redundant : public ::testing::TestWithParam<RunOptions>
-{
-};
+using Redundant = ::testing::TestWithParam<RunOptions>;
 
 TEST_P(Redundant, StickingOfOneMotionIsNamed)
 {

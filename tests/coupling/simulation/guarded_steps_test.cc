@@ -65,8 +65,7 @@ Machine random_machine(Random &random, bool joints)
   if (joints)
     model.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., -random.spread(1.)}),
                  {{{sliders[0], 1.}}, {{sliders[1], 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 MethodOptions random_method(Random &random, bool joints)

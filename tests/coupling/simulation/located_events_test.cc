@@ -105,9 +105,7 @@ MethodOptions bdf2(double h)
   return method;
 }
 
-class WallSpring : public ::testing::TestWithParam<Wall>
-{
-};
+using WallSpring = ::testing::TestWithParam<Wall>;
 
 TEST_P(WallSpring, EventsOfExactPropagationAreRightToTheNanosecond)
 {
@@ -169,8 +167,7 @@ Machine rubbing_mass(const Rubbing &r)
   model.attach("belt",
                std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{r.R, r.R0, r.belt}),
                {{{x, 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 class StickSlip : public ::testing::TestWithParam<Rubbing>

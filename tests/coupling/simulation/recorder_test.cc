@@ -18,8 +18,7 @@ Machine slider()
 {
   MachineModel model;
   model.add_slider("x", {1., 0., 0.}, mass, "ground");
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 /// Steps of h on the exact motion q = sin(omega t): whatever is told wrongly, the recorder does it.

@@ -53,9 +53,7 @@ long allocations_of_run(const MethodOptions &method, double end, bool energy)
   return needed;
 }
 
-class RunAllocation : public ::testing::TestWithParam<MethodOptions>
-{
-};
+using RunAllocation = ::testing::TestWithParam<MethodOptions>;
 
 TEST_P(RunAllocation, DoesNotGrowWithTheNumberOfSteps)
 {

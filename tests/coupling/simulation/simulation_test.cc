@@ -2,6 +2,7 @@
 
 #include "coupling/simulation/simulation.h"
 #include "mechanism/elements/clearance.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +23,7 @@ Machine in_play()
   const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
   model.attach("play", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{gap, wall, 0.}),
                {{{x, 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 InitialState flight(const Machine &machine)
@@ -133,15 +133,7 @@ TEST(Run, CountsItsWork)
 
 std::string refusal(const RunOptions &options, const Machine &machine)
 {
-  try
-  {
-    check_run(machine, options, 2);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { check_run(machine, options, 2); });
 }
 
 TEST(Run, RefusesAStepLongerThanThePeriodOfALoad)
@@ -207,15 +199,7 @@ TEST(Run, AnUnstableMethodIsRefusedUnlessForced)
   Machine    machine(std::move(model));
   RunOptions options   = bdf2(1e-2, 1.); // omega h = 0.8 lies in BDF 4's unstable interval
   options.method.order = 4;
-  try
-  {
-    simulate(machine, flight(machine), options, {});
-    FAIL();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    EXPECT_NE(std::string(error.what()).find("unstable"), std::string::npos) << error.what();
-  }
+  tests::expect_refusal([&] { simulate(machine, flight(machine), options, {}); }, "unstable");
   options.force_unstable  = true;
   const auto      signal  = machine.signal("x", "x.displacement");
   const RunResult result  = simulate(machine, flight(machine), options, {signal});

@@ -6,6 +6,7 @@
 #include "fem/values/two_pi.h"
 #include "mechanism/elements/clearance.h"
 #include "tests/support/linear_joint.h"
+#include "tests/support/refusal.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -45,8 +46,7 @@ Machine sliders(const std::vector<Slider> &all, double contact_stiffness = 0.)
       model.attach("stop", std::make_shared<mechanism::Clearance>(play), {u});
     }
   }
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 InitialState at_rest(const Machine &machine)
@@ -72,16 +72,7 @@ MethodOptions of(const std::string &method, double step)
 
 std::string refusal(const Machine &machine, const MethodOptions &options)
 {
-  try
-  {
-    const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
-    StabilityGuard(spectrum, options).check();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { StabilityGuard(linear_spectrum(machine, at_rest(machine)), options).check(); });
 }
 
 bool says(const std::string &message, const std::string &part)
@@ -228,8 +219,7 @@ Machine geared(double stiffness, double other_mass)
             b    = model.add_slider("b", {1., 0., 0.}, other_mass, "ground");
   model.add_linear("spring", {{a, 1.}}, {stiffness, 0., 0., 0.}, "N");
   model.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., 1.}), {{{a, 1.}}, {{b, 1.}}});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 TEST(StabilityGuard, TakesTheModesThatIdealJointsLeave)
@@ -275,8 +265,7 @@ Machine one_damped(double damping)
   model.add_linear("spring a", {{a, 1.}}, {c, damping, 0., 0.}, "N");
   model.add_linear("spring b", {{b, 1.}}, {c, 0., 0., 0.}, "N");
   model.add_linear("spring", {{a, 1.}, {b, -1.}}, {0.2 * c, 0., 0., 0.}, "N");
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 TEST(StabilityGuard, ADamperDoesNotReachWhatItHoldsStill)
@@ -345,8 +334,7 @@ Machine ball_and_stop(double stiffness)
   stop.exponent  = 1.5;
   stop.stops     = mechanism::Clearance::Stops::above;
   model.attach("stop", std::make_shared<mechanism::Clearance>(stop), {u});
-  Machine machine(std::move(model));
-  return machine;
+  return Machine(std::move(model));
 }
 
 RunResult thrown(const MethodOptions &method, bool forced = false)
