@@ -183,9 +183,7 @@ std::vector<Switch> switches()
   return all;
 }
 
-class Branches : public ::testing::TestWithParam<Switch>
-{
-};
+using Branches = ::testing::TestWithParam<Switch>;
 
 // dt = 1e-7 s moves u by some 1e-8 m, far above the rounding of u = 0.15 m (3e-17 m) and far inside every branch.
 constexpr double dt = 1e-7;
@@ -337,9 +335,7 @@ std::vector<Drive> drives()
            {"tool_contact", "tool_release"}}};
 }
 
-class Path : public ::testing::TestWithParam<Drive>
-{
-};
+using Path = ::testing::TestWithParam<Drive>;
 
 TEST_P(Path, LawFollowedByItsGuardsIsTheLawOfTheMotion)
 {

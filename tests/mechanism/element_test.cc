@@ -158,9 +158,7 @@ std::ostream &operator<<(std::ostream &out, const Case &c)
   return out << c.name;
 }
 
-class Element : public ::testing::TestWithParam<Case>
-{
-};
+using Element = ::testing::TestWithParam<Case>;
 
 // Central quotients err by O(d^2) of the third derivative and by rounding eps |p| / d: 1e-5 covers both for the chosen
 // d.

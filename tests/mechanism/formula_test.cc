@@ -132,9 +132,7 @@ std::vector<ByHand> by_hand()
            }}};
 }
 
-class Derivatives : public ::testing::TestWithParam<ByHand>
-{
-};
+using Derivatives = ::testing::TestWithParam<ByHand>;
 
 TEST_P(Derivatives, OfDualsAreThoseByHand)
 {

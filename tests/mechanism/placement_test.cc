@@ -107,6 +107,24 @@ TEST(Placement, SmallMotionsAreThoseOfTranslationAndRotation)
   }
 }
 
+/// s' = G v and s'' = G a + bias along the path, by central quotients.
+void expect_derivatives(const PlacedMeasure &placed, const Path &path, int which)
+{
+  double     gradient[PlacedMeasure::max_measures];
+  const auto s = [&](double t)
+  {
+    double unused[PlacedMeasure::max_measures];
+    return placed.evaluate(path.at(t).data(), path.v.data(), unused).s;
+  };
+  const auto                 value = placed.evaluate(path.u.data(), path.v.data(), gradient);
+  const Eigen::Map<VectorXd> G(gradient, placed.n_measures());
+  EXPECT_NEAR(G.dot(path.v), value.rate, 1e-13) << which;
+  EXPECT_NEAR((s(h) - s(-h)) / (2. * h), value.rate, 1e-6 * std::max(1., std::abs(value.rate))) << which;
+  EXPECT_NEAR((s(h) - 2. * s(0.) + s(-h)) / (h * h), G.dot(path.a) + value.bias,
+              1e-5 * std::max(1., std::abs(value.bias)))
+      << which;
+}
+
 TEST(RelativeMeasure, EveryFormHasTheGradientAndTheBiasOfItsValue)
 {
   const auto all = placements();
@@ -128,19 +146,7 @@ TEST(RelativeMeasure, EveryFormHasTheGradientAndTheBiasOfItsValue)
           Path path(n);
           if (n == 24)
             path.u.tail(12) *= -0.5;
-          double     gradient[PlacedMeasure::max_measures];
-          const auto s = [&](double t)
-          {
-            double unused[PlacedMeasure::max_measures];
-            return placed.evaluate(path.at(t).data(), path.v.data(), unused).s;
-          };
-          const auto                 value = placed.evaluate(path.u.data(), path.v.data(), gradient);
-          const Eigen::Map<VectorXd> G(gradient, n);
-          EXPECT_NEAR(G.dot(path.v), value.rate, 1e-13);
-          EXPECT_NEAR((s(h) - s(-h)) / (2. * h), value.rate, 1e-6 * std::max(1., std::abs(value.rate)));
-          EXPECT_NEAR((s(h) - 2. * s(0.) + s(-h)) / (h * h), G.dot(path.a) + value.bias,
-                      1e-5 * std::max(1., std::abs(value.bias)))
-              << int(form);
+          expect_derivatives(placed, path, int(form));
         }
 }
 
@@ -164,19 +170,7 @@ TEST(RelativeMeasure, AMeshHasTheGradientAndTheBiasOfItsValue)
       for (int i = 0; i < n; ++i)
         m.ratios.push_back(std::cos(2. + 3.1 * i));
       const Path path(n);
-      double     gradient[PlacedMeasure::max_measures];
-      const auto s = [&](double t)
-      {
-        double unused[PlacedMeasure::max_measures];
-        return placed.evaluate(path.at(t).data(), path.v.data(), unused).s;
-      };
-      const auto                 value = placed.evaluate(path.u.data(), path.v.data(), gradient);
-      const Eigen::Map<VectorXd> G(gradient, n);
-      EXPECT_NEAR(G.dot(path.v), value.rate, 1e-13);
-      EXPECT_NEAR((s(h) - s(-h)) / (2. * h), value.rate, 1e-6 * std::max(1., std::abs(value.rate)));
-      EXPECT_NEAR((s(h) - 2. * s(0.) + s(-h)) / (h * h), G.dot(path.a) + value.bias,
-                  1e-5 * std::max(1., std::abs(value.bias)))
-          << n;
+      expect_derivatives(placed, path, n);
     }
 }
 

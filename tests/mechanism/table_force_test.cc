@@ -34,9 +34,7 @@ Probe at(Against against, double x)
   return probe;
 }
 
-class Tables : public ::testing::TestWithParam<Against>
-{
-};
+using Tables = ::testing::TestWithParam<Against>;
 
 TEST_P(Tables, AreLinearBetweenTheirRowsAndConstantBeyond)
 {
