@@ -3,6 +3,7 @@
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 #include "fem/values/mesh.h"
+#include "tests/support/refusal.h"
 
 #include <array>
 
@@ -29,19 +30,7 @@ fem::InterfaceSpecification interface(const std::string &name, const std::vector
 
 const fem::FrameOutput &output(const fem::FrameMatrices &frame, const std::string &name);
 
-/// Message of the std::invalid_argument a call throws; empty if it throws none.
-template <typename Call>
-std::string refusal(const Call &call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
-}
+using tests::expect_refusal;
+using tests::refusal;
 
 } // namespace gestell::test

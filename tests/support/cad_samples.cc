@@ -1,5 +1,7 @@
 #include "tests/support/cad_samples.h"
 
+#include "tests/support/refusal.h"
+
 #include "fem/geometry/gmsh_session.h"
 #include "fem/mesh/mesher.h"
 
@@ -95,15 +97,7 @@ SurfaceSelector group(const std::string &name, int faces)
 
 std::string refusal(const FrameSpecification &specification)
 {
-  try
-  {
-    make_mesh(specification);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return tests::refusal([&] { make_mesh(specification); });
 }
 
 } // namespace gestell::fem::test

@@ -17,36 +17,6 @@ namespace
 
 using fem::discretise;
 
-TEST(Elasticity, PatchTestALinearFieldStrainsEveryCellAlikeAndLeavesInnerNodesFree)
-{
-  const fem::Mesh          mesh      = box_mesh({3, 3, 3}, {1., 0.8, 1.2}, 0.25);
-  const fem::QuadraticMesh quadratic = fem::quadratic_mesh(mesh);
-  const auto               frame     = discretise(mesh, free_steel());
-  Eigen::Matrix3d          gradient;
-  gradient << 1e-3, 2e-4, -3e-4, 5e-4, -7e-4, 1e-4, 2e-4, 6e-4, 4e-4;
-
-  Eigen::VectorXd u(frame.C.rows());
-  for (int i = 0; i < quadratic.n_nodes(); ++i)
-    u.segment<3>(3 * i) = gradient * Eigen::Map<const Eigen::Vector3d>(quadratic.points[i].data());
-  const Eigen::VectorXd force = frame.C * u;
-
-  std::vector<char> outer(quadratic.n_nodes(), 0);
-  for (const auto &face : quadratic.skin)
-    for (const int node : face)
-      outer[node] = 1;
-  double largest_inner = 0.;
-  for (int i = 0; i < quadratic.n_nodes(); ++i)
-    if (!outer[i])
-      largest_inner = std::max(largest_inner, force.segment<3>(3 * i).norm());
-  EXPECT_LT(largest_inner, 1e-12 * force.cwiseAbs().maxCoeff());
-
-  // Energy of the constant strain eps: V/2 (lambda tr(eps)^2 + 2 mu eps : eps).
-  const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
-  const double          lambda = 210e9 * 0.3 / (1.3 * 0.4), mu = 210e9 / 2.6;
-  const double          energy = 0.5 * 0.96 * (lambda * std::pow(strain.trace(), 2) + 2. * mu * strain.squaredNorm());
-  EXPECT_NEAR(0.5 * u.dot(force) / energy, 1., 1e-12);
-}
-
 TEST(Elasticity, SixRigidMotionsCostNoEnergyAndNoOtherDoes)
 {
   const auto frame = discretise(box_mesh({2, 1, 1}, {1., 0.5, 0.4}, 0.), free_steel());
@@ -116,11 +86,10 @@ TEST(Elasticity, ImpossibleMaterialsAreRefusedWithPlaceValueAndNeed)
 
 TEST(Elasticity, MeshesWithoutVolumeAreRefused)
 {
-  EXPECT_NE(refusal([] { discretise(fem::Mesh(), free_steel()); }).find("no cells"), std::string::npos);
+  expect_refusal([] { discretise(fem::Mesh(), free_steel()); }, "no cells");
   fem::Mesh inverted = box_mesh({1, 1, 1}, {1., 1., 1.});
   std::swap(inverted.cells[3][0], inverted.cells[3][1]);
-  EXPECT_NE(refusal([&] { discretise(inverted, free_steel()); }).find("tetrahedron 3 has the volume -0.16"),
-            std::string::npos);
+  expect_refusal([&] { discretise(inverted, free_steel()); }, "tetrahedron 3 has the volume -0.16");
 }
 
 } // namespace

@@ -82,9 +82,7 @@ Eigen::Matrix3d flexibility_at(const fem::FrameMatrices &frame, const Vector3 &p
   return H;
 }
 
-class NodeInterface : public ::testing::TestWithParam<fem::Mesh (*)()>
-{
-};
+using NodeInterface = ::testing::TestWithParam<fem::Mesh (*)()>;
 
 TEST_P(NodeInterface, IsTheNearestCornerWithThreeDisplacementsAndNoRotation)
 {

@@ -159,7 +159,7 @@ TEST(Foundation, ActsAlongItsAxes)
   EXPECT_NEAR(q.dot(frame.C * across), 0., 1e-6 * 2e8);
 
   specification.supports[0].axes[1] = {0., 1., 0.};
-  EXPECT_NE(refusal([&] { discretise(bar_mesh(), specification); }).find("at right angles"), std::string::npos);
+  expect_refusal([&] { discretise(bar_mesh(), specification); }, "at right angles");
 }
 
 TEST(Foundation, OfDampersAloneHoldsNothingAndDissipates)
@@ -314,7 +314,7 @@ TEST(CutForce, ThroughAPlaneBesideTheFrameIsRefused)
             std::string::npos)
       << message;
   specification.cuts = {cut("columns", {{0., 0., 1.}}, {{0., 0., 0.}})};
-  EXPECT_NE(refusal([&] { discretise(bar_mesh(), specification); }).find("normal has no direction"), std::string::npos);
+  expect_refusal([&] { discretise(bar_mesh(), specification); }, "normal has no direction");
 }
 
 TEST(FreeMotions, AreNamedInWords)

@@ -43,9 +43,7 @@ std::string text_as_judged(const std::string &script)
 
 const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
 
-class Harmful : public ::testing::TestWithParam<const char *>
-{
-};
+using Harmful = ::testing::TestWithParam<const char *>;
 
 TEST_P(Harmful, LineOfAScriptIsRefusedByItsNumber)
 {
@@ -67,9 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "x = \"a EndIf b\";", "EnEndIf = 1;", "x = \"two\nlines\";", "x = 1 @ 2;", "x = {1, 2;",
                       "Delete Empty Views;"));
 
-class Harmless : public ::testing::TestWithParam<const char *>
-{
-};
+using Harmless = ::testing::TestWithParam<const char *>;
 
 TEST_P(Harmless, LineOfAScriptPasses)
 {

@@ -7,6 +7,8 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <cstdlib>
 #include <iostream>
 
@@ -40,56 +42,29 @@ std::string two_boxes(double x, const std::string &name = "two.step")
               });
 }
 
-TEST(CadFile, ThatIsMissingIsNamed)
+TEST(CadFile, ThatHoldsNoModelIsRefusedWithPlaceAndReason)
 {
-  EXPECT_THAT(refusal(specification("/no/such/press.step", 0.1)),
-              AllOf(StartsWith(frame), HasSubstr("/no/such/press.step does not exist")));
-  EXPECT_THAT(refusal(specification("", 0.1)), AllOf(StartsWith(frame), HasSubstr("set cad")));
-}
-
-TEST(CadFile, ThatIsEmptyIsRefused)
-{
-  EXPECT_THAT(refusal(specification(write_text("empty.step", ""), 0.1)),
-              AllOf(StartsWith(frame), HasSubstr("is empty")));
-}
-
-TEST(CadFile, ThatIsAFolderIsRefused)
-{
-  EXPECT_THAT(refusal(specification(folder(), 0.1)), HasSubstr("is not a file"));
-}
-
-TEST(CadFile, OfAnotherKindIsRefused)
-{
-  EXPECT_THAT(refusal(specification(write_text("frame.dxf", "0"), 0.1)),
-              AllOf(HasSubstr("\".dxf\""), HasSubstr("export the model as STEP")));
-}
-
-TEST(StepFile, ThatIsTextOnlyIsRefused)
-{
-  EXPECT_THAT(refusal(specification(write_text("text.step", "hello"), 0.1)), HasSubstr("not a STEP file"));
-}
-
-TEST(StepFile, ThatWasCutOffIsRefusedThoughGmshWouldReadIt)
-{
-  const std::string text = read_text(press_frame());
-  EXPECT_THAT(refusal(specification(write_text("cut.step", text.substr(0, text.size() / 2)), 0.1)),
-              AllOf(StartsWith(frame), HasSubstr("is cut off"), HasSubstr("END-ISO-10303-21")));
-}
-
-TEST(StepFile, WithAHoleInItsMiddleIsRefused)
-{
-  const std::string text = read_text(press_frame());
-  EXPECT_THAT(refusal(specification(
-                  write_text("hole.step", text.substr(0, text.size() / 2) + "\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
-              AllOf(StartsWith(frame), HasSubstr("hole.step")));
-}
-
-TEST(StepFile, WithoutEntitiesIsRefused)
-{
-  EXPECT_THAT(
-      refusal(specification(
-          write_text("none.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), 0.1)),
-      AllOf(StartsWith(frame), HasSubstr("none.step")));
+  const std::string whole = read_text(press_frame()), half = whole.substr(0, whole.size() / 2),
+                    empty    = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+                    built_in = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0};\n"
+                               "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n"
+                               "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n"
+                               "Extrude {0, 0, 1} { Surface{1}; }\n";
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"/no/such/press.step", "/no/such/press.step does not exist"},
+      {"", "set cad"},
+      {folder(), "is not a file"},
+      {write_text("empty.step", ""), "is empty"},
+      {write_text("frame.dxf", "0"), "\".dxf\""},
+      {write_text("frame.dxf", "0"), "export the model as STEP"},
+      {write_text("text.step", "hello"), "not a STEP file"},
+      {write_text("cut.step", half), "is cut off"}, // gmsh would read it
+      {write_text("cut.step", half), "END-ISO-10303-21"},
+      {write_text("hole.step", half + "\nENDSEC;\nEND-ISO-10303-21;\n"), "hole.step"},
+      {write_text("none.step", empty), "none.step"},
+      {write_text("builtin.geo", built_in), "SetFactory"}};
+  for (const auto &[cad, words] : files)
+    EXPECT_THAT(refusal(specification(cad, 0.1)), AllOf(StartsWith(frame), HasSubstr(words))) << cad;
 }
 
 TEST(StepFile, ThatHoldsOnlyFacesIsRefused)
@@ -157,15 +132,6 @@ TEST(GeoFile, WithAnErrorInItIsRefusedWithGmshsWords)
   EXPECT_EXIT(run(), ::testing::ExitedWithCode(0), "scene.toml:3: frame.*line 2"); // gmsh's parser does not recover
 }
 
-TEST(GeoFile, OfTheBuiltInKernelIsRefused)
-{
-  const std::string text = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0};\n"
-                           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n"
-                           "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n"
-                           "Extrude {0, 0, 1} { Surface{1}; }\n";
-  EXPECT_THAT(refusal(specification(write_text("builtin.geo", text), 0.1)), HasSubstr("SetFactory"));
-}
-
 TEST(Bodies, ThatLieApartAreRefusedByName)
 {
   EXPECT_THAT(refusal(specification(two_boxes(200.), 0.05)),
@@ -186,28 +152,22 @@ TEST(Bodies, OfAMeshWithoutCommonNodesAreRefused)
   EXPECT_THAT(refusal(specification(cad, 0.)), AllOf(StartsWith(frame), HasSubstr("2 bodies"), HasSubstr("cells of")));
 }
 
-TEST(MeshFile, OfASurfaceOnlyIsRefused)
+TEST(MeshFile, WithoutAVolumeMeshIsRefused)
 {
-  const std::string cad = draw("surface.msh",
-                               []
-                               {
-                                 gmsh::model::occ::addRectangle(0., 0., 0., 1., 1.);
-                                 gmsh::model::occ::synchronize();
-                                 gmsh::model::mesh::generate(2);
-                               });
-  EXPECT_THAT(refusal(specification(cad, 0.)), AllOf(StartsWith(frame), HasSubstr("no tetrahedra")));
-}
-
-TEST(MeshFile, WhoseSolidHasNoVolumeMeshIsRefused)
-{
-  const std::string cad = draw("hollow.msh",
-                               []
-                               {
-                                 gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
-                                 gmsh::model::occ::synchronize();
-                                 gmsh::model::mesh::generate(2);
-                               });
-  EXPECT_THAT(refusal(specification(cad, 0.)),
+  const auto cad = [](const std::string &name, const std::function<void()> &shape)
+  {
+    return draw(name,
+                [&]
+                {
+                  shape();
+                  gmsh::model::occ::synchronize();
+                  gmsh::model::mesh::generate(2);
+                });
+  };
+  const auto surface = cad("surface.msh", [] { gmsh::model::occ::addRectangle(0., 0., 0., 1., 1.); }),
+             hollow  = cad("hollow.msh", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); });
+  EXPECT_THAT(refusal(specification(surface, 0.)), AllOf(StartsWith(frame), HasSubstr("no tetrahedra")));
+  EXPECT_THAT(refusal(specification(hollow, 0.)),
               AllOf(StartsWith(frame), HasSubstr("solid 1"), HasSubstr("no volume mesh")));
 }
 

@@ -85,9 +85,7 @@ std::vector<RoundEnd> solids()
        pi * r * std::hypot(r, 60.)}};
 }
 
-class RoundEnds : public ::testing::TestWithParam<RoundEnd>
-{
-};
+using RoundEnds = ::testing::TestWithParam<RoundEnd>;
 
 /// A side of length l stays within l^2 / (8 r) of the curved face; gmsh makes sides up to some sqrt(2) h.
 TEST_P(RoundEnds, OfAStepFileAreMeshedToTheVolumeOfTheSolid)
