@@ -30,9 +30,6 @@ public:
   /// So that the slowest rank and the top together take the least time, as far as halving the largest subtrees goes.
   FrontDivision(const Fronts &fronts, int n_ranks);
 
-  /// Of every front; -1: the top.
-  const std::vector<int> &rank_of_front() const { return rank_of_front_; }
-
   /// The fronts of a rank: their columns, then all of the top.
   FrontSelection share(int rank) const;
   /// The fronts above, and one without columns for each front that passes on to them.
@@ -45,7 +42,7 @@ private:
   FrontSelection selection(const std::vector<int> &columns_of_rank, const std::vector<char> &taken) const;
 
   Fronts           fronts_;
-  std::vector<int> parent_, rank_of_front_;
+  std::vector<int> parent_, rank_of_front_; ///< rank -1: the top
 };
 
 } // namespace gestell::coupling

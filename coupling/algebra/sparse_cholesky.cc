@@ -265,19 +265,6 @@ double SparseCholesky::pivot_ratio() const
   return largest > 0. ? smallest / largest * (smallest / largest) : 1.;
 }
 
-int SparseCholesky::weakest_row() const
-{
-  int    weakest  = 0;
-  double smallest = INFINITY;
-  factor_->for_each_pivot(
-      [&](int row, double pivot)
-      {
-        if (pivot < smallest)
-          smallest = pivot, weakest = row;
-      });
-  return weakest;
-}
-
 double SparseCholesky::entries() const
 {
   return double(factor_->L.size());

@@ -73,8 +73,6 @@ public:
 
   /// (smallest / largest diagonal entry of L)^2: a rough lower bound of how far A is from singular.
   double pivot_ratio() const;
-  /// Row of A whose pivot is the smallest.
-  int weakest_row() const;
   /// As long as this lives.
   Fronts fronts() const;
   /// Coordinate of A at every place in the order of elimination.

@@ -56,7 +56,6 @@ public:
 
   /// The piece the history names is zero all along.
   bool                is_zero(const double *history) const;
-  bool                is_profile() const { return !function_; }
   const Profile      &profile() const { return profile_; }
   std::vector<double> levels() const; ///< of a profile: lowest and highest without orders are among them
 

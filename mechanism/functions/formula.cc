@@ -26,12 +26,6 @@ Formula Formula::variable(int i)
   return f;
 }
 
-bool Formula::depends_on(int variable) const
-{
-  return std::any_of(code_.begin(), code_.end(),
-                     [&](const Instruction &now) { return now.op == Op::variable && now.index == variable; });
-}
-
 int Formula::n_variables() const
 {
   int n = 0;

@@ -46,8 +46,7 @@ public:
 
   bool   is_constant() const { return code_.size() == 1 && code_[0].op == Op::constant; }
   double constant() const { return code_[0].number; } ///< of a formula that is_constant()
-  bool   depends_on(int variable) const;
-  int    n_variables() const; ///< one more than the highest variable it depends on
+  int    n_variables() const;                         ///< one more than the highest variable it depends on
 
   /// f(x); x [n_variables()].
   template <typename Number>

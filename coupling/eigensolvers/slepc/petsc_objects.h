@@ -56,21 +56,4 @@ inline void require_petsc(PetscErrorCode code, const char *what)
                            (text ? std::string(": ") + text : std::string()));
 }
 
-/// Calls visit(row, number of entries, their columns, their values) for every row of A on this rank.
-template <typename Visit>
-void for_each_own_row(Mat A, const char *what, const Visit &visit)
-{
-  PetscInt first = 0, last = 0;
-  require_petsc(MatGetOwnershipRange(A, &first, &last), what);
-  for (PetscInt i = first; i < last; ++i)
-  {
-    PetscInt           count   = 0;
-    const PetscInt    *columns = nullptr;
-    const PetscScalar *values  = nullptr;
-    require_petsc(MatGetRow(A, i, &count, &columns, &values), what);
-    visit(i, count, columns, values);
-    require_petsc(MatRestoreRow(A, i, &count, &columns, &values), what);
-  }
-}
-
 } // namespace gestell::coupling

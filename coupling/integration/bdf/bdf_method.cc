@@ -3,7 +3,6 @@
 #include "coupling/integration/bdf/bdf.h"
 #include "coupling/integration/bdf/bdf_controlled.h"
 #include "coupling/integration/bdf/bdf_formula.h"
-#include "coupling/integration/system/golden_section.h"
 
 #include <algorithm>
 #include <cmath>
@@ -197,25 +196,6 @@ const IntegrationMethod &bdf_method()
 {
   static const BdfMethod method;
   return method;
-}
-
-double sufficient_damping(int bdf_order)
-{
-  if (bdf_order <= 2)
-    return 0.; // A-stable
-  // Along |r| = 1, r = exp(i phi):  mu = sum (1 - 1/r)^j / j; the largest damping ratio met there.
-  const std::function<long double(double)> ratio = [&](double phi)
-  {
-    const LongComplex w  = 1.L - std::polar(1.L, -static_cast<long double>(phi));
-    LongComplex       mu = 0.L, power = 1.L;
-    for (int j = 1; j <= bdf_order; ++j)
-      mu += (power *= w) / static_cast<long double>(j);
-    return -mu.real() / std::abs(mu);
-  };
-  double best = 1e-3;
-  for (double phi = best; phi < 3.14; phi += 1e-3)
-    best = ratio(phi) > ratio(best) ? phi : best;
-  return static_cast<double>(ratio(highest(ratio, best - 1e-3, best + 1e-3)));
 }
 
 } // namespace gestell::coupling
