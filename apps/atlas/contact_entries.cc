@@ -1,7 +1,6 @@
 // What contacts do to methods that are sound for linear systems.
 
 #include "apps/atlas/atlas.h"
-#include "apps/atlas/trials.h"
 #include "apps/output/charts/chart.h"
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/propagation/force_rule.h"
@@ -18,6 +17,7 @@ namespace
 
 using coupling::ForceRule;
 using coupling::MethodOptions;
+using coupling::options_of;
 
 struct NamedMethod
 {
@@ -27,41 +27,27 @@ struct NamedMethod
 
 NamedMethod bdf(int order)
 {
-  MethodOptions o;
-  o.order = order;
-  return {"BDF " + std::to_string(order), o};
+  return {"BDF " + std::to_string(order), options_of("bdf", order)};
 }
 
 NamedMethod generalised_alpha(double rho_inf)
 {
-  MethodOptions o;
-  o.method = "generalised-alpha";
-  o.set("rho_inf", rho_inf);
-  return {"generalised alpha " + short_text(rho_inf), o};
+  return {"generalised alpha " + short_text(rho_inf), options_of("generalised-alpha").with("rho_inf", rho_inf)};
 }
 
 NamedMethod exact(ForceRule force, int order, const std::string &name)
 {
-  MethodOptions o;
-  o.method = "exact";
-  o.set("force", force_rule_name(force));
-  o.order = order;
-  return {"exact, " + name, o};
+  return {"exact, " + name, options_of("exact", order).with("force", force_rule_name(force))};
 }
 
 NamedMethod average_acceleration()
 {
-  MethodOptions o;
-  o.method = "newmark";
-  return {"average acceleration", o};
+  return {"average acceleration", options_of("newmark")};
 }
 
 NamedMethod hht(double alpha)
 {
-  MethodOptions o;
-  o.method = "hht";
-  o.set("alpha", alpha);
-  return {"HHT " + short_text(alpha), o};
+  return {"HHT " + short_text(alpha), options_of("hht").with("alpha", alpha)};
 }
 
 /// 1 kg that flies between two elastic stops without loss.

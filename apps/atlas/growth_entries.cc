@@ -18,6 +18,7 @@ namespace
 
 using coupling::ForceRule;
 using coupling::MethodOptions;
+using coupling::options_of;
 using coupling::Spring;
 using coupling::TestOscillator;
 
@@ -27,41 +28,22 @@ constexpr double rounding = 1e-7;
 
 MethodOptions bdf_options(int order)
 {
-  MethodOptions o;
-  o.order = order;
-  return o;
+  return options_of("bdf", order);
 }
 
 MethodOptions newmark(double beta, double gamma)
 {
-  MethodOptions o;
-  o.method = "newmark";
-  o.set("beta", beta);
-  o.set("gamma", gamma);
-  return o;
+  return options_of("newmark").with("beta", beta).with("gamma", gamma);
 }
 
 MethodOptions wilson(double theta)
 {
-  MethodOptions o;
-  o.method = "wilson";
-  o.set("theta", theta);
-  return o;
-}
-
-MethodOptions of(const std::string &method)
-{
-  MethodOptions o;
-  o.method = method;
-  return o;
+  return options_of("wilson").with("theta", theta);
 }
 
 MethodOptions exact(ForceRule force, int order)
 {
-  MethodOptions o = of("exact");
-  o.set("force", force_rule_name(force));
-  o.order = order;
-  return o;
+  return options_of("exact", order).with("force", force_rule_name(force));
 }
 
 /// The method at omega h on a unit oscillator: what the roots say, and what its steps do.
@@ -214,8 +196,8 @@ AtlasEntry newmark_outside_its_limits()
                        {}},
                       {{"γ = 0.45, β = 0.25", newmark(0.25, 0.45), 0., {0.3, 1., 3., 20.}},
                        {"linear acceleration", newmark(1. / 6., 0.5), 0., {3.5, 3.8, 4.5}},
-                       {"central differences", of("central-difference"), 0., {2.01, 2.1, 2.2}},
-                       {"central differences, ζ = 0.05", of("central-difference"), 0.05, {2.01, 2.1, 2.2}}},
+                       {"central differences", options_of("central-difference"), 0., {2.01, 2.1, 2.2}},
+                       {"central differences, ζ = 0.05", options_of("central-difference"), 0.05, {2.01, 2.1, 2.2}}},
                       0.1, 100., 1.8);
 }
 

@@ -1,7 +1,6 @@
 // Pseudo forces by fixed-point iteration, where Newton needs one tangent.
 
 #include "apps/atlas/atlas.h"
-#include "apps/atlas/trials.h"
 #include "apps/output/charts/chart.h"
 #include "coupling/integration/bdf/bdf_formula.h"
 #include "coupling/integration/step/implicit_step.h"

@@ -28,7 +28,24 @@ struct MethodOptions
 
   void set(const std::string &parameter, double value) { own[parameter] = value; }
   void set(const std::string &parameter, const std::string &choice) { own[parameter] = choice; }
+
+  /// The same with one more parameter.
+  MethodOptions with(const std::string &parameter, const MethodValue &value) const
+  {
+    MethodOptions more  = *this;
+    more.own[parameter] = value;
+    return more;
+  }
 };
+
+/// A method by its name; the rest as usual.
+inline MethodOptions options_of(const std::string &method, int order = 2)
+{
+  MethodOptions options;
+  options.method = method;
+  options.order  = order;
+  return options;
+}
 
 /// Whether the error of steps is controlled, not their length fixed.
 inline bool controlled(const MethodOptions &options)

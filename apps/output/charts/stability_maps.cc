@@ -13,7 +13,7 @@ namespace
 {
 
 using coupling::ForceRule;
-using coupling::MethodOptions;
+using coupling::options_of;
 using coupling::Spring;
 
 constexpr double lowest = 1e-2, highest = 1e3; // omega h of the maps
@@ -22,58 +22,38 @@ constexpr double highest_seen      = 3.141592653589793; // two steps in a period
 
 MappedMethod bdf(int order)
 {
-  MethodOptions o;
-  o.order = order;
-  return {o, Spring::base, "BDF " + std::to_string(order)};
+  return {options_of("bdf", order), Spring::base, "BDF " + std::to_string(order)};
 }
 
 MappedMethod newmark(double beta, double gamma, const std::string &name)
 {
-  MethodOptions o;
-  o.method = "newmark";
-  o.set("beta", beta);
-  o.set("gamma", gamma);
-  return {o, Spring::base, name};
+  return {options_of("newmark").with("beta", beta).with("gamma", gamma), Spring::base, name};
 }
 
 MappedMethod wilson(double theta)
 {
-  MethodOptions o;
-  o.method = "wilson";
-  o.set("theta", theta);
-  return {o, Spring::base, "Wilson " + short_text(theta)};
+  return {options_of("wilson").with("theta", theta), Spring::base, "Wilson " + short_text(theta)};
 }
 
 MappedMethod hht(double alpha)
 {
-  MethodOptions o;
-  o.method = "hht";
-  o.set("alpha", alpha);
-  return {o, Spring::base, "HHT " + short_text(alpha)};
+  return {options_of("hht").with("alpha", alpha), Spring::base, "HHT " + short_text(alpha)};
 }
 
 MappedMethod generalised_alpha(double rho_inf)
 {
-  MethodOptions o;
-  o.method = "generalised-alpha";
-  o.set("rho_inf", rho_inf);
-  return {o, Spring::base, "generalised alpha " + short_text(rho_inf)};
+  return {options_of("generalised-alpha").with("rho_inf", rho_inf), Spring::base,
+          "generalised alpha " + short_text(rho_inf)};
 }
 
 MappedMethod central_difference()
 {
-  MethodOptions o;
-  o.method = "central-difference";
-  return {o, Spring::base, "central differences"};
+  return {options_of("central-difference"), Spring::base, "central differences"};
 }
 
 MappedMethod exact(ForceRule force, int order, const std::string &name)
 {
-  MethodOptions o;
-  o.method = "exact";
-  o.set("force", force_rule_name(force));
-  o.order = order;
-  return {o, Spring::contact, name};
+  return {options_of("exact", order).with("force", force_rule_name(force)), Spring::contact, name};
 }
 
 void append_row(std::string &csv, const std::string &name, std::initializer_list<double> values)
