@@ -181,12 +181,24 @@ std::optional<BestSeries> best_at_error(const WorkPrecision &chart, const std::v
   return best;
 }
 
-std::string work_precision_csv(const WorkPrecision &chart)
+std::vector<bool> on_pareto_front(const WorkPrecision &chart)
 {
   std::vector<bool> on_front(chart.points.size(), false);
   for (std::size_t m = 0; m < chart.models.size(); ++m)
     for (const std::size_t i : pareto_front(chart, int(m)))
       on_front[i] = true;
+  return on_front;
+}
+
+std::string setting_words(const WorkPoint &point)
+{
+  return point.step > 0. ? "step " + short_text(point.step * 1e6, 4) + " µs"
+                         : "tolerance " + short_text(point.tolerance, 2);
+}
+
+std::string work_precision_csv(const WorkPrecision &chart)
+{
+  const std::vector<bool> on_front = on_pareto_front(chart);
 
   std::string csv = "method,family,own,events,coordinates,modes,step [s],tolerance,error,reference error,resolved,"
                     "cpu [s],set-up [s],steps,rejected,newton,factorisations,solves,evaluations,located events,pareto,"

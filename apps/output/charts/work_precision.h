@@ -70,6 +70,12 @@ std::vector<WorkSeries> work_series(const WorkPrecision &chart);
 /// not resolved take no part.
 std::vector<std::size_t> pareto_front(const WorkPrecision &chart, int model);
 
+/// Of every run whether it is in the front of its model.
+std::vector<bool> on_pareto_front(const WorkPrecision &chart);
+
+/// "step 40 µs", "tolerance 1e-05".
+std::string setting_words(const WorkPoint &point);
+
 /// CPU time at which a series reaches an error.
 struct WorkAtError
 {

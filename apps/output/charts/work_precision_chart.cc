@@ -79,11 +79,9 @@ Curve curve_of(const WorkPrecision &chart, const MethodLine &line, WorkMeasure m
   {
     const WorkPoint &point = chart.points[i];
     curve.add(work_of(point, measure), point.error);
-    curve.notes.push_back({point.method + ", " +
-                               (point.step > 0. ? "step " + short_text(point.step * 1e6, 4) + " us"
-                                                : "tolerance " + short_text(point.tolerance, 2)) +
-                               (point.events ? ", events located" : ", events passed over"),
-                           !point.resolved});
+    curve.notes.push_back(
+        {point.method + ", " + setting_words(point) + (point.events ? ", events located" : ", events passed over"),
+         !point.resolved});
   }
   return curve;
 }

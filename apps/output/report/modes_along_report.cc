@@ -140,26 +140,26 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
 
 std::string extremes_table(const AlongResult &along)
 {
-  std::string html = "<div class=\"wide\"><table><tr><th class=\"n\">line</th><th class=\"n\">lowest f [Hz]</th>"
-                     "<th class=\"n\">at</th><th class=\"n\">highest f [Hz]</th><th class=\"n\">at</th><th "
-                     "class=\"n\">damping ratio from</th><th class=\"n\">to</th><th class=\"n\">least "
-                     "MAC</th><th>moves most at first</th></tr>\n";
+  HtmlTable table({"#line", "#lowest f [Hz]", "#at", "#highest f [Hz]", "#at", "#damping ratio from", "#to",
+                   "#least MAC", "moves most at first"});
   for (std::size_t i = 0; i < along.modes.free.size(); ++i)
   {
-    const LineExtremes own = line_extremes(along.modes, i);
-    html += "<tr>" + cell(std::to_string(i + 1), "n");
+    const LineExtremes own  = line_extremes(along.modes, i);
+    const std::string  line = std::to_string(i + 1), &moves = along.modes.moves_most[i];
     if (along.modes.free[i])
-      html += "<td colspan=\"6\">free motion, no frequency</td>";
-    else
-      html += number_cell(own.min, 6) + cell(at_text(along.modes, own.x_min), "n") + number_cell(own.max, 6) +
-              cell(at_text(along.modes, own.x_max), "n") + number_cell(own.least_damping, 3) +
-              number_cell(own.largest_damping, 3);
-    const std::string grows = own.growth > 0. ? "; unstable at " + at_text(along.modes, own.x_growth) +
-                                                    ", grows by exp(" + short_text(own.growth, 3) + " t/s)"
-                                              : "";
-    html += number_cell(own.least_assurance, 3) + cell(escape_xml(along.modes.moves_most[i]) + grows) + "</tr>\n";
+    {
+      table.add({line, "–", "–", "–", "–", "–", "–", short_text(own.least_assurance, 3),
+                 moves + "; free, without a frequency"});
+      continue;
+    }
+    table.add({line, short_text(own.min, 6), at_text(along.modes, own.x_min), short_text(own.max, 6),
+               at_text(along.modes, own.x_max), short_text(own.least_damping, 3), short_text(own.largest_damping, 3),
+               short_text(own.least_assurance, 3),
+               moves + (own.growth > 0. ? "; unstable at " + at_text(along.modes, own.x_growth) + ", grows by exp(" +
+                                              short_text(own.growth, 3) + " t/s)"
+                                        : "")});
   }
-  return html + "</table></div>\n";
+  return table.html();
 }
 
 std::string meetings_table(const AlongResult &along)
@@ -171,16 +171,13 @@ std::string meetings_table(const AlongResult &along)
   if (along.meetings.empty())
     return "<p>At " + speed + " none of the orders 1 to " + std::to_string(along.orders) + " comes within " +
            short_text(100. * along.band, 3) + " % of a frequency.</p>\n";
-  std::string html = "<h3>Orders of " + speed + " within " + short_text(100. * along.band, 3) +
-                     " % of a frequency</h3><div class=\"scroll\"><table><tr><th class=\"n\">order</th><th "
-                     "class=\"n\">line</th><th class=\"n\">from</th><th class=\"n\">to</th><th class=\"n\">nearest "
-                     "at</th><th class=\"n\">f [Hz]</th><th class=\"n\">apart</th></tr>\n";
+  HtmlTable table({"#order", "#line", "#from", "#to", "#nearest at", "#f [Hz]", "#apart"});
   for (const coupling::OrderMeeting &meeting : along.meetings)
-    html += "<tr>" + cell(std::to_string(meeting.order), "n") + cell(std::to_string(meeting.line + 1), "n") +
-            cell(at_text(along.modes, meeting.begin), "n") + cell(at_text(along.modes, meeting.end), "n") +
-            cell(at_text(along.modes, meeting.x), "n") + number_cell(meeting.frequency_hz, 5) +
-            cell(short_text(100. * meeting.distance, 2) + " %", "n") + "</tr>\n";
-  return html + "</table></div>\n";
+    table.add({std::to_string(meeting.order), std::to_string(meeting.line + 1), at_text(along.modes, meeting.begin),
+               at_text(along.modes, meeting.end), at_text(along.modes, meeting.x), short_text(meeting.frequency_hz, 5),
+               short_text(100. * meeting.distance, 2) + " %"});
+  return "<h3>Orders of " + speed + " within " + short_text(100. * along.band, 3) + " % of a frequency</h3>" +
+         table.scrolled_html();
 }
 
 /// Shapes of the lines that change most, where their frequencies are lowest and highest.

@@ -7,7 +7,6 @@
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
-#include "apps/output/text/report_style.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
@@ -28,7 +27,7 @@ class Facts
 public:
   void add(const std::string &name, const std::string &value)
   {
-    rows_ += "<tr><th>" + name + "</th>" + cell(value, "n") + "</tr>\n";
+    rows_ += "<tr><th>" + name + "</th><td class=\"n\">" + value + "</td></tr>\n";
   }
   void count(const std::string &name, long n)
   {
@@ -45,17 +44,6 @@ public:
 private:
   std::string rows_;
 };
-
-std::string warning_box(const Result &result)
-{
-  const auto warnings = all_warnings(result);
-  if (warnings.empty())
-    return "";
-  std::string html = "<div class=\"warnings\" role=\"note\"><strong>Warnings</strong><ul>";
-  for (const std::string &warning : warnings)
-    html += "<li>" + escape_xml(warning) + "</li>";
-  return html + "</ul></div>\n";
-}
 
 /// Whether bodies move so far that a second pose tells something.
 bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
@@ -96,18 +84,15 @@ std::string peaks_table(const Result &result)
 {
   if (!result.run || result.run->signals.empty())
     return "";
-  std::string html = "<div class=\"wide\"><table><tr><th>signal</th><th>unit</th><th class=\"n\">largest</th>"
-                     "<th class=\"n\">at t [s]</th><th class=\"n\">smallest</th><th class=\"n\">at t [s]</th>"
-                     "<th class=\"n\">at the end</th></tr>\n";
+  HtmlTable table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
   for (const coupling::SignalSummary &signal : result.run->signals)
   {
     const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
     const auto        value = [&](double x) { return short_text(x * shown.factor, 5); };
-    html += "<tr>" + cell(escape_xml(signal.name)) + cell(escape_xml(shown.unit)) + cell(value(signal.max), "n peak") +
-            number_cell(signal.t_max, 6) + cell(value(signal.min), "n peak") + number_cell(signal.t_min, 6) +
-            cell(value(signal.final), "n") + "</tr>\n";
+    table.add({signal.name, shown.unit, peak(value(signal.max)), short_text(signal.t_max, 6), peak(value(signal.min)),
+               short_text(signal.t_min, 6), value(signal.final)});
   }
-  return html + "</table></div>\n";
+  return table.html();
 }
 
 std::string answer_section(const Result &result, Report &report)
@@ -133,14 +118,12 @@ std::string events_section(const Result &result)
 {
   if (!result.run || result.run->events.empty())
     return "";
-  std::string html   = "<p class=\"soft\">The numbers are those above the charts.</p>"
-                       "<div class=\"scroll\"><table><tr><th class=\"n\">no.</th><th class=\"n\">t [s]</th>"
-                       "<th>object</th><th>transition</th></tr>\n";
-  int         number = 0;
+  HtmlTable table({"#no.", "#t [s]", "object", "transition"});
+  int       number = 0;
   for (const coupling::Event &event : result.run->events)
-    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(event.t, 7) + cell(escape_xml(event.name)) +
-            cell(escape_xml(event.kind)) + "</tr>\n";
-  return section("events", "Events", html + "</table></div>\n");
+    table.add({std::to_string(++number), short_text(event.t, 7), event.name, event.kind});
+  return section("events", "Events",
+                 "<p class=\"soft\">The numbers are those above the charts.</p>" + table.scrolled_html());
 }
 
 /// What the residual of the balance says, and what it does not.
@@ -181,47 +164,47 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
 /// @param limit  [Hz]; nan: none
 std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
-  const bool  growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
-  const bool  refined = any_refined(modes);
-  std::string html    = "<div class=\"wide\"><table><tr><th class=\"n\">mode</th><th class=\"n\">f [Hz]</th>" +
-                     std::string(refined ? "<th class=\"n\">refined [Hz]</th>" : "") +
-                     "<th class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th>" +
-                     std::string(growing ? "<th class=\"n\">grows by</th>" : "") +
-                     "<th class=\"n\">effective mass x "
-                     "[kg]</th><th class=\"n\">y [kg]</th><th class=\"n\">z [kg]</th></tr>\n";
-  int number = 0;
+  const bool growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
+  const bool refined = any_refined(modes);
+  std::vector<std::string> columns = {"#mode",   "#f [Hz]", "#damped [Hz]", "#damping ratio", "#effective mass x [kg]",
+                                      "#y [kg]", "#z [kg]"};
+  if (growing)
+    columns.insert(columns.begin() + 4, "#grows by");
+  if (refined)
+    columns.insert(columns.begin() + 2, "#refined [Hz]");
+  HtmlTable table(columns);
+  int       number = 0;
   for (const coupling::Mode &mode : modes)
   {
     if (const std::string above =
             words_above(limit, number > 0 ? modes[number - 1].frequency_hz : 0., mode.frequency_hz);
         !above.empty())
-      html += "<tr><td class=\"soft\" colspan=\"" + std::to_string(7 + growing + refined) + "\">" + escape_xml(above) +
-              "</td></tr>\n";
-    html += "<tr>" + cell(std::to_string(++number), "n") + number_cell(mode.frequency_hz, 6);
-    if (refined)
-      html += number_cell(mode.refined_hz, 6);
-    html += number_cell(mode.damped_frequency_hz, 6) + number_cell(mode.damping_ratio);
+      table.add_note(above);
+    const auto &[x, y, z]            = mode.effective_mass;
+    std::vector<HtmlTable::Cell> row = {std::to_string(++number),
+                                        short_text(mode.frequency_hz, 6),
+                                        short_text(mode.damped_frequency_hz, 6),
+                                        short_text(mode.damping_ratio),
+                                        short_text(x),
+                                        short_text(y),
+                                        short_text(z)};
     if (growing)
-      html += cell(mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–", "n");
-    for (const double mass : mode.effective_mass)
-      html += number_cell(mass);
-    html += "</tr>\n";
+      row.insert(row.begin() + 4, mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–");
+    if (refined)
+      row.insert(row.begin() + 2, short_text(mode.refined_hz, 6));
+    table.add(row);
   }
-  return html + "</table></div>\n" + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
+  return table.html() + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
 }
 
 std::string pole_table(const std::vector<coupling::Pole> &poles)
 {
-  std::string html =
-      "<h3>With drives and controllers, at the speeds of the start</h3><div class=\"wide\"><table><tr><th "
-      "class=\"n\">damped [Hz]</th><th class=\"n\">damping ratio</th><th class=\"n\">goes by</th><th>moves "
-      "most</th></tr>\n";
+  HtmlTable table({"#damped [Hz]", "#damping ratio", "#goes by", "moves most"});
   for (const coupling::Pole &pole : poles)
-    html += "<tr>" + cell(pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "–", "n") +
-            cell(pole.vibrates() ? short_text(pole.damping_ratio()) : "–", "n") +
-            cell("exp(" + short_text(pole.s.real()) + " t/s)", pole.s.real() > 0. ? "n peak" : "n") +
-            cell(escape_xml(pole.moves)) + "</tr>\n";
-  return html + "</table></div>\n";
+    table.add({pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "–",
+               pole.vibrates() ? short_text(pole.damping_ratio()) : "–",
+               peak("exp(" + short_text(pole.s.real()) + " t/s)", pole.s.real() > 0.), pole.moves});
+  return "<h3>With drives and controllers, at the speeds of the start</h3>" + table.html();
 }
 
 std::string modes_section(const Result &result, Report &report)
@@ -253,21 +236,16 @@ std::string accuracy_table(const coupling::RunResult &run)
 {
   if (run.accuracy.empty())
     return "";
-  std::string html = "<h3>Modes as " + escape_xml(run.method) +
-                     " carries them</h3><div class=\"scroll\"><table><tr><th>modes of</th><th class=\"n\">f [Hz]</th>"
-                     "<th class=\"n\">damping ratio</th><th class=\"n\">ω h</th><th class=\"n\">numerical damping "
-                     "ratio</th><th class=\"n\">period too long by</th><th class=\"n\">growth per step</th></tr>\n";
+  HtmlTable table({"modes of", "#f [Hz]", "#damping ratio", "#ω h", "#numerical damping ratio", "#period too long by",
+                   "#growth per step"});
   std::size_t shown = 0;
   for (const coupling::ModeAccuracy &mode : run.accuracy)
-  {
-    if (++shown > most_accuracy_rows && !mode.unstable)
-      continue;
-    html += "<tr>" + cell(mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements") +
-            number_cell(mode.mode.omega / (2. * M_PI)) + number_cell(mode.mode.zeta) + number_cell(mode.omega_h) +
-            number_cell(mode.numerical_damping, 3) + cell(short_text(100. * mode.period_error, 3) + " %", "n") +
-            (mode.unstable ? cell(short_text(mode.spectral_radius, 6), "n peak") : cell("stable", "n")) + "</tr>\n";
-  }
-  return html + "</table></div>\n";
+    if (++shown <= most_accuracy_rows || mode.unstable)
+      table.add({mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements",
+                 short_text(mode.mode.omega / (2. * M_PI)), short_text(mode.mode.zeta), short_text(mode.omega_h),
+                 short_text(mode.numerical_damping, 3), short_text(100. * mode.period_error, 3) + " %",
+                 peak(mode.unstable ? short_text(mode.spectral_radius, 6) : "stable", mode.unstable)});
+  return "<h3>Modes as " + escape_xml(run.method) + " carries them</h3>" + table.scrolled_html();
 }
 
 std::string numerics_section(const Result &result)
@@ -365,18 +343,11 @@ Report make_report(const Result &full)
                            along_section(result, report.charts) + modes_section(result, report) +
                            numerics_section(result);
 
-  const std::string title = escape_xml(result.scene);
-  report.html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-                "content=\"width=device-width, initial-scale=1\"><title>" +
-                title + "</title><style>" + report_style + "</style></head>\n<body>\n<header><h1>" + title + "</h1>\n";
-  if (!result.description.empty())
-    report.html += "<p class=\"lead\">" + escape_xml(result.description) + "</p>\n";
-  report.html +=
-      "</header>\n" + warning_box(result) + contents(body) + body + "<footer>Computed with gestell " +
-      escape_xml(result.version) +
-      ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
-      (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "") +
-      "</footer>\n</body>\n</html>\n";
+  report.html = page_html(
+      {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,
+       "Computed with gestell " + escape_xml(result.version) +
+           ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
+           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "")});
   return report;
 }
 

@@ -1,11 +1,10 @@
 #include "apps/output/report/stability_report.h"
 
-#include "apps/output/text/report_style.h"
+#include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps
@@ -13,22 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-std::string cell(const std::string &text, const char *kind = "n")
-{
-  return std::string("<td class=\"") + kind + "\">" + text + "</td>";
-}
-
-std::string header(std::initializer_list<const char *> names)
-{
-  std::string html = "<tr>";
-  bool        text = true; // the first column is text, the others are numbers
-  for (const char *name : names)
-  {
-    html += std::string(text ? "<th>" : "<th class=\"n\">") + name + "</th>";
-    text = false;
-  }
-  return html + "</tr>\n";
-}
+constexpr std::size_t most_rows = 40; ///< of modes in a terminal
 
 const char *origin_text(coupling::ModeOrigin origin)
 {
@@ -64,39 +48,35 @@ std::string modes_section(const StabilityStudy &study)
 {
   if (study.modes.empty())
     return "";
-  std::string html = "<section id=\"modes\"><h2>The modes under " + escape_xml(study.method) +
-                     "</h2><div class=\"scroll\"><table>" +
-                     header({"modes of", "mode", "f [Hz]", "damping ratio", "ω h", "spectral radius",
-                             "numerical damping", "period error", "verdict"});
+  HtmlTable modes({"modes of", "#mode", "#f [Hz]", "#damping ratio", "#ω h", "#spectral radius", "#numerical damping",
+                   "#period error", "#verdict"});
   for (const auto &mode : study.modes)
-    html += "<tr>" + cell(origin_text(mode.origin), "") + cell(std::to_string(mode.number)) +
-            cell(short_text(mode.mode.omega / two_pi, 6)) + cell(short_text(mode.mode.zeta)) +
-            cell(short_text(mode.omega_h)) + cell(short_text(mode.spectral_radius, 7)) +
-            cell(short_text(mode.numerical_damping, 3)) + cell(percent(mode.period_error)) +
-            cell(verdict_of(mode), mode.unstable ? "n peak" : "n") + "</tr>\n";
-  html +=
-      "</table></div>\n<p class=\"soft\">Numerical damping comes beyond the physical one; a period error above zero "
-      "means too slow. Modes that do not vibrate are left out.</p>";
-  html += "<h3>Other methods at this step</h3><div class=\"wide\"><table>" +
-          header({"method", "verdict", "modes that grow", "worst, f [Hz]", "growth per step", "largest step that works",
-                  "period error, lowest mode of the frame", "highest mode"});
+    modes.add({origin_text(mode.origin), std::to_string(mode.number), short_text(mode.mode.omega / two_pi, 6),
+               short_text(mode.mode.zeta), short_text(mode.omega_h), short_text(mode.spectral_radius, 7),
+               short_text(mode.numerical_damping, 3), percent(mode.period_error),
+               peak(verdict_of(mode), mode.unstable)});
+  HtmlTable others({"method", "#verdict", "#modes that grow", "#worst, f [Hz]", "#growth per step",
+                    "#largest step that works", "#period error, lowest mode of the frame", "#highest mode"});
   for (const MethodVerdict &verdict : study.verdicts)
   {
     const bool grows = verdict.growing > 0;
-    html += "<tr>" + cell(escape_xml(verdict.method), "") + cell(verdict_of(verdict), grows ? "n peak" : "n") +
-            cell(std::to_string(verdict.growing)) + cell(grows ? short_text(verdict.worst_hz) : "–") +
-            cell(grows ? short_text(verdict.growth, 6) : "–") +
-            cell(!grows                         ? "–"
-                 : verdict.step_that_works > 0. ? step_text(verdict.step_that_works)
-                                                : "none") +
-            cell(percent(verdict.lowest_period_error)) + cell(percent(verdict.highest_period_error)) + "</tr>\n";
+    others.add({verdict.method, peak(verdict_of(verdict), grows), std::to_string(verdict.growing),
+                grows ? short_text(verdict.worst_hz) : "–", grows ? short_text(verdict.growth, 6) : "–",
+                !grows                         ? "–"
+                : verdict.step_that_works > 0. ? step_text(verdict.step_that_works)
+                                               : "none",
+                percent(verdict.lowest_period_error), percent(verdict.highest_period_error)});
   }
-  return html + "</table></div></section>\n";
+  return section("modes", "The modes under " + escape_xml(study.method),
+                 modes.scrolled_html() +
+                     "<p class=\"soft\">Numerical damping comes beyond the physical one; a period error above zero "
+                     "means too slow. Modes that do not vibrate are left out.</p><h3>Other methods at this step</h3>" +
+                     others.html());
 }
 
 std::string maps_section(const StabilityStudy &study)
 {
-  std::string html = "<section id=\"maps\"><h2>Maps of the methods</h2>\n<p>The oscillator x″ + 2ζω x′ + ω² x = 0 with "
+  std::string html = "<p>The oscillator x″ + 2ζω x′ + ω² x = 0 with "
                      "the step h. Above the line at 1 a mode grows.";
   if (!study.modes.empty())
     html += " Ticks at the bottom: modes of the frame (blue) and of the machine with closed contacts (orange) at the "
@@ -110,28 +90,27 @@ std::string maps_section(const StabilityStudy &study)
     html += std::string("<details") + (first ? " open" : "") + "><summary>damping ratio " + short_text(zeta) +
             "</summary>\n";
     for (const NamedSvg &chart : charts)
-      html += "<figure>" + chart.svg + "</figure>\n";
+      html += figure(chart.svg);
     html += "</details>\n";
     first = false;
   }
-  return html + "</section>\n";
+  return section("maps", "Maps of the methods", html);
 }
 
 std::string intervals_section(const StabilityStudy &study)
 {
-  std::string html = "<section id=\"intervals\"><h2>Where each method grows</h2>\n<div class=\"wide\"><table>" +
-                     header({"method", "damping ratio", "from ω h", "to ω h", "largest growth per step", "at ω h"});
+  HtmlTable table({"method", "#damping ratio", "#from ω h", "#to ω h", "#largest growth per step", "#at ω h"});
   for (const MappedInterval &row : study.intervals)
   {
     const bool endless = std::isinf(row.interval.to);
-    html += "<tr>" + cell(escape_xml(row.method), "") + cell(short_text(row.zeta)) +
-            cell(short_text(row.interval.from, 8)) + cell(short_text(row.interval.to, 8)) +
-            cell(endless ? "–" : short_text(row.interval.growth, 6)) +
-            cell(endless ? "–" : short_text(row.interval.at_omega_h)) + "</tr>\n";
+    table.add({row.method, short_text(row.zeta), short_text(row.interval.from, 8), short_text(row.interval.to, 8),
+               endless ? "–" : short_text(row.interval.growth, 6),
+               endless ? "–" : short_text(row.interval.at_omega_h)});
   }
-  return html + "</table></div>\n<p class=\"soft\">Methods that are not listed grow nowhere. Exact propagation stands "
-                "here with the force of a closed contact on a free mass; modes of the base system it carries exactly."
-                "</p></section>\n";
+  return section("intervals", "Where each method grows",
+                 table.html() + "<p class=\"soft\">Methods that are not listed grow nowhere. Exact propagation stands "
+                                "here with the force of a closed contact on a free mass; modes of the base system it "
+                                "carries exactly.</p>");
 }
 
 std::string padded(const std::string &text, std::size_t width, bool left = false)
@@ -152,7 +131,7 @@ std::string mode_row(const coupling::ModeAccuracy &mode)
 
 } // namespace
 
-std::string stability_text(const StabilityStudy &study, std::size_t most_rows)
+std::string stability_text(const StabilityStudy &study)
 {
   std::string text;
   if (!study.modes.empty())
@@ -192,23 +171,11 @@ std::string stability_text(const StabilityStudy &study, std::size_t most_rows)
 
 std::string stability_page(const StabilityStudy &study)
 {
-  const std::string title = escape_xml(study.title);
-  std::string       html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\"><title>" +
-      title + "</title><style>" + report_style +
-      "details{margin:.6rem 0}summary{cursor:pointer;font-weight:600}</style></head>\n<body>\n<header><h1>" + title +
-      "</h1></header>\n";
-  if (!study.notes.empty())
-  {
-    html += "<div class=\"warnings\" role=\"note\"><ul>";
-    for (const std::string &note : study.notes)
-      html += "<li>" + escape_xml(note) + "</li>";
-    html += "</ul></div>\n";
-  }
-  html += modes_section(study) + maps_section(study) + intervals_section(study);
-  return html + "<footer>Computed with gestell " + escape_xml(study.version) +
-         ". All numbers stand in full precision in the .csv files beside this page.</footer>\n</body>\n</html>\n";
+  return page_html({study.title, "",
+                    note_box(study.notes) + modes_section(study) + maps_section(study) + intervals_section(study),
+                    "Computed with gestell " + escape_xml(study.version) +
+                        ". All numbers stand in full precision in the .csv files beside this page.",
+                    "details{margin:.6rem 0}summary{cursor:pointer;font-weight:600}"});
 }
 
 } // namespace gestell::apps

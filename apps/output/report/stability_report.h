@@ -40,7 +40,7 @@ struct StabilityStudy
 /// One self-contained page: the scene's modes, other methods at its step, maps, unstable intervals.
 std::string stability_page(const StabilityStudy &study);
 
-/// The scene's part for a terminal; at most `most_rows` modes, those that grow always.
-std::string stability_text(const StabilityStudy &study, std::size_t most_rows = 40);
+/// The scene's part for a terminal; at most 40 modes, those that grow always.
+std::string stability_text(const StabilityStudy &study);
 
 } // namespace gestell::apps

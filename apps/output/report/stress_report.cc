@@ -19,32 +19,22 @@ std::string time_text(double t)
   return short_text(t, 6) + " s";
 }
 
-std::string row_of(const StressAt &at, const StressPlace &place, const DisplayUnit &unit)
+std::string table_html(const StressResult &stress, const DisplayUnit &unit)
 {
-  const auto  value = [&](double x) { return short_text(x * unit.factor); };
-  std::string where;
-  for (int d = 0; d < 3; ++d)
-    where += (d > 0 ? ", " : "(") + short_text(place.at[d]);
-  std::string html = "<tr>" + cell(escape_xml(at.label)) + number_cell(at.t, 6) +
-                     cell(value(place.von_mises), "n peak") + cell(where + ")") +
-                     cell(place.beside.empty() ? "" : "beside " + escape_xml(place.beside));
-  for (const double principal : place.principal.values)
-    html += cell(value(principal), "n");
-  return html + cell(short_text(100. * place.disagreement, 2) + " %", "n") + "</tr>\n";
-}
-
-std::string table(const StressResult &stress, const DisplayUnit &unit)
-{
-  std::string html = "<div class=\"wide\"><table><tr><th>instant</th><th class=\"n\">t [s]</th><th class=\"n\">largest "
-                     "σ<sub>v</sub> [" +
-                     unit.unit + "]</th><th>at x, y, z [m]</th><th></th><th class=\"n\">σ<sub>1</sub> [" + unit.unit +
-                     "]</th><th class=\"n\">σ<sub>2</sub></th><th class=\"n\">σ<sub>3</sub></th><th class=\"n\">"
-                     "elements disagree</th></tr>\n";
+  const auto value = [&](double x) { return short_text(x * unit.factor); };
+  HtmlTable  table({"instant", "#t [s]", "#largest σ<sub>v</sub> [" + unit.unit + "]", "at x, y, z [m]", "",
+                    "#σ<sub>1</sub> [" + unit.unit + "]", "#σ<sub>2</sub>", "#σ<sub>3</sub>", "#elements disagree"});
   for (const StressAt &at : stress.instants)
     for (const auto *place : {&at.peak, &at.beside_rigid})
       if (*place)
-        html += row_of(at, **place, unit);
-  return html + "</table></div>\n";
+      {
+        const auto &[where, von_mises, principal, disagreement, beside] = **place;
+        table.add({at.label, short_text(at.t, 6), peak(value(von_mises)),
+                   "(" + short_text(where[0]) + ", " + short_text(where[1]) + ", " + short_text(where[2]) + ")",
+                   beside.empty() ? "" : "beside " + beside, value(principal.values[0]), value(principal.values[1]),
+                   value(principal.values[2]), short_text(100. * disagreement, 2) + " %"});
+      }
+  return table.html();
 }
 
 /// What the numbers are, and what they are not.
@@ -59,9 +49,8 @@ std::string statement(const StressResult &stress)
             short_text(stress.step, 3) + " s apart: among these none is larger.";
   const auto beside = [](const StressAt &at) { return at.beside_rigid.has_value(); };
   if (std::any_of(stress.instants.begin(), stress.instants.end(), beside))
-    html +=
-        " Rows “beside” are elements at surfaces that are held rigid: at their rims the stress has no limit as "
-        "the mesh is refined, so that it says more about the mesh than about the frame.";
+    html += " Rows “beside” are elements at surfaces that are held rigid: at their rims the stress has no limit as "
+            "the mesh is refined, so that it says more about the mesh than about the frame.";
   const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };
   html += " The last column shows how much neighbouring elements disagree about the stress there.";
   if (std::any_of(stress.instants.begin(), stress.instants.end(), coarse))
@@ -87,7 +76,7 @@ std::string stress_section(const Result &result, Pictures &pictures)
     largest = std::max(largest, top_of(at));
   const DisplayUnit unit = display_unit("Pa", largest);
 
-  std::string html = statement(stress) + table(stress, unit) + "<div class=\"modes\">";
+  std::string html = statement(stress) + table_html(stress, unit) + "<div class=\"modes\">";
   for (std::size_t k = 0; k < std::min(stress.instants.size(), most_pictures); ++k)
   {
     const StressAt &at = stress.instants[k];

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace gestell::apps
 {
@@ -77,21 +76,14 @@ std::string escape_xml(const std::string &text)
   return safe;
 }
 
-void append_coordinate(std::string &svg, double x, int decimals)
+void append_coordinate(std::string &svg, double x)
 {
-  static constexpr std::array<int, 3> powers = {1, 10, 100};
-
-  const long scaled = std::lround(x * powers[decimals]);
-  const long whole = std::labs(scaled) / powers[decimals], part = std::labs(scaled) % powers[decimals];
-  if (scaled < 0)
+  const long tenths = std::lround(10. * x), whole = std::labs(tenths) / 10, part = std::labs(tenths) % 10;
+  if (tenths < 0)
     svg += '-';
   svg += std::to_string(whole);
-  if (part == 0)
-    return;
-  svg += '.';
-  if (decimals == 2 && part < 10)
-    svg += '0';
-  svg += std::to_string(decimals == 2 && part % 10 == 0 ? part / 10 : part);
+  if (part != 0)
+    svg += '.' + std::to_string(part);
 }
 
 std::string coordinate(double x)

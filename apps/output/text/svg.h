@@ -12,10 +12,8 @@ using Pictures = std::vector<std::pair<std::string, std::string>>; ///< file nam
 /// Text made safe inside XML and HTML, in elements and in quoted attributes.
 std::string escape_xml(const std::string &text);
 
-/// Appends a coordinate of a picture with at most `decimals` (0, 1 or 2) digits after the point.
-void append_coordinate(std::string &svg, double x, int decimals = 1);
-
-/// A coordinate with at most one digit after the point.
+/// A coordinate of a picture with at most one digit after the point.
+void        append_coordinate(std::string &svg, double x);
 std::string coordinate(double x);
 
 /// Opening of a picture of width x height units: name space, title for readers, style, paper.  Its colours follow the
