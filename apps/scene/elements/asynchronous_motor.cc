@@ -1,7 +1,6 @@
 #include "mechanism/elements/kloss_motor.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -31,7 +30,7 @@ void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene 
 {
   const auto shaft = read_shaft(table, names);
   const auto motor = read_kloss(table);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::KlossMotor>(motor); }), shaft);
+  add_law<mechanism::KlossMotor>(scene, table, motor, shaft);
 }
 
 ElementType asynchronous_motor_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/blanking_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -10,10 +9,8 @@ namespace gestell::apps
 /// Measure: displacement of `from` against `to`; the sheet resists.
 void read_blanking_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                           motion = read_relative_motion(table, names);
+  const auto                           motion = read_displacement(table, names);
   mechanism::BlankingForce::Parameters sheet;
-  if (motion.rotation)
-    throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
   sheet.thickness            = table.value("thickness");
   sheet.cut_length           = table.value("cut_length");
   sheet.shear_resistance     = table.value("shear_resistance");
@@ -23,8 +20,7 @@ void read_blanking_force(const SceneTable &table, const Names &names, Scene &sce
   sheet.friction_share       = table.value("friction_share");
   sheet.elastic_stiffness    = table.value("elastic_stiffness");
   sheet.contact_at           = table.value("contact_at");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::BlankingForce>(sheet); }),
-                 motion);
+  add_law<mechanism::BlankingForce>(scene, table, sheet, motion);
 }
 
 ElementType blanking_force_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/clearance.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -15,7 +14,7 @@ using mechanism::Clearance;
 void add_contact(Scene &scene, const SceneTable &table, const RelativeMotion &motion,
                  const Clearance::Parameters &contact)
 {
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<Clearance>(contact); }), motion);
+  add_law<Clearance>(scene, table, contact, motion);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "mechanism/elements/cubic_spring.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -14,8 +13,7 @@ void read_cubic_spring(const SceneTable &table, const Names &names, Scene &scene
   mechanism::CubicSpring::Parameters spring;
   spring.stiffness = table.value("stiffness", turns);
   spring.cubic     = table.value("cubic", turns);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CubicSpring>(spring); }),
-                 motion);
+  add_law<mechanism::CubicSpring>(scene, table, spring, motion);
 }
 
 ElementType cubic_spring_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/cutting_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -10,15 +9,13 @@ namespace gestell::apps
 /// Measure: displacement of `from` against `to`; the material resists.
 void read_cutting_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                          motion = read_relative_motion(table, names);
+  const auto                          motion = read_displacement(table, names);
   mechanism::CuttingForce::Parameters cut;
-  if (motion.rotation)
-    throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
   cut.peak_force       = table.value("peak_force");
   cut.peak_penetration = table.value("peak_penetration");
   cut.contact_at       = table.value("contact_at");
   cut.speed            = table.value("speed");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::CuttingForce>(cut); }), motion);
+  add_law<mechanism::CuttingForce>(scene, table, cut, motion);
 }
 
 ElementType cutting_force_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/drawing_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -10,16 +9,13 @@ namespace gestell::apps
 /// Measure: displacement of `from` against `to`; the sheet resists.
 void read_drawing_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                          motion = read_relative_motion(table, names);
+  const auto                          motion = read_displacement(table, names);
   mechanism::DrawingForce::Parameters sheet;
-  if (motion.rotation)
-    throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
   sheet.force      = table.value("force");
   sheet.stiffness  = table.value("stiffness");
   sheet.contact_at = table.value("contact_at");
   sheet.depth      = table.value("depth");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DrawingForce>(sheet); }),
-                 motion);
+  add_law<mechanism::DrawingForce>(scene, table, sheet, motion);
 }
 
 ElementType drawing_force_type()

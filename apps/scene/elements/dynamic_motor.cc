@@ -1,7 +1,6 @@
 #include "mechanism/elements/dynamic_motor.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 #include <cmath>
@@ -25,8 +24,7 @@ void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scen
   const double lag = table.has("time_constant")
                          ? table.value("time_constant")
                          : 1. / (2. * M_PI * table.value("mains_frequency") * motor.breakdown_slip);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::DynamicMotor>(motor); }), shaft,
-                 {{table.name() + ".torque", lag}});
+  add_law<mechanism::DynamicMotor>(scene, table, motor, shaft, {{table.name() + ".torque", lag}});
 }
 
 ElementType dynamic_motor_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/profile_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -18,8 +17,7 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
     throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
   const ProfileKeys keys    = level_profile(kind, kind.example);
   const auto        profile = read_free_course(table, "profile", keys, from);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::ProfileForce>(profile); }),
-                 motion);
+  add_law<mechanism::ProfileForce>(scene, table, profile, motion);
   scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
 }
 

@@ -1,7 +1,6 @@
 #include "mechanism/elements/formula_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -23,7 +22,7 @@ void read_formula_force(const SceneTable &table, const Names &names, Scene &scen
   FormulaForce::Parameters force;
   force.force = table.formula("force", variables, turns ? kind::torque : kind::force);
   force.along = turns ? FormulaForce::Along::angle : FormulaForce::Along::line;
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<FormulaForce>(force); }), motion);
+  add_law<FormulaForce>(scene, table, force, motion);
 }
 
 ElementType formula_force_type()

@@ -2,7 +2,6 @@
 #include "mechanism/elements/regularised_friction.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -47,7 +46,7 @@ void read_curve(const SceneTable &table, const RelativeMotion &motion, Parameter
 void add_friction(const SceneTable &table, const RelativeMotion &motion, const CoulombFriction::Parameters &friction,
                   Scene &scene)
 {
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<CoulombFriction>(friction); }), motion);
+  add_law<CoulombFriction>(scene, table, friction, motion);
 }
 
 } // namespace
@@ -63,7 +62,7 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
   if (table.has("static_force") != table.has("stribeck_speed"))
     throw table.error(
         "needs 'static_force' and 'stribeck_speed' together: from where the force falls, and over which speed");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<RegularisedFriction>(friction); }), motion);
+  add_law<RegularisedFriction>(scene, table, friction, motion);
 }
 
 /// Truly sticks.  Its two forces are given, or follow from a normal force by their coefficients.

@@ -1,7 +1,6 @@
 #include "mechanism/elements/gas_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -13,10 +12,8 @@ namespace
 /// Measure: displacement of the piston `from` against `to`.
 void read_gas_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                      motion = read_relative_motion(table, names);
+  const auto                      motion = read_displacement(table, names);
   mechanism::GasForce::Parameters gas;
-  if (motion.rotation)
-    throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
   gas.area             = table.value("area");
   gas.clearance_volume = table.value("clearance_volume");
   gas.dead_centre_at   = table.value("dead_centre_at");
@@ -30,7 +27,7 @@ void read_gas_force(const SceneTable &table, const Names &names, Scene &scene)
     gas.valves = {table.value("suction_pressure"), table.value("delivery_pressure")};
   gas.initial_pressure =
       gas.valves ? table.value_or("initial_pressure", gas.valves->suction) : table.value("initial_pressure");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::GasForce>(gas); }), motion);
+  add_law<mechanism::GasForce>(scene, table, gas, motion);
 }
 
 ElementType gas_force_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/hydraulic_cylinder.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -47,8 +46,8 @@ void read_hydraulic_cylinder(const SceneTable &table, const Names &names, Scene 
   else
     cylinder.course = read_course(table, "flow", keys, table.number("initial", flow, 0.));
   const std::string name = table.name();
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<HydraulicCylinder>(cylinder); }), motion,
-                 {{name + ".fed_a", HydraulicCylinder::lag}, {name + ".fed_b", HydraulicCylinder::lag}});
+  add_law<HydraulicCylinder>(scene, table, cylinder, motion,
+                             {{name + ".fed_a", HydraulicCylinder::lag}, {name + ".fed_b", HydraulicCylinder::lag}});
   scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
   scene.elements.back().fixed  = true;
 }

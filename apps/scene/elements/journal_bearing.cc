@@ -5,8 +5,6 @@
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/relative_motion.h"
 
-#include <cmath>
-
 namespace gestell::apps
 {
 namespace

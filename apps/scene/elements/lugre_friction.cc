@@ -1,7 +1,6 @@
 #include "mechanism/elements/lugre_friction.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -23,8 +22,8 @@ void read_lugre_friction(const SceneTable &table, const Names &names, Scene &sce
   friction.viscous           = table.value("viscous", turns);
   if (friction.static_force > friction.kinetic_force && !table.has("stribeck_speed"))
     throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::LuGreFriction>(friction); }),
-                 motion, {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
+  add_law<mechanism::LuGreFriction>(scene, table, friction, motion,
+                                    {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
 }
 
 ElementType lugre_friction_type()

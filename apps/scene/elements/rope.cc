@@ -1,7 +1,6 @@
 #include "mechanism/elements/rope.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -16,7 +15,7 @@ void read_rope(const SceneTable &table, const Names &names, Scene &scene)
   rope.stiffness = table.value("stiffness", turns);
   rope.damping   = table.value("damping", turns);
   rope.slack     = table.value("slack", turns);
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::Rope>(rope); }), motion);
+  add_law<mechanism::Rope>(scene, table, rope, motion);
 }
 
 ElementType rope_type()

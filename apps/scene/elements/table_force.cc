@@ -1,7 +1,6 @@
 #include "mechanism/elements/table_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -22,7 +21,7 @@ void read_table_force(const SceneTable &table, const Names &names, Scene &scene)
   force.against = against == "time" ? Against::time : against == "displacement" ? Against::displacement : Against::rate;
   for (const auto &row : table.pairs("table", x, turns ? kind::torque : kind::force))
     force.rows.push_back({row[0], row[1]});
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::TableForce>(force); }), motion);
+  add_law<mechanism::TableForce>(scene, table, force, motion);
 }
 
 ElementType table_force_type()

@@ -1,7 +1,6 @@
 #include "mechanism/elements/wheel.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -18,7 +17,7 @@ void read_wheel(const SceneTable &table, const Names &names, Scene &scene)
   wheel.stiffness = table.value("stiffness");
   wheel.damping   = table.value("damping");
   wheel.bilateral = table.truth("bilateral");
-  add_element_on(scene, table, checked(table, [&] { return std::make_shared<mechanism::Wheel>(wheel); }), motion);
+  add_law<mechanism::Wheel>(scene, table, wheel, motion);
 }
 
 ElementType wheel_type()

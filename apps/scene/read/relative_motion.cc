@@ -107,6 +107,14 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   return {difference(from.marker, to.marker, rotor->axis, true), true, ""};
 }
 
+RelativeMotion read_displacement(const SceneTable &table, const Names &names)
+{
+  RelativeMotion motion = read_relative_motion(table, names);
+  if (motion.rotation)
+    throw table.error("acts along a displacement, not on an angle; name a slider in 'from' or give 'direction'");
+  return motion;
+}
+
 std::vector<Key> motion_keys()
 {
   return {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/names.h"
 #include "apps/scene/values/requests.h"
 
@@ -40,6 +41,8 @@ void refuse_turning_point(const SceneTable &table, const Names &names, const Pla
  * places, or points `at_from`, `at_to` of bodies: then u is the displacement of these points, however bodies turn.
  */
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names);
+/// The same of laws that act along a displacement alone.
+RelativeMotion read_displacement(const SceneTable &table, const Names &names);
 
 /// Keys that read_relative_motion() asks for; read_load_motion(); read_shaft().
 std::vector<Key> motion_keys();
@@ -58,6 +61,14 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names);
 /// Adds an element of one measure to the scene, with the virtual coordinates that follow it.
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                     const RelativeMotion &motion, const std::vector<LagRequest> &lags = {});
+/// Makes the law and adds it so; what it has against its parameters is headed by the table's place.
+template <typename Law, typename Parameters>
+void add_law(Scene &scene, const SceneTable &table, const Parameters &parameters, const RelativeMotion &motion,
+             const std::vector<LagRequest> &lags = {})
+{
+  add_element_on(scene, table, checked(table, [&] { return std::make_shared<Law>(parameters); }), motion, lags);
+}
+
 /// The same motion without a measure, where that is one along or about constant directions; else as it is.
 RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names);
 /// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
