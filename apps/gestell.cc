@@ -4,7 +4,6 @@
 #include "apps/cli/team.h"
 #include "apps/session/commit.h"
 #include "apps/version.h"
-#include "coupling/integration/system/second_order_system.h"
 #include "fem/values/nearest_name.h"
 
 #include <CLI/CLI.hpp>

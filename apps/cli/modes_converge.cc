@@ -1,6 +1,5 @@
 #include "apps/cli/modes_converge.h"
 
-#include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
 #include "coupling/plugin/mesh_service.h"
 #include "fem/values/number_text.h"

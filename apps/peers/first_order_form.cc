@@ -1,7 +1,5 @@
 #include "apps/peers/first_order_form.h"
 
-#include <cmath>
-
 namespace gestell::peers
 {
 namespace

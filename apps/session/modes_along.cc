@@ -4,7 +4,6 @@
 #include "apps/scene/language/quantity.h"
 #include "fem/values/number_text.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps

@@ -13,7 +13,6 @@
 #include "coupling/plugin/mesh_service.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 namespace gestell::apps

@@ -3,7 +3,6 @@
 #include "coupling/algebra/large_array.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -1,7 +1,7 @@
 #include "coupling/eigensolvers/block_lanczos.h"
 
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/integration/system/second_order_system.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "coupling/eigensolvers/deflated_search.h"
 
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 
 #include <algorithm>
 #include <cmath>

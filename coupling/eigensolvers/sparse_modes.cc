@@ -1,7 +1,7 @@
 #include "coupling/eigensolvers/sparse_modes.h"
 
 #include "coupling/eigensolvers/block_lanczos.h"
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "coupling/eigensolvers/sturm_check.h"
 
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
@@ -136,8 +136,9 @@ Inertia SturmCheckedModes::count_in_gap(double &omega)
       return best;
   }
   throw ConvergenceFailure(kind_ + ": the number below " + rounded(omega / two_pi) +
-                           " Hz cannot be counted, for rounding in the factor grows " + rounded(best.growth) + "-fold, " +
-                           rounded(least) + " times as much as the gap there is wide; ask for another number of modes");
+                           " Hz cannot be counted, for rounding in the factor grows " + rounded(best.growth) +
+                           "-fold, " + rounded(least) +
+                           " times as much as the gap there is wide; ask for another number of modes");
 }
 
 bool SturmCheckedModes::confirm()

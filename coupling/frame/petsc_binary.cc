@@ -9,7 +9,6 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace gestell::coupling
 {

@@ -4,7 +4,6 @@
 #include "coupling/frame/whole_file.h"
 
 #include <fstream>
-#include <stdexcept>
 
 namespace gestell::coupling
 {

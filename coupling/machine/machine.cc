@@ -8,7 +8,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace gestell::coupling
@@ -93,7 +92,7 @@ int MachineModel::add_lag(const std::string &name, double time_constant)
 }
 
 void MachineModel::attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
-                     const std::vector<Measure> &measures, MeasureKind kind)
+                          const std::vector<Measure> &measures, MeasureKind kind)
 {
   if (static_cast<int>(measures.size()) != element->n_measures())
     throw std::invalid_argument("element \"" + name + "\" takes " + std::to_string(element->n_measures()) +

@@ -2,7 +2,7 @@
 
 #include "coupling/algebra/openblas.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 
 #include <map>
 #include <memory>

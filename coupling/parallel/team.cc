@@ -1,9 +1,8 @@
 #include "coupling/parallel/team.h"
 
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 
 #include <memory>
-#include <string>
 
 namespace gestell::coupling
 {

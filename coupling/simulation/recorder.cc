@@ -1,7 +1,6 @@
 #include "coupling/simulation/recorder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <sstream>
 

@@ -2,7 +2,6 @@
 
 #include "fem/parallel/petsc_session.h"
 
-#include <algorithm>
 #include <cassert>
 #include <stdexcept>
 #include <string>

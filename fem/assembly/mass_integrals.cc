@@ -3,9 +3,6 @@
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/rigid_motions.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace gestell::fem
 {
 

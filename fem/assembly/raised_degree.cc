@@ -1,6 +1,5 @@
 #include "fem/assembly/raised_degree.h"
 
-#include "fem/assembly/elasticity.h"
 #include "fem/assembly/reference_cell.h"
 
 #include <Eigen/LU>

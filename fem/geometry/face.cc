@@ -1,7 +1,6 @@
 #include "fem/geometry/face.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace gestell::fem
 {

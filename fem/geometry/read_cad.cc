@@ -12,9 +12,6 @@
 
 #include <gmsh.h>
 
-#include <algorithm>
-#include <map>
-#include <numeric>
 #include <stdexcept>
 
 namespace gestell::fem

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <stdexcept>
-#include <vector>
 
 namespace gestell::fem
 {

@@ -5,7 +5,6 @@
 #include "fem/geometry/read_cad.h"
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mesh_extraction.h"
-#include "fem/mesh/mesh_quality.h"
 #include "fem/values/triangle_surface.h"
 #include "fem/values/vector3.h"
 #include "fem/values/volume_integrals.h"

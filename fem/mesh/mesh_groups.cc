@@ -4,7 +4,6 @@
 #include "fem/values/vector3.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <set>

@@ -3,7 +3,6 @@
 #include "mechanism/require.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gestell::mechanism
 {

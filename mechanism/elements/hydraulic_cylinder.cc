@@ -2,8 +2,6 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
-
 namespace gestell::mechanism
 {
 

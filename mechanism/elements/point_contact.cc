@@ -1,6 +1,5 @@
 #include "mechanism/elements/point_contact.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::mechanism

@@ -6,7 +6,6 @@
 #include "coupling/machine/configuration/sticking_conflict.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace gestell::apps
 {

@@ -1,7 +1,6 @@
 #include "apps/scene/build/build_machine.h"
 
 #include "coupling/equilibrium/static_equilibrium.h"
-#include "coupling/equilibrium/steady_motion.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/machine/configuration/loop_closure.h"
 #include "mechanism/joints/orthonormal_directors.h"

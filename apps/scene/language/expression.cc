@@ -3,7 +3,6 @@
 #include "fem/values/two_pi.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 

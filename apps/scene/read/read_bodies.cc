@@ -2,7 +2,6 @@
 
 #include "apps/scene/read/read_part.h"
 #include "apps/scene/read/read_tensor.h"
-#include "fem/values/nearest_name.h"
 
 #include <algorithm>
 

@@ -8,14 +8,11 @@
 #include "apps/scene/read/read_motion.h"
 #include "apps/scene/read/read_scalars.h"
 #include "apps/scene/read/relative_motion.h"
-#include "fem/values/nearest_name.h"
 #include "fem/values/vector3.h"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace gestell::apps
 {

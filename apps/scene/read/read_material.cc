@@ -1,6 +1,5 @@
 #include "apps/scene/read/read_material.h"
 
-#include <cmath>
 #include <map>
 #include <sstream>
 

@@ -4,7 +4,6 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace gestell::apps

@@ -4,7 +4,6 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gestell::apps
 {
@@ -79,9 +78,10 @@ const std::vector<Key> &stress_keys()
 {
   static const std::vector<Key> keys = {
       key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
-      key::plain("largest", Key::Form::texts,
-                 "names of signals at whose largest value stresses are written; `\"stress\"`: when the equivalent stress "
-                 "itself is largest anywhere, see `step`")
+      key::plain(
+          "largest", Key::Form::texts,
+          "names of signals at whose largest value stresses are written; `\"stress\"`: when the equivalent stress "
+          "itself is largest anywhere, see `step`")
           .by_default("`\"stress\"` if nothing else is asked for"),
       key::plain("smallest", Key::Form::texts, "names of signals, likewise").by_default("none"),
       key::number("step", kind::time, "between the states among which the largest stress is looked for")

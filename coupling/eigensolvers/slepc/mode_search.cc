@@ -2,12 +2,11 @@
 
 #include "coupling/eigensolvers/deflated_search.h"
 #include "coupling/eigensolvers/slepc/registered_types.h"
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "fem/parallel/petsc_session.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace gestell::coupling

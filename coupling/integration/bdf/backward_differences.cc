@@ -1,7 +1,5 @@
 #include "coupling/integration/bdf/backward_differences.h"
 
-#include <algorithm>
-
 namespace gestell::coupling
 {
 

@@ -1,7 +1,5 @@
 #include "coupling/integration/events/event_detection.h"
 
-#include <cmath>
-
 namespace gestell::coupling
 {
 

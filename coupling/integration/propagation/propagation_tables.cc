@@ -1,7 +1,6 @@
 #include "coupling/integration/propagation/propagation_tables.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace gestell::coupling
 {

@@ -1,7 +1,6 @@
 #include "coupling/integration/step/implicit_step.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gestell::coupling
 {

@@ -12,7 +12,6 @@
 #include "fem/recovery/discretisation.h"
 #include "fem/recovery/mesh_error.h"
 #include "fem/recovery/refinement.h"
-#include "fem/values/two_pi.h"
 #include "fem/values/vector3.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/modes/modes.h"
 #include "coupling/reduction/estimates/raised_modes.h"
 #include "fem/mesh/memory_estimate.h"

@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace gestell::coupling

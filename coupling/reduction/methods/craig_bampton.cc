@@ -1,6 +1,6 @@
 #include "coupling/reduction/methods/craig_bampton.h"
 
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/reduction/estimates/mode_selection.h"
 #include "coupling/reduction/methods/reduction_space.h"
 #include "coupling/reduction/shapes/fixed_interface_modes.h"

@@ -2,9 +2,6 @@
 
 #include "coupling/integration/system/dense_solvers.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace gestell::coupling
 {
 

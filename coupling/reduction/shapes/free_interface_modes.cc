@@ -2,8 +2,8 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/shapes/interface_flexibility.h"
 #include "fem/values/two_pi.h"
 

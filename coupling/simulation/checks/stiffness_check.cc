@@ -1,6 +1,5 @@
 #include "coupling/simulation/checks/stiffness_check.h"
 
-#include "coupling/integration/stability/stability.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
