@@ -2,6 +2,7 @@
 
 #include "coupling/integration/system/second_order_system.h"
 #include "tests/support/lattice.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +19,7 @@ using test::Lattice;
 
 std::string message_of(const fem::FrameMatrices &frame, const coupling::ReductionOptions &options = {})
 {
-  try
-  {
-    reduce_frame(frame, options);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return tests::refusal([&] { reduce_frame(frame, options); });
 }
 
 bool holds(const std::string &text, const std::string &words)
@@ -117,7 +110,7 @@ TEST(FreeMotion, ASoftSupportIsNone)
   lattice.foundation = 1e-2; // 1e-9 of the stiffness of a rod
   auto frame         = frame_of(lattice);
   frame.interfaces.clear();
-  EXPECT_EQ(message_of(frame), "no error");
+  EXPECT_EQ(message_of(frame), "");
 }
 
 TEST(BadReduction, IsRefusedWithTheNumberNeeded)

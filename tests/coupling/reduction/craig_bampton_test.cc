@@ -24,13 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::frame_of;
 using test::Lattice;
-
-ReductionOptions with_modes(int n_modes)
-{
-  ReductionOptions options;
-  options.n_modes = n_modes;
-  return options;
-}
+using test::with_modes;
 
 int internal_coordinates(const fem::FrameMatrices &frame)
 {

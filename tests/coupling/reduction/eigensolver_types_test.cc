@@ -6,6 +6,7 @@
 #include "coupling/integration/system/second_order_system.h"
 #include "fem/parallel/petsc_session.h"
 #include "tests/support/lattice.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -73,9 +74,7 @@ private:
   std::string name_;
 };
 
-class Eigensolver : public ::testing::TestWithParam<const char *>
-{
-};
+using Eigensolver = ::testing::TestWithParam<const char *>;
 
 // Frequencies are better than the tolerance by its square, but LOBPCG's orthonormality ends at its tolerance 1e-8.
 /// LOBPCG of SLEPc breaks down where rounding makes its Gram matrix indefinite (LAPACK's sygvd), as it does with
@@ -152,15 +151,8 @@ TEST(EigensolverOptions, BlockLanczosGoesByAnyFactor)
 TEST(EigensolverOptions, ThatPetscDoesNotKnowAreToldAsItTells)
 {
   const HeldLattice lattice;
-  try
-  {
-    lattice.search("no-such-type")->find(3);
-    FAIL();
-  }
-  catch (const coupling::ConvergenceFailure &failure)
-  {
-    EXPECT_NE(std::string(failure.what()).find("eigensolver no-such-type"), std::string::npos) << failure.what();
-  }
+  tests::expect_refusal<coupling::ConvergenceFailure>([&] { lattice.search("no-such-type")->find(3); },
+                                                      "eigensolver no-such-type");
 }
 
 TEST(BlockLanczosType, NeedsARangeOfMassAsLargeAsTheNumberOfModes)

@@ -93,9 +93,7 @@ TEST(BlockLanczos, ResidualsAreWhatTheBoundsTell)
   }
 }
 
-class BlockSize : public ::testing::TestWithParam<int>
-{
-};
+using BlockSize = ::testing::TestWithParam<int>;
 
 TEST_P(BlockSize, AllRepeatedFrequenciesOfACubeAreFound)
 {

@@ -26,13 +26,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::frame_of;
 using test::Lattice;
-
-coupling::ReductionOptions with_modes(int n_modes)
-{
-  coupling::ReductionOptions options;
-  options.n_modes = n_modes;
-  return options;
-}
+using test::with_modes;
 
 fem::FrameMatrices without_dampers(Lattice lattice)
 {

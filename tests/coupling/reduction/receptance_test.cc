@@ -1,6 +1,7 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/values/two_pi.h"
+#include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
 #include <Eigen/LU>
@@ -21,6 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::frame_of;
 using test::Lattice;
+using test::with_modes;
 
 constexpr double zeta = 0.01;
 
@@ -77,13 +79,6 @@ double error(const Receptances &H, const Receptances &exact, const VectorXd &sca
   return largest;
 }
 
-coupling::ReductionOptions with_modes(int n)
-{
-  coupling::ReductionOptions options;
-  options.n_modes = n;
-  return options;
-}
-
 /// A frame damped by modes alone, of frequency range and frequencies to look at.
 struct Case
 {
@@ -112,9 +107,7 @@ Case make_case(double foundation, int last_mode)
   return result;
 }
 
-class ReceptanceNumber : public ::testing::TestWithParam<std::tuple<double, int, double>>
-{
-};
+using ReceptanceNumber = ::testing::TestWithParam<std::tuple<double, int, double>>;
 
 TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanTheFewestModes)
 {
@@ -174,9 +167,7 @@ Receptances direct(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, cons
 }
 
 /// omega b / c of the foundation at the highest frequency, and the tolerance.
-class DampersInside : public ::testing::TestWithParam<std::tuple<double, double>>
-{
-};
+using DampersInside = ::testing::TestWithParam<std::tuple<double, double>>;
 
 TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
 {
@@ -224,9 +215,7 @@ INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,
                          ::testing::Combine(::testing::Values(0.2, 2., 20., 200.), ::testing::Values(0.01, 1e-3)));
 
 /// Whether the inside has coordinates without mass, and omega b / c of the foundation at the highest frequency.
-class FewCoordinates : public ::testing::TestWithParam<std::tuple<bool, double>>
-{
-};
+using FewCoordinates = ::testing::TestWithParam<std::tuple<bool, double>>;
 
 TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
 {
