@@ -6,6 +6,7 @@
 #include "coupling/machine/machine.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/speed_drive.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -204,24 +205,10 @@ double distance(const Matrix &q, const Matrix &truth, double least)
   return kept > 0 ? std::sqrt(sum / double(kept * truth.cols())) : 0.;
 }
 
-MethodOptions controlled(const std::string &kind, int order, double tolerance, const Trial &trial)
-{
-  MethodOptions method;
-  method.method    = kind;
-  method.order     = order;
-  method.tolerance = tolerance;
-  method.step      = trial.longest_step;
-  return method;
-}
-
 /// Steps 1/2000 of the run, the linear machine carried exactly.
 MethodOptions fixed(const Trial &trial)
 {
-  MethodOptions method;
-  method.method = "exact";
-  method.order  = 8;
-  method.step   = trial.end / 2000.;
-  return method;
+  return method("exact", trial.end / 2000., 8);
 }
 
 struct Kind
@@ -236,7 +223,7 @@ class Controlled : public ::testing::TestWithParam<Kind>
 protected:
   MethodOptions method(double tolerance, const Trial &trial) const
   {
-    return controlled(GetParam().method, GetParam().order, tolerance, trial);
+    return controlled(tests::method(GetParam().method, trial.longest_step, GetParam().order), tolerance);
   }
 };
 
@@ -286,7 +273,7 @@ TEST(ControlledBdf, TakesNoMoreStepsFromRestThanOnTheWay)
 {
   for (const double tolerance : {1e-4, 1e-8})
   {
-    const auto own       = [&](const Trial &trial) { return controlled("bdf", 5, tolerance, trial); };
+    const auto own       = [&](const Trial &trial) { return controlled(bdf(5, trial.longest_step), tolerance); };
     const long under_way = steps_of_all(Load::none, own);
     for (const Load load : all_loads)
       EXPECT_LT(steps_of_all(load, own), 2 * under_way) << int(load) << " " << tolerance;
@@ -333,7 +320,7 @@ TEST(DriveAtSpeed, ItsIntegralAsksForNoStepsUntilALoadComes)
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10})
     {
       Trial        trial  = driven_shaft(load);
-      const Result result = run(trial, controlled("bdf", 5, tolerance, trial));
+      const Result result = run(trial, controlled(bdf(5, trial.longest_step), tolerance));
       EXPECT_EQ(result.failure, "") << tolerance;
       EXPECT_LT(result.steps, 2000. * std::pow(tolerance / 1e-4, -0.25)) << tolerance; // order 5, coarse
     }

@@ -1,4 +1,5 @@
 #include "coupling/frame/matrix_market.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +32,7 @@ protected:
   }
   std::string message_of(const std::string &text)
   {
-    try
-    {
-      read(text);
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return error.what();
-    }
-    return "no error";
+    return tests::refusal([&] { read(text); });
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include "coupling/frame/matrix_file.h"
 #include "coupling/frame/matrix_market.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -40,15 +41,7 @@ protected:
   }
   std::string message() const
   {
-    try
-    {
-      coupling::read_petsc_matrix(file);
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return error.what();
-    }
-    return "no error";
+    return tests::refusal([&] { coupling::read_petsc_matrix(file); });
   }
 };
 

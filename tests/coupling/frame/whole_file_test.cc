@@ -1,4 +1,5 @@
 #include "coupling/frame/whole_file.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -70,17 +71,13 @@ TEST_F(WholeFile, OnAFullDiskIsAnErrorWithPathAndReasonAndLeavesWhatStoodInItsPl
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{4096, 4096};
     setrlimit(RLIMIT_FSIZE, &limit);
-    std::string message;
-    try
-    {
-      coupling::WholeFile file(path);
-      file.stream() << std::string(1000000, 'x');
-      file.finish();
-    }
-    catch (const std::runtime_error &error)
-    {
-      message = error.what();
-    }
+    const std::string message = tests::refusal<std::runtime_error>(
+        [&]
+        {
+          coupling::WholeFile file(path);
+          file.stream() << std::string(1000000, 'x');
+          file.finish();
+        });
     _exit(message.find(path) == 0 && message.find("too large") != std::string::npos ? 0 : 1);
   }
   int status = 1;

@@ -1,4 +1,5 @@
 #include "coupling/integration/newmark/newmark.h"
+#include "tests/support/refusal.h"
 #include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
@@ -246,14 +247,7 @@ TEST(Newmark, RefusesParametersOutsideTheirRange)
     EXPECT_THROW(Newmark::hht(bad), std::invalid_argument);
   for (const double bad : {-0.01, 1.01, nan})
     EXPECT_THROW(Newmark::generalised_alpha(bad), std::invalid_argument);
-  try
-  {
-    Newmark::hht(0.05);
-  }
-  catch (const std::invalid_argument &refused)
-  {
-    EXPECT_STREQ(refused.what(), "HHT: alpha is 0.05; it must be between -1/3 and 0");
-  }
+  EXPECT_EQ(refusal([] { Newmark::hht(0.05); }), "HHT: alpha is 0.05; it must be between -1/3 and 0");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/integration_methods.h"
 #include "coupling/integration/propagation/force_rule.h"
+#include "tests/support/methods.h"
 #include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
@@ -16,13 +17,7 @@ using namespace coupling;
 MethodOptions of(const std::string &method, int order = 2, ForceRule force = ForceRule::collocation,
                  double tolerance = 0.)
 {
-  MethodOptions options;
-  options.method = method;
-  options.order  = order;
-  options.set("force", force_rule_name(force));
-  options.tolerance = tolerance;
-  options.step      = 1e-3;
-  return options;
+  return controlled(tests::method(method, 1e-3, order, {{"force", force_rule_name(force)}}), tolerance);
 }
 
 using WorkCount = ::testing::TestWithParam<MethodOptions>;

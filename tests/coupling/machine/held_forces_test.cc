@@ -2,9 +2,9 @@
 
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/propagation/force_rule.h"
-#include "coupling/simulation/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/spring_damper.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -29,28 +29,14 @@ struct Way
   MethodOptions method;
 };
 
-MethodOptions fixed(const std::string &method, double step, int order = 2)
-{
-  MethodOptions options;
-  options.method = method;
-  options.order  = order;
-  options.step   = step;
-  return options;
-}
-
 MethodOptions propagated(ForceRule rule, double step)
 {
-  MethodOptions options = fixed("exact", step, 6);
-  options.set("force", force_rule_name(rule));
-  return options;
+  return method("exact", step, 6, {{"force", force_rule_name(rule)}});
 }
 
 MethodOptions controlled(const std::string &method, double tolerance)
 {
-  MethodOptions options = fixed(method, 0., method == "exact" ? 6 : 5);
-  options.tolerance     = tolerance;
-  options.step          = 0.05;
-  return options;
+  return tests::controlled(tests::method(method, 0.05, method == "exact" ? 6 : 5), tolerance);
 }
 
 std::string name_of(const ::testing::TestParamInfo<Way> &info)
@@ -111,9 +97,9 @@ TEST_P(FixedStepHolds, WithAForceOfTheOrderOfTheMethodAtEveryInstant)
   EXPECT_GT(order, 1.8) << error;
 }
 INSTANTIATE_TEST_SUITE_P(Methods, FixedStepHolds,
-                         ::testing::Values(Way{"bdf2", fixed("bdf", 2e-3)}, Way{"newmark", fixed("newmark", 2e-3)},
-                                           Way{"wilson", fixed("wilson", 2e-3)},
-                                           Way{"generalised_alpha", fixed("generalised-alpha", 2e-3)}),
+                         ::testing::Values(Way{"bdf2", method("bdf", 2e-3)}, Way{"newmark", method("newmark", 2e-3)},
+                                           Way{"wilson", method("wilson", 2e-3)},
+                                           Way{"generalised_alpha", method("generalised-alpha", 2e-3)}),
                          name_of);
 
 using CarriedStepHolds = ::testing::TestWithParam<Way>;
@@ -164,14 +150,9 @@ double first_way()
 
 RunResult run(Machine machine, const MethodOptions &method, double end)
 {
-  RunOptions options;
-  options.method      = method;
-  options.end         = end;
+  RunOptions options  = run_of(method, end);
   options.output_step = 1e-3;
-  InitialState initial;
-  initial.q = Vector::Zero(1);
-  initial.v = Vector::Constant(1, v_0);
-  return simulate(machine, initial, options,
+  return simulate(machine, start(0., v_0), options,
                   {machine.signal("x", "mass.displacement"), machine.signal("R", "friction.force")});
 }
 
@@ -194,7 +175,7 @@ TEST_P(BriefOverload, LetsGoWhatSticksAndIsNeverHeldByMore)
 INSTANTIATE_TEST_SUITE_P(Methods, BriefOverload,
                          ::testing::Values(Way{"bdf_controlled", controlled("bdf", 1e-10)},
                                            Way{"exact_controlled", controlled("exact", 1e-8)},
-                                           Way{"bdf2", fixed("bdf", 10e-3)}, Way{"newmark", fixed("newmark", 20e-3)},
+                                           Way{"bdf2", method("bdf", 10e-3)}, Way{"newmark", method("newmark", 20e-3)},
                                            Way{"exact", propagated(ForceRule::collocation, 60e-3)}),
                          name_of);
 
@@ -212,7 +193,7 @@ TEST(HeldForces, OfADamperAreKnownInTheShortestSteps)
                {{{free, 1.}, {held, -1.}}});
   model.attach("brake", dry(2. * d * v, 2. * d * v), {{{held, 1.}}});
   Machine     machine(std::move(model));
-  const auto  integrator = make_integrator(machine, fixed("bdf", h));
+  const auto  integrator = make_integrator(machine, method("bdf", h));
   EventDriver driver(machine, *integrator, EventOptions());
   driver.begin(0., Vector::Zero(2), v * Vector::Unit(2, 1));
   for (int i = 0; i < 5; ++i)

@@ -2,6 +2,7 @@
 #include "coupling/integration/integration_methods.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "tests/support/jointed_machines.h"
+#include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
 
@@ -16,22 +17,9 @@ namespace
 
 using coupling::MethodOptions;
 
-MethodOptions bdf(int order, double step)
-{
-  MethodOptions options;
-  options.method = "bdf";
-  options.order  = order;
-  options.step   = step;
-  return options;
-}
-
 MethodOptions alpha(double rho, double step)
 {
-  MethodOptions options;
-  options.method = "generalised-alpha";
-  options.set("rho_inf", rho);
-  options.step = step;
-  return options;
+  return method("generalised-alpha", step, 2, {{"rho_inf", rho}});
 }
 
 using Look = std::function<void(double t, const Machine &, const Eigen::VectorXd &q, const Eigen::VectorXd &v,

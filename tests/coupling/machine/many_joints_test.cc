@@ -5,6 +5,7 @@
 #include "mechanism/elements/dynamic_motor.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/jointed_machines.h"
+#include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
 
@@ -19,11 +20,9 @@ using coupling::JointSolver;
 using coupling::MethodOptions;
 using Vector = Eigen::VectorXd;
 
-MethodOptions method(const std::string &kind, double step, JointSolver solver)
+MethodOptions solved(const std::string &kind, double step, JointSolver solver)
 {
-  MethodOptions options;
-  options.method                = kind;
-  options.step                  = step;
+  MethodOptions options         = tests::method(kind, step);
   options.newton.joints         = solver;
   options.newton.share_of_error = 0.; // so that both solve to the same end
   return options;
@@ -65,8 +64,8 @@ double difference(const Vector &a, const Vector &b)
 /// squeezer of some grams, 1e-3 s for 1 kg), and what is left of Newton's tolerance of 1e-13.
 void expect_same(Machine machine, const Vector &v, const std::string &kind, double h, int steps)
 {
-  const auto dense  = motion_of(machine, v, method(kind, h, JointSolver::condensed), steps, steps / 10);
-  const auto sparse = motion_of(machine, v, method(kind, h, JointSolver::sparse), steps, steps / 10);
+  const auto dense  = motion_of(machine, v, solved(kind, h, JointSolver::condensed), steps, steps / 10);
+  const auto sparse = motion_of(machine, v, solved(kind, h, JointSolver::sparse), steps, steps / 10);
   ASSERT_EQ(dense.instants.size(), sparse.instants.size());
   for (std::size_t i = 0; i < dense.instants.size(); ++i)
   {
@@ -125,13 +124,13 @@ TEST(ManyJoints, VirtualCoordinatesStayApartFromAConsistentStart)
   for (const JointSolver solver : {JointSolver::condensed, JointSolver::sparse})
   {
     Machine    machine    = driven_bars(3);
-    const auto integrator = coupling::make_integrator(machine, method("bdf", 1e-3, solver));
+    const auto integrator = coupling::make_integrator(machine, solved("bdf", 1e-3, solver));
     integrator->begin(0., Vector::Zero(12), Vector::Zero(12));
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(integrator->local().lambda[2 * i + 1], 9.81 / 4., 1e-12);
   }
   Machine machine = driven_bars(1);
-  EXPECT_THROW(coupling::make_integrator(machine, method("generalised-alpha", 1e-3, JointSolver::automatic)),
+  EXPECT_THROW(coupling::make_integrator(machine, solved("generalised-alpha", 1e-3, JointSolver::automatic)),
                std::invalid_argument);
 }
 
@@ -167,8 +166,8 @@ TEST(ManyJoints, MeasuresThatStickAreHeld)
     const auto   p       = slider_crank_case("crank1");
     Machine      machine = slider_crank(p, 0.5);
     const Vector v       = slider_crank_velocity(p, 10.);
-    const auto   dense   = motion_of(machine, v, method(kind, 1e-3, JointSolver::condensed), 1000, 50);
-    const auto   sparse  = motion_of(machine, v, method(kind, 1e-3, JointSolver::sparse), 1000, 50);
+    const auto   dense   = motion_of(machine, v, solved(kind, 1e-3, JointSolver::condensed), 1000, 50);
+    const auto   sparse  = motion_of(machine, v, solved(kind, 1e-3, JointSolver::sparse), 1000, 50);
     ASSERT_EQ(machine.forces().held().size(), 1u) << "the crank should have come to rest";
     ASSERT_EQ(dense.instants.size(), sparse.instants.size());
     for (std::size_t i = 0; i < dense.instants.size(); ++i)
@@ -215,8 +214,8 @@ TEST(ManyJoints, FortyFourBarsMeetTheirReferenceWithOrderTwo)
   for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     const double h      = kind == "bdf" ? 1e-3 : 2e-3;
-    const auto   coarse = errors_of_forty(method(kind, h, JointSolver::automatic));
-    const auto   fine   = errors_of_forty(method(kind, h / 2., JointSolver::automatic));
+    const auto   coarse = errors_of_forty(solved(kind, h, JointSolver::automatic));
+    const auto   fine   = errors_of_forty(solved(kind, h / 2., JointSolver::automatic));
     // 0.15: the next term of the expansion at these steps
     EXPECT_NEAR(std::log2(coarse.q / fine.q), 2., 0.15) << fine.q;
     EXPECT_NEAR(std::log2(coarse.v / fine.v), 2., 0.15) << fine.v;
@@ -229,7 +228,7 @@ TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
   for (const std::string kind : {"bdf", "generalised-alpha"})
   {
     Machine    machine    = n_four_bar(20);
-    const auto integrator = coupling::make_integrator(machine, method(kind, 1e-3, JointSolver::automatic));
+    const auto integrator = coupling::make_integrator(machine, solved(kind, 1e-3, JointSolver::automatic));
     integrator->begin(0., Vector::Zero(machine.size()), swinging_four_bars(machine));
     for (int i = 0; i < 10; ++i)
       integrator->advance();
@@ -260,7 +259,7 @@ TEST(ManyJoints, DependentJointsAreNamed)
   revolute(model, "left", "ground", "bar", {0., 0.});
   revolute(model, "right", "ground", "bar", {1., 0.});
   Machine    machine(std::move(model));
-  const auto integrator = coupling::make_integrator(machine, method("bdf", 1e-3, JointSolver::sparse));
+  const auto integrator = coupling::make_integrator(machine, solved("bdf", 1e-3, JointSolver::sparse));
   expect_refusal<coupling::ConvergenceFailure>([&] { integrator->begin(0., Vector::Zero(3), Vector::Zero(3)); },
                                                "(fx)");
 }

@@ -4,6 +4,7 @@
 #include "coupling/integration/propagation/force_rule.h"
 #include "coupling/simulation/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -34,15 +35,8 @@ Machine rubbed(int n_elements, double weight)
 
 RunOptions options(const std::string &method, double step, ForceRule force = ForceRule::collocation)
 {
-  RunOptions run;
-  run.method.method = method;
-  run.method.set("force", force_rule_name(force));
-  run.method.step = step;
-  run.end         = 2.;
-  return run;
+  return run_of(tests::method(method, step, 2, {{"force", force_rule_name(force)}}), 2.);
 }
-
-const InitialState rest{0., Vector::Zero(1), Vector::Zero(1)};
 
 using Redundant = ::testing::TestWithParam<RunOptions>;
 
@@ -51,11 +45,11 @@ TEST_P(Redundant, StickingOfOneMotionIsNamed)
   for (const double weight : {1., 0.3, -1.})
   {
     Machine           machine = rubbed(2, weight);
-    const std::string failure = simulate(machine, rest, GetParam(), {}).failure;
+    const std::string failure = simulate(machine, start(0., 0.), GetParam(), {}).failure;
     EXPECT_NE(failure.find("hold the same motion, on mass"), std::string::npos) << weight << ": " << failure;
   }
   Machine one = rubbed(1, 1.);
-  EXPECT_EQ(simulate(one, rest, GetParam(), {}).failure, "");
+  EXPECT_EQ(simulate(one, start(0., 0.), GetParam(), {}).failure, "");
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Redundant,
                          ::testing::Values(options("bdf", 1e-3), options("newmark", 1e-3), options("exact", 1e-3),
@@ -71,14 +65,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, Redundant,
 
 TEST(Simulation, ThatGrowsBeyondAllNumbersStopsAndSaysSo)
 {
-  MachineModel model;
-  const int    x = model.add_slider("mass", {1., 0., 0.}, 1., "ground");
-  model.add_linear("spring", {{x, 1.}}, {100., 0., 0., 0.}, "N");
-  Machine    machine(std::move(model));
+  Machine    machine     = spring_and_mass(1., 100.);
   RunOptions run         = options("central-difference", 0.3); // omega h = 3
   run.end                = 500.;
   run.force_unstable     = true;
-  const RunResult result = simulate(machine, {0., Vector::Ones(1), Vector::Zero(1)}, run, {});
+  const RunResult result = simulate(machine, start(1., 0.), run, {});
   EXPECT_NE(result.failure.find("beyond all numbers"), std::string::npos) << result.failure;
 }
 
@@ -87,7 +78,7 @@ TEST(Simulation, AMassThatSticksCostsNoSearchForKinks)
   Machine    machine     = rubbed(1, 1.);
   RunOptions run         = options("exact", 1e-3, ForceRule::average);
   run.end                = 0.1; // 10 N sin(4 t) stays below 6 N
-  const RunResult result = simulate(machine, rest, run, {});
+  const RunResult result = simulate(machine, start(0., 0.), run, {});
   EXPECT_LT(result.work.evaluations, 10 * result.work.steps);
 }
 

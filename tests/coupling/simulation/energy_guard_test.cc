@@ -1,8 +1,8 @@
 // What the residual of the energy balance is measured against, and what it says of a run.
 
 #include "coupling/simulation/energy_guard.h"
-#include "coupling/simulation/simulation.h"
 #include "fem/values/two_pi.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -20,14 +20,8 @@ using Verdict = EnergyGuard::Verdict;
 /// A slider of 1 kg and 1 Hz, that starts with 1 m/s: 0.5 J.
 RunResult oscillation(double step, double end)
 {
-  MachineModel model;
-  const int    x = model.add_slider("m", {1., 0., 0.}, 1., "ground");
-  model.add_linear("spring", {{x, 1.}}, {two_pi * two_pi, 0., 0., 0.}, "N");
-  Machine    machine(std::move(model));
-  RunOptions run;
-  run.method.step = step;
-  run.end         = end;
-  return simulate(machine, {0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)}, run, {});
+  Machine machine = spring_and_mass(1., two_pi * two_pi);
+  return simulate(machine, start(0., 1.), run_of(bdf(2, step), end), {});
 }
 
 /// Share of the energy that numerical damping takes, docs/theory/integration.md (11): ratio (omega h)^4/4 per step.
@@ -68,13 +62,9 @@ TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
   model.set_gravity({0., 0., -9.81});
   const int z = model.add_slider("m", {0., 0., 1.}, 3., "ground");
   model.add_linear("spring", {{z, 1.}}, {700., 0., 0., 0.}, "N");
-  Machine    machine(std::move(model));
-  RunOptions run;
-  run.method.step     = 1e-3;
-  run.end             = 5.;
-  const double    sag = -3. * 9.81 / 700.; // rounded: not quite at rest
-  const RunResult result =
-      simulate(machine, {0., Eigen::VectorXd::Constant(1, sag), Eigen::VectorXd::Zero(1)}, run, {});
+  Machine         machine(std::move(model));
+  const double    sag    = -3. * 9.81 / 700.; // rounded: not quite at rest
+  const RunResult result = simulate(machine, start(sag, 0.), run_of(bdf(2, 1e-3), 5.), {});
   EXPECT_EQ(result.failure, "");
   EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
 }

@@ -3,8 +3,8 @@
 #include "coupling/simulation/checks/fast_forces.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/simulation/simulation.h"
 #include "mechanism/elements/table_force.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -129,14 +129,10 @@ Drop set_down(const coupling::ReducedFrame &frame, double rise)
   mechanism::TableForce::Parameters load;
   load.rows = {{0., 0.}, {1e-3, 0.}, {1e-3 + rise, 1e4}, {1., 1e4}};
   model.attach("load", std::make_shared<mechanism::TableForce>(load), {{{model.coordinate("frame.tip.ux"), 1.}}});
-  coupling::Machine      machine(std::move(model));
-  coupling::InitialState rest;
-  rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
-  coupling::RunOptions options;
-  options.method.step = 5e-6;
-  options.output_step = 5e-6;
-  options.end         = 1e-3 + rise + 0.012; // three periods
-  const auto run      = coupling::simulate(machine, rest, options, {machine.signal("x", "frame.tip.ux")});
+  coupling::Machine    machine(std::move(model));
+  coupling::RunOptions options = tests::run_of(tests::bdf(2, 5e-6), 1e-3 + rise + 0.012); // three periods
+  options.output_step          = 5e-6;
+  const auto run = coupling::simulate(machine, tests::at_rest(machine), options, {machine.signal("x", "frame.tip.ux")});
   Drop       drop;
   for (std::size_t i = 1; i < run.rows.size(); i += run.columns.size())
     drop.history.push_back(run.rows[i]);

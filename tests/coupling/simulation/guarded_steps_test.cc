@@ -6,6 +6,7 @@
 #include "coupling/simulation/checks/stability_guard.h"
 #include "mechanism/elements/spring_damper.h"
 #include "tests/support/linear_joint.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -102,11 +103,6 @@ MethodOptions random_method(Random &random, bool joints)
     o.method = "central-difference";
   }
   return o;
-}
-
-InitialState at_rest(const Machine &machine)
-{
-  return {0., Eigen::VectorXd::Zero(machine.size()), Eigen::VectorXd::Zero(machine.size())};
 }
 
 double size_of(const TimeIntegrator &integrator, double h)

@@ -4,6 +4,7 @@
 #include "coupling/integration/integration_methods.h"
 #include "coupling/machine/machine.h"
 #include "mechanism/elements/coulomb_friction.h"
+#include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 
@@ -89,19 +90,8 @@ std::vector<Event> run(SecondOrderSystem &system, const MethodOptions &method, c
 
 MethodOptions exact(double tolerance)
 {
-  MethodOptions method;
-  method.method           = "exact";
-  method.order            = 6;
-  method.step             = 0.02;
-  method.tolerance        = tolerance;
+  MethodOptions method    = tests::controlled(tests::method("exact", 0.02, 6), tolerance);
   method.newton.tolerance = 1e-13;
-  return method;
-}
-
-MethodOptions bdf2(double h)
-{
-  MethodOptions method;
-  method.step = h;
   return method;
 }
 
@@ -138,7 +128,7 @@ TEST_P(WallSpring, EventsOfBdf2ComeWithItsOrder)
   for (int k = 0; k < 2; ++k)
   {
     WallSystem system(wall);
-    const auto events = run(system, bdf2(std::ldexp(1e-4, -k)), Vector::Zero(1), Vector::Constant(1, wall.v0), end);
+    const auto events = run(system, bdf(2, std::ldexp(1e-4, -k)), Vector::Zero(1), Vector::Constant(1, wall.v0), end);
     error[k]          = largest_time_error(events, {expected[0], expected[1]});
   }
   EXPECT_GT(error[0] / error[1], 3.) << error[0] << " " << error[1]; // second order: 4
@@ -200,7 +190,7 @@ TEST_P(StickSlip, Bdf2FindsTheSameEvents)
   const Rubbing &r        = GetParam();
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
-  const auto     found = times(run(machine, bdf2(1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
+  const auto     found = times(run(machine, bdf(2, 1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-4 * r.end) << i; // the phase of BDF2 lags by (omega h)^2/3 = 3e-7
@@ -208,15 +198,13 @@ TEST_P(StickSlip, Bdf2FindsTheSameEvents)
 
 TEST_P(StickSlip, ControlledBdfFindsTheSameEvents)
 {
-  const Rubbing &r       = GetParam();
-  Machine        machine = rubbing_mass(r);
-  MethodOptions  method;
-  method.order        = 5;
-  method.tolerance    = 1e-9;
-  method.step         = 1e-2;
-  const auto expected = event_times("order/d_coulomb_events.csv", r.name);
+  const Rubbing &r        = GetParam();
+  Machine        machine  = rubbing_mass(r);
+  const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
   // A slip begins with u' = 0: an error of the tolerance there may stick and slip once more, nanoseconds later.
-  const auto found = times(run(machine, method, Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end), 1e-6);
+  const auto found = times(
+      run(machine, tests::controlled(bdf(5, 1e-2), 1e-9), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end),
+      1e-6);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-7) << i; // a hundred tolerances; measured 1e-8

@@ -1,7 +1,7 @@
 // A run takes no memory from step to step: what it needs is there before the first one.
 
-#include "coupling/simulation/simulation.h"
 #include "mechanism/elements/cubic_spring.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -38,12 +38,9 @@ long allocations_of_run(const MethodOptions &method, double end, bool energy)
   model.attach("buffer", std::make_shared<mechanism::CubicSpring>(mechanism::CubicSpring::Parameters{1e4, 1e9}),
                {{{y, 1.}}});
   model.add_load("shaker", {{y, 1.}}, 0., {{60., 100., 0.}}, "N");
-  Machine      machine(std::move(model));
-  InitialState rest;
-  rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
-  RunOptions options;
-  options.method                    = method;
-  options.end                       = end;
+  Machine            machine(std::move(model));
+  const InitialState rest           = tests::at_rest(machine);
+  RunOptions         options        = tests::run_of(method, end);
   options.energy                    = energy;
   const std::vector<Signal> signals = {machine.signal("x", "x.displacement"), machine.signal("F", "buffer.force")};
   const long                before  = allocations;
@@ -62,17 +59,10 @@ TEST_P(RunAllocation, DoesNotGrowWithTheNumberOfSteps)
     EXPECT_EQ(allocations_of_run(GetParam(), 0.2, energy), allocations_of_run(GetParam(), 0.4, energy));
 }
 
-MethodOptions fixed(const std::string &method)
-{
-  MethodOptions options;
-  options.method = method;
-  options.step   = 1e-4;
-  return options;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, RunAllocation,
-                         ::testing::Values(fixed("bdf"), fixed("newmark"), fixed("wilson"), fixed("generalised-alpha"),
-                                           fixed("exact")),
+                         ::testing::Values(tests::method("bdf", 1e-4), tests::method("newmark", 1e-4),
+                                           tests::method("wilson", 1e-4), tests::method("generalised-alpha", 1e-4),
+                                           tests::method("exact", 1e-4)),
                          [](const auto &information)
                          {
                            std::string name = information.param.method;

@@ -1,9 +1,9 @@
 // A motor runs up two rotors on an elastic shaft: the vibration that the start excites dies away while the angle grows
 // without end, so that the angle is no measure of what an error means.
 
-#include "coupling/simulation/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/kloss_motor.h"
+#include "tests/support/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -28,15 +28,9 @@ RunResult run_up(const std::string &method, int order, double tolerance)
   model.attach("drive",
                std::make_shared<mechanism::KlossMotor>(mechanism::KlossMotor::Parameters{40., 0.15, 50. * M_PI, 1.}),
                {{{motor, 1.}}});
-  Machine      machine(std::move(model));
-  InitialState rest;
-  rest.q = rest.v = Eigen::VectorXd::Zero(machine.size());
-  RunOptions options;
-  options.method.method    = method;
-  options.method.order     = order;
-  options.method.tolerance = tolerance;
-  options.end              = 60.;
-  return simulate(machine, rest, options, {machine.signal("T", "shaft.torque")});
+  Machine          machine(std::move(model));
+  const RunOptions options = run_of(controlled(tests::method(method, 0., order), tolerance), 60.);
+  return simulate(machine, at_rest(machine), options, {machine.signal("T", "shaft.torque")});
 }
 
 TEST(RunUp, OfAMotorTellsThePeakOfTheShaftByExactPropagationWithATolerance)
@@ -62,20 +56,15 @@ TEST(RunUp, EndsWithTheTorqueOfTheLoad)
 
 TEST(DryFriction, WithoutLocatedEventsIsWarnedOf)
 {
-  MachineModel model;
-  const int    x = model.add_slider("x", {1., 0., 0.}, 5., "ground");
-  model.add_linear("spring", {{x, 1.}}, {2000., 0., 0., 0.}, "N");
+  MachineModel  model;
+  const Measure x = slider(model, "x", 5.);
+  model.add_linear("spring", x, {2000., 0., 0., 0.}, "N");
   model.attach("floor", std::make_shared<mechanism::CoulombFriction>(mechanism::CoulombFriction::Parameters{10., 15.}),
-               {{{x, 1.}}});
-  Machine      machine(std::move(model));
-  InitialState start;
-  start.q = Eigen::VectorXd::Constant(1, 0.05);
-  start.v = Eigen::VectorXd::Zero(1);
-  RunOptions options;
-  options.method.step = 1e-3;
-  options.end         = 0.1;
+               {x});
+  Machine    machine(std::move(model));
+  RunOptions options  = run_of(bdf(2, 1e-3), 0.1);
   options.events      = false;
-  const RunResult run = simulate(machine, start, options, {machine.signal("x", "x.displacement")});
+  const RunResult run = simulate(machine, start(0.05, 0.), options, {machine.signal("x", "x.displacement")});
   ASSERT_FALSE(run.warnings.empty());
   EXPECT_NE(run.warnings[0].find("run.events = false, but the dry friction of \"floor\""), std::string::npos);
 }

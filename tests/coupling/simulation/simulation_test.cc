@@ -1,7 +1,7 @@
 // A run as a whole: its end, its events, what it refuses and what it warns of.
 
-#include "coupling/simulation/simulation.h"
 #include "mechanism/elements/clearance.h"
+#include "tests/support/methods.h"
 #include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
@@ -26,20 +26,11 @@ Machine in_play()
   return Machine(std::move(model));
 }
 
-InitialState flight(const Machine &machine)
-{
-  InitialState state;
-  state.q = Eigen::VectorXd::Zero(machine.size());
-  state.v = Eigen::VectorXd::Constant(machine.size(), speed);
-  return state;
-}
+const InitialState flight = tests::start(0., speed);
 
 RunOptions bdf2(double step, double end)
 {
-  RunOptions options;
-  options.method.step = step;
-  options.end         = end;
-  return options;
+  return tests::run_of(tests::bdf(2, step), end);
 }
 
 RunResult run(const RunOptions &options, std::vector<std::string> paths = {"x.displacement", "play.force"})
@@ -48,7 +39,7 @@ RunResult run(const RunOptions &options, std::vector<std::string> paths = {"x.di
   std::vector<Signal> signals;
   for (const std::string &path : paths)
     signals.push_back(machine.signal(path, path));
-  return simulate(machine, flight(machine), options, signals);
+  return simulate(machine, flight, options, signals);
 }
 
 const double contact_omega = std::sqrt(wall / mass), touch = gap / speed, half_period = M_PI / contact_omega;
@@ -177,12 +168,10 @@ TEST(Run, WarnsOfALoadAboveWhatTheReducedFrameHolds)
     MachineModel model;
     model.set_frame(frame);
     model.add_load("shaker", {{0, 1.}}, 0., {{2. * M_PI * frequency, 4., 0.}}, "N");
-    Machine      machine(std::move(model));
-    InitialState rest;
-    rest.q = rest.v        = Eigen::VectorXd::Zero(1);
+    Machine    machine(std::move(model));
     RunOptions options     = bdf2(1e-3, 0.01);
     options.energy         = false; // ten steps are no run
-    const RunResult result = simulate(machine, rest, options, {});
+    const RunResult result = simulate(machine, tests::start(0., 0.), options, {});
     EXPECT_EQ(result.warnings.size(), frequency > 30. ? 1u : 0u);
     if (frequency > 30.)
     {
@@ -193,16 +182,13 @@ TEST(Run, WarnsOfALoadAboveWhatTheReducedFrameHolds)
 
 TEST(Run, AnUnstableMethodIsRefusedUnlessForced)
 {
-  MachineModel model;
-  const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
-  model.add_linear("spring", {{x, 1.}}, {wall, 0., 0., 0.}, "N");
-  Machine    machine(std::move(model));
+  Machine    machine   = tests::spring_and_mass(mass, wall);
   RunOptions options   = bdf2(1e-2, 1.); // omega h = 0.8 lies in BDF 4's unstable interval
   options.method.order = 4;
-  tests::expect_refusal([&] { simulate(machine, flight(machine), options, {}); }, "unstable");
+  tests::expect_refusal([&] { simulate(machine, flight, options, {}); }, "unstable");
   options.force_unstable  = true;
   const auto      signal  = machine.signal("x", "x.displacement");
-  const RunResult result  = simulate(machine, flight(machine), options, {signal});
+  const RunResult result  = simulate(machine, flight, options, {signal});
   const double    largest = std::max(result.signals[0].max, -result.signals[0].min);
   EXPECT_GT(largest, 3. * speed / contact_omega); // it has grown: (1 + (omega h)^4/4)^100
   ASSERT_FALSE(result.warnings.empty());

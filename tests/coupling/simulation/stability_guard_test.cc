@@ -2,10 +2,10 @@
 
 #include "coupling/integration/stability/stability.h"
 #include "coupling/simulation/checks/stability_guard.h"
-#include "coupling/simulation/simulation.h"
 #include "fem/values/two_pi.h"
 #include "mechanism/elements/clearance.h"
 #include "tests/support/linear_joint.h"
+#include "tests/support/methods.h"
 #include "tests/support/refusal.h"
 
 #include <Eigen/Eigenvalues>
@@ -33,7 +33,7 @@ Machine sliders(const std::vector<Slider> &all, double contact_stiffness = 0.)
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     const std::string name  = "mass" + std::to_string(i);
-    const Measure     u     = {{model.add_slider(name, {1., 0., 0.}, m, "ground"), 1.}};
+    const Measure     u     = slider(model, name, m);
     const double      omega = two_pi * all[i].frequency;
     if (omega > 0.)
       model.add_linear("spring" + std::to_string(i), u,
@@ -47,27 +47,6 @@ Machine sliders(const std::vector<Slider> &all, double contact_stiffness = 0.)
     }
   }
   return Machine(std::move(model));
-}
-
-InitialState at_rest(const Machine &machine)
-{
-  return {0., Eigen::VectorXd::Zero(machine.size()), Eigen::VectorXd::Zero(machine.size())};
-}
-
-MethodOptions bdf(int order, double step)
-{
-  MethodOptions o;
-  o.order = order;
-  o.step  = step;
-  return o;
-}
-
-MethodOptions of(const std::string &method, double step)
-{
-  MethodOptions o;
-  o.method = method;
-  o.step   = step;
-  return o;
 }
 
 std::string refusal(const Machine &machine, const MethodOptions &options)
@@ -98,7 +77,7 @@ TEST(StabilityGuard, RefusesBdf3OnALightlyDampedModeAndNamesEverything)
 TEST(StabilityGuard, TheStepItOffersWorks)
 {
   const Machine machine = sliders({{40., 0.02}, {150., 0.01}, {700., 0.015}});
-  for (const MethodOptions &o : {bdf(3, 1e-3), bdf(4, 1e-3), bdf(6, 2e-3), of("central-difference", 1e-3)})
+  for (const MethodOptions &o : {bdf(3, 1e-3), bdf(4, 1e-3), bdf(6, 2e-3), method("central-difference", 1e-3)})
   {
     const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
     const double         step     = StabilityGuard(spectrum, o).largest_stable_step();
@@ -121,19 +100,15 @@ TEST(StabilityGuard, WhatIsStableIsNotRefused)
   {
     for (const int order : {1, 2})
       EXPECT_EQ(refusal(machine, bdf(order, step)), "");
-    for (const char *method : {"newmark", "wilson", "hht", "generalised-alpha", "exact"})
+    for (const char *kind : {"newmark", "wilson", "hht", "generalised-alpha", "exact"})
       for (const double rho : {0., 0.8, 1.})
       {
-        MethodOptions o = of(method, step);
-        o.set("rho_inf", rho);
-        o.set("alpha", -0.3 * (1. - rho));
+        const MethodOptions o = method(kind, step, 2, {{"rho_inf", rho}, {"alpha", -0.3 * (1. - rho)}});
         EXPECT_EQ(refusal(machine, o), "") << method_name(o) << ' ' << step;
       }
   }
-  EXPECT_EQ(refusal(machine, of("central-difference", 3e-7)), ""); // omega h = 1.885
-  MethodOptions controlled = bdf(5, 1e-3);
-  controlled.tolerance     = 1e-4; // its order is limited step by step
-  EXPECT_EQ(refusal(machine, controlled), "");
+  EXPECT_EQ(refusal(machine, method("central-difference", 3e-7)), ""); // omega h = 1.885
+  EXPECT_EQ(refusal(machine, controlled(bdf(5, 1e-3), 1e-4)), "");     // its order is limited step by step
 }
 
 TEST(StabilityGuard, EveryMethodThatFailsIsRefused)
@@ -143,13 +118,12 @@ TEST(StabilityGuard, EveryMethodThatFailsIsRefused)
   for (const int order : {3, 4, 5, 6})
     EXPECT_TRUE(says(refusal(machine, bdf(order, at(1.5))), "unstable")) << order;
 
-  MethodOptions wilson = of("wilson", at(10.));
+  MethodOptions wilson = method("wilson", at(10.));
   EXPECT_EQ(refusal(machine, wilson), "");
   wilson.set("theta", 1.3);
   EXPECT_TRUE(says(refusal(machine, wilson), "Wilson")) << refusal(machine, wilson);
 
-  MethodOptions newmark = of("newmark", at(3.5));
-  newmark.set("beta", 1. / 6.);
+  MethodOptions newmark = method("newmark", at(3.5), 2, {{"beta", 1. / 6.}});
   EXPECT_TRUE(says(refusal(machine, newmark), "omega h > 3.46"));
   newmark.step = at(3.4);
   EXPECT_EQ(refusal(machine, newmark), "");
@@ -159,8 +133,8 @@ TEST(StabilityGuard, EveryMethodThatFailsIsRefused)
   newmark.step = at(0.19);
   EXPECT_EQ(refusal(machine, newmark), "");
 
-  EXPECT_TRUE(says(refusal(machine, of("central-difference", at(2.001))), "omega h > 2"));
-  EXPECT_EQ(refusal(machine, of("central-difference", at(1.999))), "");
+  EXPECT_TRUE(says(refusal(machine, method("central-difference", at(2.001))), "omega h > 2"));
+  EXPECT_EQ(refusal(machine, method("central-difference", at(1.999))), "");
 }
 
 TEST(StabilityGuard, ClosedContactsCountToo)
@@ -168,13 +142,12 @@ TEST(StabilityGuard, ClosedContactsCountToo)
   // 2 kg with 100 Hz, and 1e8 N/m at the stop: 1127.9 Hz with the contact closed.
   const Machine machine = sliders({{100., 0.01}}, 1e8);
   const double  closed  = std::sqrt(std::pow(two_pi * 100., 2) + 5e7);
-  const auto    message = refusal(machine, of("central-difference", 2.01 / closed));
+  const auto    message = refusal(machine, method("central-difference", 2.01 / closed));
   EXPECT_TRUE(says(message, "mode 1 of the machine with closed contacts (1129.")) << message;
-  EXPECT_EQ(refusal(machine, of("central-difference", 1.99 / closed)), "");
+  EXPECT_EQ(refusal(machine, method("central-difference", 1.99 / closed)), "");
 
   // Exact propagation: a warning only, and only for a force that is not the mean one.  The contact alone counts.
-  MethodOptions exact = of("exact", 3.47 / std::sqrt(5e7));
-  exact.set("force", "linear");
+  MethodOptions        exact    = method("exact", 3.47 / std::sqrt(5e7), 2, {{"force", "linear"}});
   const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
   const auto           warnings = [&] { return StabilityGuard(spectrum, exact).warnings(); };
   EXPECT_EQ(refusal(machine, exact), "");
@@ -200,9 +173,7 @@ TEST(StabilityGuard, AccuracyOfEveryMode)
   EXPECT_EQ(modes[3].origin, ModeOrigin::closed);
 
   // Under exact propagation the open machine has no error at all, the closed one that of its contact.
-  MethodOptions exact = of("exact", 1e-4);
-  exact.set("force", "average");
-  const auto carried = StabilityGuard(spectrum, exact).modes();
+  const auto carried = StabilityGuard(spectrum, method("exact", 1e-4, 2, {{"force", "average"}})).modes();
   EXPECT_EQ(carried[0].period_error, 0.);
   EXPECT_EQ(carried[1].numerical_damping, 0.);
   EXPECT_NEAR(carried[2].period_error, 0., 1e-12); // 300 Hz takes no part in the contact
@@ -214,11 +185,10 @@ TEST(StabilityGuard, AccuracyOfEveryMode)
 /// A slider of 1 kg on a spring, geared to another one: their motions are alike but for the sign.
 Machine geared(double stiffness, double other_mass)
 {
-  MachineModel model;
-  const int    a = model.add_slider("a", {1., 0., 0.}, 1., "ground"),
-            b    = model.add_slider("b", {1., 0., 0.}, other_mass, "ground");
-  model.add_linear("spring", {{a, 1.}}, {stiffness, 0., 0., 0.}, "N");
-  model.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., 1.}), {{{a, 1.}}, {{b, 1.}}});
+  MachineModel  model;
+  const Measure a = slider(model, "a", 1.), b = slider(model, "b", other_mass);
+  model.add_linear("spring", a, {stiffness, 0., 0., 0.}, "N");
+  model.attach("gear", std::make_shared<LinearJoint>(std::vector<double>{1., 1.}), {a, b});
   return Machine(std::move(model));
 }
 
@@ -242,9 +212,7 @@ TEST(StabilityGuard, TakesTheModesThatIdealJointsLeave)
 TEST(StabilityGuard, NewmarkNeedsDampedJoints)
 {
   const Machine machine = geared(1e8, 99.);
-  MethodOptions newmark = of("newmark", 1e-5);
-  newmark.set("gamma", 0.7);
-  newmark.set("beta", 0.36);
+  MethodOptions newmark = method("newmark", 1e-5, 2, {{"gamma", 0.7}, {"beta", 0.36}});
   EXPECT_NO_THROW(make_integrator(machine, newmark));
   for (const double beta : {0.2, 0.35})
   {
@@ -258,13 +226,12 @@ TEST(StabilityGuard, NewmarkNeedsDampedJoints)
 /// Two sliders of 1 kg on springs of 100 Hz with another between them; the first one has a damper.
 Machine one_damped(double damping)
 {
-  MachineModel model;
-  const int    a = model.add_slider("a", {1., 0., 0.}, 1., "ground"),
-            b    = model.add_slider("b", {1., 0., 0.}, 1., "ground");
-  const double c = std::pow(two_pi * 100., 2);
-  model.add_linear("spring a", {{a, 1.}}, {c, damping, 0., 0.}, "N");
-  model.add_linear("spring b", {{b, 1.}}, {c, 0., 0., 0.}, "N");
-  model.add_linear("spring", {{a, 1.}, {b, -1.}}, {0.2 * c, 0., 0., 0.}, "N");
+  MachineModel  model;
+  const Measure a = slider(model, "a", 1.), b = slider(model, "b", 1.);
+  const double  c = std::pow(two_pi * 100., 2);
+  model.add_linear("spring a", a, {c, damping, 0., 0.}, "N");
+  model.add_linear("spring b", b, {c, 0., 0., 0.}, "N");
+  model.add_linear("spring", {a[0], {b[0].first, -1.}}, {0.2 * c, 0., 0., 0.}, "N");
   return Machine(std::move(model));
 }
 
@@ -275,18 +242,15 @@ TEST(StabilityGuard, ADamperDoesNotReachWhatItHoldsStill)
   const Machine machine = one_damped(1e6);
   const double  omega   = two_pi * 100. * std::sqrt(1.2);
 
-  MethodOptions wilson = of("wilson", 0.);
-  wilson.set("theta", 1.2);
-  const auto limit = unstable_intervals(wilson, 0.).at(0).from;
-  wilson.step      = 1.01 * limit / omega;
+  MethodOptions wilson = method("wilson", 0., 2, {{"theta", 1.2}});
+  const auto    limit  = unstable_intervals(wilson, 0.).at(0).from;
+  wilson.step          = 1.01 * limit / omega;
   EXPECT_TRUE(says(refusal(machine, wilson), "unstable"));
   wilson.step = 0.99 * limit / omega;
   EXPECT_EQ(refusal(machine, wilson), "");
 
-  MethodOptions newmark = of("newmark", 0.);
-  newmark.set("gamma", 0.45); // grows from omega h = 2 zeta / 0.05 on: with all of the damping at 250
-  newmark.step = 0.1 / omega;
-  EXPECT_TRUE(says(refusal(machine, newmark), "unstable"));
+  // Newmark's grows from omega h = 2 zeta / 0.05 on: with all of the damping at 250.
+  EXPECT_TRUE(says(refusal(machine, method("newmark", 0.1 / omega, 2, {{"gamma", 0.45}})), "unstable"));
   EXPECT_TRUE(says(refusal(machine, bdf(4, 1. / omega)), "unstable"));
 }
 
@@ -327,7 +291,7 @@ TEST(DampedModes, AreThoseOfTheWholeStateMatrix)
 Machine ball_and_stop(double stiffness)
 {
   MachineModel                     model;
-  const Measure                    u = {{model.add_slider("ball", {1., 0., 0.}, 1., "ground"), 1.}};
+  const Measure                    u = slider(model, "ball", 1.);
   mechanism::Clearance::Parameters stop;
   stop.gap       = 0.1;
   stop.stiffness = stiffness;
@@ -337,28 +301,18 @@ Machine ball_and_stop(double stiffness)
   return Machine(std::move(model));
 }
 
-RunResult thrown(const MethodOptions &method, bool forced = false)
+RunResult thrown(const MethodOptions &method)
 {
-  Machine    machine = ball_and_stop(1e10);
-  RunOptions run;
-  run.method         = method;
-  run.end            = 0.04;
-  run.force_unstable = forced;
-  return simulate(machine, {0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 10.)}, run,
-                  {machine.signal("v", "ball.velocity")});
+  Machine machine = ball_and_stop(1e10);
+  return simulate(machine, start(0., 10.), run_of(method, 0.04), {machine.signal("v", "ball.velocity")});
 }
 
 TEST(StiffnessCheck, EndsARunInAContactThatBecomesTooStiffForItsStep)
 {
-  const auto                 rebound = [](const RunResult &run) { return std::abs(run.signals.at(0).final); };
-  std::vector<MethodOptions> methods(3, of("central-difference", 1e-4));
-  methods[1].method = "newmark";
-  methods[1].set("beta", 0.1);
-  methods[2].method = "wilson";
-  methods[2].set("theta", 1.2);
-  for (MethodOptions method : methods)
+  const auto rebound = [](const RunResult &run) { return std::abs(run.signals.at(0).final); };
+  for (MethodOptions method : {method("central-difference", 1e-3), method("newmark", 1e-3, 2, {{"beta", 0.1}}),
+                               method("wilson", 1e-3, 2, {{"theta", 1.2}})})
   {
-    method.step           = 1e-3;
     const RunResult ended = thrown(method);
     EXPECT_TRUE(says(ended.failure, "\"stop\"")) << method_name(method) << ended.failure;
     const auto at = ended.failure.find("take run.step = ");
@@ -368,8 +322,7 @@ TEST(StiffnessCheck, EndsARunInAContactThatBecomesTooStiffForItsStep)
     EXPECT_EQ(taken.failure, "") << method_name(method);
     EXPECT_LT(rebound(taken), 10.5) << method_name(method); // it came with 10 m/s
   }
-  MethodOptions always = of("newmark", 1e-3);
-  EXPECT_EQ(thrown(always).failure, ""); // average acceleration stands any stiffness
+  EXPECT_EQ(thrown(method("newmark", 1e-3)).failure, ""); // average acceleration stands any stiffness
 }
 
 TEST(StabilityGuard, DampersThatJoinModesAreSeenByBdf)
@@ -377,13 +330,11 @@ TEST(StabilityGuard, DampersThatJoinModesAreSeenByBdf)
   // Two equal masses, springs to the ground, a damper between them: v^T B v gives both modes of the degenerate pair
   // some damping if they are mixed, but the common motion has none.  BDF 3 must see it.
   MachineModel  model;
-  const Measure a = {{model.add_slider("a", {1., 0., 0.}, 1., "ground"), 1.}},
-                b = {{model.add_slider("b", {1., 0., 0.}, 1., "ground"), 1.}};
+  const Measure a = slider(model, "a", 1.), b = slider(model, "b", 1.);
   model.add_linear("spring a", a, {1e6, 0., 0., 0.}, "N");
   model.add_linear("spring b", b, {1e6, 0., 0., 0.}, "N");
-  model.add_linear("damper", {{a[0].first, 1.}, {b[0].first, -1.}}, {0., 400., 0., 0.}, "N"); // ratio 0.4
-  Machine machine(std::move(model));
-  EXPECT_TRUE(says(refusal(machine, bdf(3, 1e-3)), "unstable"));
+  model.add_linear("damper", {a[0], {b[0].first, -1.}}, {0., 400., 0., 0.}, "N"); // ratio 0.4
+  EXPECT_TRUE(says(refusal(Machine(std::move(model)), bdf(3, 1e-3)), "unstable"));
 }
 
 } // namespace
