@@ -18,6 +18,7 @@
 #include "mechanism/elements/speed_drive.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/support/element_probe.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -307,31 +308,19 @@ TEST(CuttingForce, PeaksAtItsPeakPenetrationAndLetsGoOutwards)
 
 TEST(Parameters, OutOfRangeAreRefusedByName)
 {
-  const auto refused = [](auto make, const std::string &word)
-  {
-    try
-    {
-      make();
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return std::string(error.what()).find(word) != std::string::npos;
-    }
-    return false;
-  };
-  EXPECT_TRUE(refused([] { Clearance({-1e-5, 1e9, 0.}); }, "gap"));
-  EXPECT_TRUE(refused([] { Clearance({1e-5, 0., 0.}); }, "stiffness"));
-  EXPECT_TRUE(refused([] { Clearance({1e-5, 1e9, -1.}); }, "dissipation"));
-  EXPECT_TRUE(refused([] { KlossMotor({0., 0.15, 157., 49.}); }, "breakdown_torque"));
-  EXPECT_TRUE(refused([] { KlossMotor({240., 0., 157., 49.}); }, "breakdown_slip"));
-  EXPECT_TRUE(refused([] { KlossMotor({240., 0.15, 0., 49.}); }, "synchronous_speed"));
-  EXPECT_TRUE(refused([] { KlossMotor({240., 0.15, 157., 0.}); }, "ratio"));
-  EXPECT_TRUE(refused([] { RegularisedFriction({-1., 1e-3}); }, "force"));
-  EXPECT_TRUE(refused([] { RegularisedFriction({1., 0.}); }, "speed"));
-  EXPECT_TRUE(refused([] { CubicSpring({std::nan(""), 0.}); }, "stiffness"));
-  EXPECT_TRUE(refused([] { CuttingForce({-1., 1e-3, 0., 0.01}); }, "peak_force"));
-  EXPECT_TRUE(refused([] { CuttingForce({1., 0., 0., 0.01}); }, "peak_penetration"));
-  EXPECT_TRUE(refused([] { CuttingForce({1., 1e-3, 0., 0.}); }, "speed"));
+  expect_refusal([] { Clearance({-1e-5, 1e9, 0.}); }, "gap");
+  expect_refusal([] { Clearance({1e-5, 0., 0.}); }, "stiffness");
+  expect_refusal([] { Clearance({1e-5, 1e9, -1.}); }, "dissipation");
+  expect_refusal([] { KlossMotor({0., 0.15, 157., 49.}); }, "breakdown_torque");
+  expect_refusal([] { KlossMotor({240., 0., 157., 49.}); }, "breakdown_slip");
+  expect_refusal([] { KlossMotor({240., 0.15, 0., 49.}); }, "synchronous_speed");
+  expect_refusal([] { KlossMotor({240., 0.15, 157., 0.}); }, "ratio");
+  expect_refusal([] { RegularisedFriction({-1., 1e-3}); }, "force");
+  expect_refusal([] { RegularisedFriction({1., 0.}); }, "speed");
+  expect_refusal([] { CubicSpring({std::nan(""), 0.}); }, "stiffness");
+  expect_refusal([] { CuttingForce({-1., 1e-3, 0., 0.01}); }, "peak_force");
+  expect_refusal([] { CuttingForce({1., 0., 0., 0.01}); }, "peak_penetration");
+  expect_refusal([] { CuttingForce({1., 1e-3, 0., 0.}); }, "speed");
 }
 
 } // namespace

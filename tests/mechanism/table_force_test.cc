@@ -1,5 +1,6 @@
 #include "mechanism/elements/table_force.h"
 #include "tests/support/element_probe.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -126,24 +127,15 @@ TEST(TableForce, HasNoEventsWhereItHasNoCorners)
 
 TEST(TableForce, RefusesARowByItsNumber)
 {
-  const auto refused = [](const std::vector<TableForce::Row> &rows, const std::string &words)
-  {
-    try
-    {
-      TableForce({Against::time, rows});
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return std::string(error.what()).find(words) != std::string::npos;
-    }
-    return false;
+  const auto refused = [](const std::vector<TableForce::Row> &rows, const std::string &words) {
+    expect_refusal([&] { TableForce({Against::time, rows}); }, words);
   };
-  EXPECT_TRUE(refused({{0., 1.}}, "number of rows = 1"));
-  EXPECT_TRUE(refused({{0., 1.}, {2., 1.}, {1., 1.}}, "row 3, abscissa = 1, but it must be 2 of the row before"));
-  EXPECT_TRUE(refused({{0., 1.}, {0., 2.}, {0., 3.}}, "row 3, abscissa = 0"));
-  EXPECT_TRUE(refused({{0., 1.}, {std::nan(""), 2.}}, "row 2, abscissa"));
-  EXPECT_TRUE(refused({{0., 1.}, {1., HUGE_VAL}}, "row 2, force"));
-  EXPECT_TRUE(refused({{0., 0.}, {1e-320, 1e10}}, "further from the row before"));
+  refused({{0., 1.}}, "number of rows = 1");
+  refused({{0., 1.}, {2., 1.}, {1., 1.}}, "row 3, abscissa = 1, but it must be 2 of the row before");
+  refused({{0., 1.}, {0., 2.}, {0., 3.}}, "row 3, abscissa = 0");
+  refused({{0., 1.}, {std::nan(""), 2.}}, "row 2, abscissa");
+  refused({{0., 1.}, {1., HUGE_VAL}}, "row 2, force");
+  refused({{0., 0.}, {1e-320, 1e10}}, "further from the row before");
 }
 
 } // namespace

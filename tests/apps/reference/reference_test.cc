@@ -166,17 +166,9 @@ std::string read(const std::string &text, Asked &asked)
 {
   const SceneFolder folder;
   folder.write("frame.step", "no geometry");
-  const std::string file = folder.write("scene.toml", text);
-  const SceneNode   root = read_scene_file(file, {});
-  std::string       error;
-  try
-  {
-    read_scene(root, file, gestell::fem::Scripts::harmless);
-  }
-  catch (const std::invalid_argument &e)
-  {
-    error = e.what();
-  }
+  const std::string file  = folder.write("scene.toml", text);
+  const SceneNode   root  = read_scene_file(file, {});
+  const std::string error = gestell::tests::refusal([&] { read_scene(root, file, gestell::fem::Scripts::harmless); });
   asked.take(root);
   return error;
 }

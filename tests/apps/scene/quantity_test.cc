@@ -1,6 +1,7 @@
 // Values of scenes: "40 mm", "2*crank_radius - 8 mm", "600 kN s/m".
 
 #include "apps/scene/language/parse_quantity.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -34,28 +35,17 @@ Quantity read(const std::string &text)
 
 std::string complaint(const std::string &text)
 {
-  try
-  {
-    read(text);
-  }
-  catch (const std::invalid_argument &e)
-  {
-    return e.what();
-  }
-  return "no error";
+  return gestell::tests::refusal([&] { read(text); });
 }
 
 std::string complaint(const std::string &text, const Kind &kind)
 {
-  try
-  {
-    value_as(read(text), kind, text);
-  }
-  catch (const std::invalid_argument &e)
-  {
-    return e.what();
-  }
-  return "no error";
+  return gestell::tests::refusal([&] { value_as(read(text), kind, text); });
+}
+
+void expect_words(const std::string &said, const std::string &words)
+{
+  EXPECT_THAT(said, ::testing::HasSubstr(words));
 }
 
 struct Reading
@@ -132,18 +122,18 @@ TEST(Quantity, ParametersComeBeforeUnitsWhereAnOperandIsExpected)
 
 TEST(Quantity, WhatReadsInTwoWaysIsRefused)
 {
-  EXPECT_NE(complaint("10 N/m s").find("two ways"), std::string::npos);
-  EXPECT_NE(complaint("1/2 mm").find("two ways"), std::string::npos);
-  EXPECT_NE(complaint("3 g").find("a unit and a parameter"), std::string::npos);
-  EXPECT_NE(complaint("30 km/h").find("a unit and a parameter"), std::string::npos);
+  expect_words(complaint("10 N/m s"), "two ways");
+  expect_words(complaint("1/2 mm"), "two ways");
+  expect_words(complaint("3 g"), "a unit and a parameter");
+  expect_words(complaint("30 km/h"), "a unit and a parameter");
 }
 
 TEST(Quantity, AddsLikeToLikeOnly)
 {
-  EXPECT_NE(complaint("2 mm + 3 kg").find("adds kg to m"), std::string::npos);
-  EXPECT_NE(complaint("crank_radius - 8").find("subtracts a plain number from m"), std::string::npos);
-  EXPECT_NE(complaint("sin(3 mm)").find("sin()"), std::string::npos);
-  EXPECT_NE(complaint("2^(3 mm)").find("exponent"), std::string::npos);
+  expect_words(complaint("2 mm + 3 kg"), "adds kg to m");
+  expect_words(complaint("crank_radius - 8"), "subtracts a plain number from m");
+  expect_words(complaint("sin(3 mm)"), "sin()");
+  expect_words(complaint("2^(3 mm)"), "exponent");
 }
 
 TEST(Quantity, PlainParametersTakeTheDimensionOfTheirPlace)
@@ -151,50 +141,49 @@ TEST(Quantity, PlainParametersTakeTheDimensionOfTheirPlace)
   EXPECT_NO_THROW(read("plain + 8 mm"));
   EXPECT_DOUBLE_EQ(value_as(read("2*plain"), kind::mass, ""), 6.);
   EXPECT_DOUBLE_EQ(value_as(read("plain + 1 m"), kind::length, ""), 4.);
-  EXPECT_NE(complaint("plain + 1 m", kind::mass), "no error"); // a length now, whatever `plain` is
+  EXPECT_NE(complaint("plain + 1 m", kind::mass), ""); // a length now, whatever `plain` is
 }
 
 TEST(Quantity, NonsenseIsRefusedWithTheReason)
 {
-  const std::vector<std::pair<std::string, std::string>> cases = {{"", "empty"},
-                                                                  {"   ", "empty"},
-                                                                  {"mm 3", "operator"},
-                                                                  {"3 mmm", "did you mean 'mm'"},
-                                                                  {"3 kG", "unknown unit"},
-                                                                  {"2 +", "ends where"},
-                                                                  {"(2", "closing"},
-                                                                  {"2)", "operator"},
-                                                                  {"2 3", "operator"},
-                                                                  {"3 mm mm^", "exponent"},
-                                                                  {"crank_radus", "parameter"},
-                                                                  {"foo(3)", "unknown function"},
-                                                                  {"max(1)", "arguments"},
-                                                                  {"1/0", "zero"},
-                                                                  {"sqrt(-1)", "negative"},
-                                                                  {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
-                                                                  {"2 $ 3", "'$'"},
-                                                                  {"1e999", "range"},
-                                                                  {"10^400", "finite"},
-                                                                  {"log(0)", "finite"},
-                                                                  {"3 m^1.5", "whole number"},
-                                                                  {"20 degC", "unknown unit"}};
-  for (const auto &[text, reason] : cases)
+  for (const auto &[text, reason] :
+       std::map<std::string, std::string>{{"", "empty"},
+                                          {"   ", "empty"},
+                                          {"mm 3", "operator"},
+                                          {"3 mmm", "did you mean 'mm'"},
+                                          {"3 kG", "unknown unit"},
+                                          {"2 +", "ends where"},
+                                          {"(2", "closing"},
+                                          {"2)", "operator"},
+                                          {"2 3", "operator"},
+                                          {"3 mm mm^", "exponent"},
+                                          {"crank_radus", "parameter"},
+                                          {"foo(3)", "unknown function"},
+                                          {"max(1)", "arguments"},
+                                          {"1/0", "zero"},
+                                          {"sqrt(-1)", "negative"},
+                                          {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
+                                          {"2 $ 3", "'$'"},
+                                          {"1e999", "range"},
+                                          {"10^400", "finite"},
+                                          {"log(0)", "finite"},
+                                          {"3 m^1.5", "whole number"},
+                                          {"20 degC", "unknown unit"}})
     EXPECT_NE(complaint(text).find(reason), std::string::npos) << "\"" << text << "\": " << complaint(text);
 }
 
 TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
 {
-  EXPECT_NE(complaint("2*crank_radius + 3 kg").find("adds kg to m; both must be of one kind (character 16)"),
-            std::string::npos);
-  EXPECT_NE(complaint("3 µm + parsec").find("(character 8)"), std::string::npos); // of UTF-8, not bytes
-  EXPECT_NE(complaint("(2").find("(character 3)"), std::string::npos);
-  EXPECT_NE(complaint("sqrt(4) mm").find("lacks an operator (* / + -) before 'mm' (character 9)"), std::string::npos);
-  EXPECT_NE(complaint("2 $ 3").find("(character 3)"), std::string::npos);
+  expect_words(complaint("2*crank_radius + 3 kg"), "adds kg to m; both must be of one kind (character 16)");
+  expect_words(complaint("3 µm + parsec"), "(character 8)"); // of UTF-8, not bytes
+  expect_words(complaint("(2"), "(character 3)");
+  expect_words(complaint("sqrt(4) mm"), "lacks an operator (* / + -) before 'mm' (character 9)");
+  expect_words(complaint("2 $ 3"), "(character 3)");
 }
 
 TEST(Quantity, DeepNestingIsRefusedInsteadOfOverflowingTheStack)
 {
-  EXPECT_NE(complaint(std::string(100000, '(')).find("longer than"), std::string::npos);
+  expect_words(complaint(std::string(100000, '(')), "longer than");
 }
 
 TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
@@ -203,18 +192,18 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
   EXPECT_EQ(
       complaint("3", kind::length),
       "needs a length such as \"40 mm\", got \"3\" without a unit; a plain number in SI units stands without quotes");
-  EXPECT_EQ(complaint("0", kind::length), "no error"); // zero of anything is zero
-  EXPECT_NE(complaint("3 mm", kind::angular_speed).find("an angular speed"), std::string::npos);
+  EXPECT_EQ(complaint("0", kind::length), ""); // zero of anything is zero
+  expect_words(complaint("3 mm", kind::angular_speed), "an angular speed");
 }
 
 TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
 {
-  EXPECT_NE(complaint("5 Hz", kind::angular_speed).find("turns"), std::string::npos);
-  EXPECT_NE(complaint("30 rad/s", kind::frequency).find("radians"), std::string::npos);
-  EXPECT_NE(complaint("3 N m/Hz", kind::torsional_damping).find("turns"), std::string::npos);
-  EXPECT_EQ(complaint("30 rad/s", kind::angular_speed), "no error");
-  EXPECT_EQ(complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "no error");
-  EXPECT_EQ(complaint("50 Hz", kind::frequency), "no error");
+  expect_words(complaint("5 Hz", kind::angular_speed), "turns");
+  expect_words(complaint("30 rad/s", kind::frequency), "radians");
+  expect_words(complaint("3 N m/Hz", kind::torsional_damping), "turns");
+  EXPECT_EQ(complaint("30 rad/s", kind::angular_speed), "");
+  EXPECT_EQ(complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "");
+  EXPECT_EQ(complaint("50 Hz", kind::frequency), "");
 }
 
 using TurnsPerMinute = ::testing::TestWithParam<std::string>;
@@ -224,7 +213,7 @@ TEST_P(TurnsPerMinute, AreTheSameTurnsOfAShaftInEverySpelling)
   const std::string text = GetParam();
   EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 50. * pi, 1e-13 * 50. * pi);
   EXPECT_NEAR(value_as(read(text), kind::frequency, text), 25., 1e-13 * 25.);
-  EXPECT_NE(complaint(text, kind::number), "no error");
+  EXPECT_NE(complaint(text, kind::number), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Spellings, TurnsPerMinute,
@@ -242,17 +231,17 @@ TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
        {"1500/min*crank_radius", "crank_radius*1500 rpm", "3 N m/(1500/min)", "3 N m/rpm", "2*pi*(1500/min)",
         "(2*pi*1500) 1/min", "1/(1500/min)", "(1500/min)^2", "sqrt(9 1/min)", "exp(1500/min * 1 s)", "3/min + 2 Hz",
         "3/min + 2 1/s", "sin((2 s)*1500/min)", "(3 rpm)*(2 rpm)", "2 rad * 3 rpm"})
-    EXPECT_NE(complaint(text), "no error") << text;
+    EXPECT_NE(complaint(text), "") << text;
   for (const std::string text : {"2*pi*1500/min", "pi/30*1500/min", "1500/(2 min)", "2 s * 1500/(1 s min)"})
     EXPECT_NE(complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
-  EXPECT_NE(complaint("(3 s)*1500/min", kind::angle).find("may count turns"), std::string::npos);
-  EXPECT_NE(complaint("3 N m/min^-1", kind::torsional_damping).find("may count turns"), std::string::npos);
-  EXPECT_EQ(complaint("100 mm/min", kind::speed), "no error");
-  EXPECT_EQ(complaint("2 rad/min", kind::angular_speed), "no error");
-  EXPECT_EQ(complaint("1500/(2 min)", kind::frequency), "no error"); // turns or not
-  EXPECT_EQ(complaint("(3 min)/(2 min)", kind::number), "no error");
-  EXPECT_EQ(complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "no error");
-  EXPECT_NE(complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "no error");
+  expect_words(complaint("(3 s)*1500/min", kind::angle), "may count turns");
+  expect_words(complaint("3 N m/min^-1", kind::torsional_damping), "may count turns");
+  EXPECT_EQ(complaint("100 mm/min", kind::speed), "");
+  EXPECT_EQ(complaint("2 rad/min", kind::angular_speed), "");
+  EXPECT_EQ(complaint("1500/(2 min)", kind::frequency), ""); // turns or not
+  EXPECT_EQ(complaint("(3 min)/(2 min)", kind::number), "");
+  EXPECT_EQ(complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "");
+  EXPECT_NE(complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "");
 }
 
 TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
@@ -261,7 +250,7 @@ TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
   EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);
   EXPECT_NEAR(read("sin(15 rpm * 1 s)").value, 1., 1e-14); // a quarter of a turn
   EXPECT_NEAR(value_as(read("30 rpm + 1 rad/s"), kind::angular_speed, ""), pi + 1., 1e-14);
-  EXPECT_NE(complaint("30 rpm + 1 rad/s", kind::frequency).find("radians"), std::string::npos);
+  expect_words(complaint("30 rpm + 1 rad/s", kind::frequency), "radians");
   EXPECT_NEAR(value_as(read("30 1/min * 2 s"), kind::angle, ""), 2. * pi, 1e-14);
 }
 
@@ -273,44 +262,28 @@ TEST(Quantity, SignsOfATypesetTextMeanWhatTheyShow)
   EXPECT_DOUBLE_EQ(read("−3 mm").value, -3e-3);
   EXPECT_DOUBLE_EQ(read("2*π").value, 2. * pi);
   EXPECT_DOUBLE_EQ(read("3\u00a0mm").value, 3e-3); // a space that does not break
-  EXPECT_NE(complaint("3 mm⁻").find("raised sign"), std::string::npos);
-  EXPECT_NE(complaint("3 Ω").find("'Ω', which has no meaning"), std::string::npos); // the whole character
+  expect_words(complaint("3 mm⁻"), "raised sign");
+  expect_words(complaint("3 Ω"), "'Ω', which has no meaning"); // the whole character
 }
 
 TEST(Quantity, ADecimalCommaIsNamed)
 {
-  EXPECT_NE(complaint("1,5 mm").find("has a decimal comma; write 1.5 (character 2)"), std::string::npos);
-  EXPECT_NE(complaint("2*(1,5 mm)").find("decimal comma"), std::string::npos);
+  expect_words(complaint("1,5 mm"), "has a decimal comma; write 1.5 (character 2)");
+  expect_words(complaint("2*(1,5 mm)"), "decimal comma");
   EXPECT_DOUBLE_EQ(read("max(1,5)").value, 5.); // two arguments
 }
 
 TEST(Quantity, AProposedUnitMakesSenseInItsPlace)
 {
-  const auto proposed = [](const std::string &text, const Kind &kind)
-  {
-    try
-    {
-      parse_quantity(text, parameter, {}, &kind);
-    }
-    catch (const std::invalid_argument &e)
-    {
-      const std::string message = e.what(), before = "did you mean '";
-      const auto        begin = message.find(before);
-      return begin == std::string::npos
-                 ? message
-                 : message.substr(begin + before.size(),
-                                  message.find('\'', begin + before.size()) - begin - before.size());
-    }
-    return std::string("no error");
-  };
-  EXPECT_EQ(proposed("3 KJ", kind::torque), "kJ");
-  EXPECT_EQ(proposed("3 Mn", kind::force), "MN");
-  EXPECT_NE(proposed("3 Mn", kind::length), "MN"); // the nearest, but no length
-  EXPECT_EQ(proposed("3 N/mm2", kind::pressure), "mm^2");
-  EXPECT_EQ(proposed("3 Nmm", kind::torque), "N mm");
-  EXPECT_NE(proposed("3 parsec", kind::length).find("unknown unit 'parsec'; a length is given as \"40 mm\""),
-            std::string::npos);
-  EXPECT_NE(proposed("3 RPM", kind::angular_speed).find("rpm"), std::string::npos);
+  const auto said = [](const std::string &text, const Kind &kind)
+  { return gestell::tests::refusal([&] { parse_quantity(text, parameter, {}, &kind); }); };
+  expect_words(said("3 KJ", kind::torque), "did you mean 'kJ'");
+  expect_words(said("3 Mn", kind::force), "did you mean 'MN'");
+  EXPECT_EQ(said("3 Mn", kind::length).find("'MN'"), std::string::npos); // the nearest, but no length
+  expect_words(said("3 N/mm2", kind::pressure), "did you mean 'mm^2'");
+  expect_words(said("3 Nmm", kind::torque), "did you mean 'N mm'");
+  expect_words(said("3 parsec", kind::length), "unknown unit 'parsec'; a length is given as \"40 mm\"");
+  expect_words(said("3 RPM", kind::angular_speed), "rpm");
 }
 
 TEST(Quantity, UnitsOfTheWorkshopAreThoseOfTheirStandards)
@@ -321,15 +294,15 @@ TEST(Quantity, UnitsOfTheWorkshopAreThoseOfTheirStandards)
   EXPECT_NEAR(read("3 lbf").value, 13.3446648458, 1e-9);
   EXPECT_NEAR(read("3 psi").value, 20684.27188, 1e-5);
   EXPECT_NEAR(read("3 PS").value, 2206.49625, 1e-9);
-  EXPECT_NE(complaint("3 lb", kind::force), "no error"); // a mass
+  EXPECT_NE(complaint("3 lb", kind::force), ""); // a mass
 }
 
 TEST(Quantity, MatrixEntriesMayCarryPowersOfAMetreForRotations)
 {
-  EXPECT_EQ(complaint("250 kg m^2", kind::mass_entry), "no error");
-  EXPECT_EQ(complaint("250 kg", kind::mass_entry), "no error");
-  EXPECT_NE(complaint("250 kg m^3", kind::mass_entry), "no error");
-  EXPECT_NE(complaint("250 N/m", kind::mass_entry), "no error");
+  EXPECT_EQ(complaint("250 kg m^2", kind::mass_entry), "");
+  EXPECT_EQ(complaint("250 kg", kind::mass_entry), "");
+  EXPECT_NE(complaint("250 kg m^3", kind::mass_entry), "");
+  EXPECT_NE(complaint("250 N/m", kind::mass_entry), "");
 }
 
 TEST(Quantity, DimensionsAreDescribedAsEngineersWriteThem)

@@ -14,10 +14,16 @@ namespace
 using Switches = ::testing::TestWithParam<Settings>;
 INSTANTIATE_TEST_SUITE_P(Methods, Switches, ::testing::Values(fixed, controlled));
 
-/// Keys of a switch [switch.NAME].
-std::string switched(const std::string &name, const std::string &keys)
+/// switched("end", "t above 0.3 s", "push off"): a switch, what throws it and what it tells.
+std::string switched(const std::string &name, const std::string &when, const std::string &order, const Keys &more = {})
 {
-  return "[switch." + name + "]\n" + keys;
+  const std::size_t relation = when.find(' '), level = when.find(' ', relation + 1), obeys = order.find(' ');
+  return table("switch." + name,
+               {{"when", when.substr(0, relation)},
+                {when.substr(relation + 1, level - relation - 1), when.substr(level + 1)},
+                {"tell", order.substr(0, obeys)},
+                {"order", order.substr(obeys + 1)}},
+               more);
 }
 
 const std::string push   = "[element.push]\ntype = \"force\"\nfrom = \"slide\"\nconstant = \"10 N\"\n";
@@ -27,9 +33,8 @@ const std::string spring = "[element.spring]\ntype = \"spring-damper\"\nfrom = \
 
 TEST_P(Switches, TakeAForceAwayAtATime)
 {
-  const auto motion = run(slider(2., "1 s") + "F = \"push.force\"\n" + push +
-                              switched("end", "when = \"t\"\nabove = \"0.3 s\"\ntell = \"push\"\norder = \"off\"\n"),
-                          GetParam());
+  const auto motion =
+      run(slider(2., "1 s") + "F = \"push.force\"\n" + push + switched("end", "t above 0.3 s", "push off"), GetParam());
   EXPECT_NEAR(time_of(motion, "switch"), 0.3, 1e-12);
   EXPECT_NEAR(motion.signal("v").final, 5. * 0.3, 1e-7);
   EXPECT_NEAR(motion.signal("x").final, 2.5 * 0.09 + 1.5 * 0.7, 1e-7);
@@ -42,8 +47,7 @@ TEST_P(Switches, TakeAForceAwayAtATime)
 TEST_P(Switches, DissipateWhatASpringHasStored)
 {
   const auto   motion = run(slider(2., "0.2 s") + spring + "[start]\nq = { slide = \"10 mm\" }\n" +
-                                switched("end", "when = \"spring.displacement\"\nbelow = \"5 mm\"\ntell = \"spring\"\n"
-                                                  "order = \"off\"\n"),
+                                switched("end", "spring.displacement below 5 mm", "spring off"),
                             GetParam());
   const double t = std::acos(0.5) / 20., v = -20. * 0.01 * std::sqrt(0.75);
   EXPECT_NEAR(time_of(motion, "switch"), t, 1e-7);
@@ -56,12 +60,11 @@ TEST_P(Switches, DissipateWhatASpringHasStored)
 // A spring that is put in where the slide has come to 5 mm, at 1 m/s: x = 5 mm cos + 1/20 sin.
 TEST_P(Switches, PutASpringIn)
 {
-  const auto   motion = run(slider(2., "0.1 s") + "F = \"spring.force\"\n" + spring + "initially = \"off\"\n" +
-                                "[start]\nv = { slide = \"1 m/s\" }\n" +
-                                switched("begin", "when = \"slide.displacement\"\nabove = \"5 mm\"\ntell = \"spring\"\n"
-                                                    "order = \"on\"\n"),
-                            GetParam());
-  const double s      = 20. * (0.1 - 0.005);
+  const auto motion =
+      run(slider(2., "0.1 s") + "F = \"spring.force\"\n" + spring + "initially = \"off\"\n" +
+              "[start]\nv = { slide = \"1 m/s\" }\n" + switched("begin", "slide.displacement above 5 mm", "spring on"),
+          GetParam());
+  const double s = 20. * (0.1 - 0.005);
   EXPECT_NEAR(motion.signal("x").final, 0.005 * std::cos(s) + 0.05 * std::sin(s), 2e-6);
   EXPECT_NEAR(motion.signal("F").final, 800. * motion.signal("x").final, 1e-9);
   EXPECT_LT(std::abs(motion.result.energy.dissipated), 1e-5); // although the spring came tight
@@ -75,12 +78,10 @@ const std::string brake = "[element.brake]\ntype = \"brake\"\nfrom = \"shaft\"\n
 // Emergency stop: the motor off and, 0.1 s later, the brake on.  w = 10 t up to 8 rad/s, then -25 rad/s^2.
 TEST_P(Switches, StopAMachine)
 {
-  const auto motion =
-      run(rotor(2., "2 s") + "M = \"brake.torque\"\nP = \"motor.power\"\n" + motor + brake +
-              switched("stop", "when = \"shaft.speed\"\nabove = \"8 rad/s\"\ntell = \"motor\"\norder = \"off\"\n") +
-              switched("brake", "when = \"shaft.speed\"\nabove = \"8 rad/s\"\ndelay = \"0.1 s\"\ntell = \"brake\"\n"
-                                "order = \"on\"\n"),
-          GetParam());
+  const auto motion = run(rotor(2., "2 s") + "M = \"brake.torque\"\nP = \"motor.power\"\n" + motor + brake +
+                              switched("stop", "shaft.speed above 8 rad/s", "motor off") +
+                              switched("brake", "shaft.speed above 8 rad/s", "brake on", {{"delay", "0.1 s"}}),
+                          GetParam());
   EXPECT_NEAR(time_of(motion, "switch"), 0.8, 1e-9);
   EXPECT_NEAR(time_of(motion, "orders"), 0.9, 1e-9);
   EXPECT_NEAR(time_of(motion, "stick"), 0.9 + 8. / 25., 1e-8);
@@ -95,9 +96,11 @@ TEST_P(Switches, StopAMachine)
 // Two orders of one switch at the same instant.
 TEST(Switches, GiveSeveralOrdersAtOnce)
 {
-  const auto motion = run(rotor(2., "1.2 s") + motor + brake +
-                          switched("stop", "when = \"shaft.speed\"\nabove = \"8 rad/s\"\norders = [{ tell = \"motor\", "
-                                           "order = \"off\" }, { tell = \"brake\", order = \"on\" }]\n"));
+  const auto motion =
+      run(rotor(2., "1.2 s") + motor + brake +
+          table("switch.stop", {{"when", "shaft.speed"},
+                                {"above", "8 rad/s"},
+                                {"orders", "[{ tell = 'motor', order = 'off' }, { tell = 'brake', order = 'on' }]"}}));
   EXPECT_NEAR(time_of(motion, "stick"), 0.8 + 8. / 25., 1e-9);
   EXPECT_EQ(count(motion, "switch"), 1);
 }
@@ -109,8 +112,7 @@ TEST_P(Switches, SetAForce)
 {
   const auto motion =
       run(slider(2., "1 s") + "F = \"push.force\"\n" + push +
-              switched("more", "when = \"slide.velocity\"\nabove = \"1 m/s\"\ntell = \"push\"\norder = \"set\"\n"
-                               "to = \"40 N\"\nrate = \"100 N/s\"\n"),
+              switched("more", "slide.velocity above 1 m/s", "push set", {{"to", "40 N"}, {"rate", "100 N/s"}}),
           GetParam());
   EXPECT_NEAR(time_of(motion, "switch"), 0.2, 1e-9);
   EXPECT_NEAR(time_of(motion, "next_segment"), 0.5, 1e-9);
@@ -127,9 +129,8 @@ TEST(Switches, StartAndBrakeADrive)
 {
   const auto motion =
       run(rotor(2., "4 s") + "wanted = \"drive.wanted_speed\"\n" + controller + "waits = true\n" +
-          switched("go", "when = \"t\"\nabove = \"1 s\"\ntell = \"drive\"\norder = \"start\"\n") +
-          switched("stop", "when = \"drive.wanted_speed\"\nabove = \"24 rad/s\"\ntell = \"drive\"\norder = \"brake\"\n"
-                           "acceleration = \"48 rad/s^2\"\n"));
+          switched("go", "t above 1 s", "drive start") +
+          switched("stop", "drive.wanted_speed above 24 rad/s", "drive brake", {{"acceleration", "48 rad/s^2"}}));
   // The ramp begins at 1.5 s; 24 rad/s are reached 1.2 s later.
   EXPECT_NEAR(time_of(motion, "next_segment", 0), 1.5, 1e-9);
   EXPECT_NEAR(time_of(motion, "switch", 1), 2.7, 1e-9);
@@ -144,8 +145,7 @@ TEST(Switches, BrakeAPrescribedMotion)
   const auto motion = run(slider_body("slide", "2", "[1, 0, 0]") +
                           joint("feed", "prescribed motion", {{"on", "slide"}, {"motion", "{ speed = '0.5 m/s' }"}}) +
                           steps("1 ms", "1 s") + "[output.signals]\nx = 'slide.displacement'\n" +
-                          switched("stop", "when = \"t\"\nabove = \"0.4 s\"\ntell = \"feed\"\norder = \"brake\"\n"
-                                           "acceleration = \"2 m/s^2\"\n"));
+                          switched("stop", "t above 0.4 s", "feed brake", {{"acceleration", "2 m/s^2"}}));
   EXPECT_NEAR(time_of(motion, "next_segment"), 0.65, 1e-9);
   EXPECT_NEAR(motion.signal("x").final, 0.2 + 0.25 / 4., 1e-8);
 }
@@ -170,10 +170,8 @@ TEST(Switches, RepeatBetweenTwoLevels)
 {
   const auto motion = run(
       slider(2., "6 s") + push + "[element.air]\ntype = \"spring-damper\"\nfrom = \"slide\"\ndamping = \"2 N s/m\"\n" +
-      switched("off", "when = \"slide.velocity\"\nabove = \"2 m/s\"\ntell = \"push\"\norder = \"off\"\nrepeat = true\n"
-                      "hysteresis = \"0.5 m/s\"\n") +
-      switched("on", "when = \"slide.velocity\"\nbelow = \"1 m/s\"\ntell = \"push\"\norder = \"on\"\nrepeat = true\n"
-                     "hysteresis = \"0.5 m/s\"\n"));
+      switched("off", "slide.velocity above 2 m/s", "push off", {{"repeat", "true"}, {"hysteresis", "0.5 m/s"}}) +
+      switched("on", "slide.velocity below 1 m/s", "push on", {{"repeat", "true"}, {"hysteresis", "0.5 m/s"}}));
   // m/d = 1 s, F/d = 5 m/s: up from v_0 to v_1 in log((5 - v_0)/(5 - v_1)), down in log(v_0/v_1).
   const double        up = std::log(4. / 3.), down = std::log(2.);
   std::vector<double> times;
@@ -191,13 +189,9 @@ TEST(Switches, RepeatBetweenTwoLevels)
 // The second one watches from the orders of the first on; what lies beyond its value then throws it at once.
 TEST(Switches, WaitForEachOther)
 {
-  const std::string first =
-      switched("first", "when = \"t\"\nabove = \"0.5 s\"\ntell = \"push\"\norder = \"set\"\nto = \"20 N\"\n");
-  const auto motion =
-      run(slider(2., "1 s") + push +
-          switched("second", "after = \"first\"\nwhen = \"slide.velocity\"\nabove = \"1 m/s\"\ntell = \"push\"\n"
-                             "order = \"off\"\n") +
-          first);
+  const std::string first  = switched("first", "t above 0.5 s", "push set", {{"to", "20 N"}});
+  const auto        motion = run(slider(2., "1 s") + push +
+                                 switched("second", "slide.velocity above 1 m/s", "push off", {{"after", "first"}}) + first);
   EXPECT_NEAR(time_of(motion, "switch", 0), 0.5, 1e-12);
   EXPECT_NEAR(time_of(motion, "switch", 1), 0.5, 1e-9);
   EXPECT_NEAR(motion.signal("v").final, 2.5, 1e-6);
@@ -208,13 +202,9 @@ TEST_P(Switches, CrossEitherWay)
 {
   const std::string scene =
       slider(2., "0.6 s") + spring + "[start]\nq = { slide = \"10 mm\" }\n" + push + "initially = \"off\"\n";
-  const auto way = [](const std::string &more)
-  {
-    return switched("s",
-                    "when = \"slide.displacement\"\ncrosses = \"5 mm\"\ntell = \"push\"\norder = \"off\"\n" + more);
-  };
-  const auto once = run(scene + way(""), GetParam()), often = run(scene + way("repeat = true\n"), GetParam()),
-             apart   = run(scene + way("repeat = true\nhysteresis = \"7 mm\"\n"), GetParam());
+  const auto way  = [](const Keys &more) { return switched("s", "slide.displacement crosses 5 mm", "push off", more); };
+  const auto once = run(scene + way({}), GetParam()), often = run(scene + way({{"repeat", "true"}}), GetParam()),
+             apart   = run(scene + way({{"repeat", "true"}, {"hysteresis", "7 mm"}}), GetParam());
   const double first = std::acos(0.5) / 20., period = 2. * M_PI / 20.;
   EXPECT_EQ(count(once, "switch"), 1);
   EXPECT_NEAR(time_of(once, "switch"), first, 1e-7);
@@ -231,9 +221,7 @@ TEST_P(Switches, CrossEitherWay)
 TEST_P(Switches, CrossNothingWhereTheyBegin)
 {
   const auto motion =
-      run(slider(2., "0.1 s") + push +
-              switched("s", "when = \"slide.displacement\"\ncrosses = \"0 m\"\ntell = \"push\"\norder = \"off\"\n"),
-          GetParam());
+      run(slider(2., "0.1 s") + push + switched("s", "slide.displacement crosses 0 m", "push off"), GetParam());
   EXPECT_EQ(count(motion, "switch"), 0);
   ASSERT_EQ(motion.result.warnings.size(), 1u);
   EXPECT_NE(motion.result.warnings[0].find("never thrown"), std::string::npos);
@@ -241,8 +229,7 @@ TEST_P(Switches, CrossNothingWhereTheyBegin)
 
 TEST(Switches, OfTheTimeOfTheStartAreMeant)
 {
-  const auto motion =
-      run(slider(2., "0.1 s") + push + switched("s", "when = \"t\"\nabove = 0\ntell = \"push\"\norder = \"off\"\n"));
+  const auto motion = run(slider(2., "0.1 s") + push + switched("s", "t above 0", "push off"));
   EXPECT_EQ(time_of(motion, "switch"), 0.);
   EXPECT_TRUE(motion.result.warnings.empty());
   EXPECT_NEAR(motion.signal("x").final, 0., 1e-15);
@@ -251,12 +238,10 @@ TEST(Switches, OfTheTimeOfTheStartAreMeant)
 // Set to 40 N within 0.2 s while it is off, from 0.3 s on; on at 0.4 s, half way up: 25 N, and at 0.5 s 40 N.
 TEST_P(Switches, GiveOrdersToWhatIsOff)
 {
-  const auto motion =
-      run(slider(2., "1 s") + "F = \"push.force\"\n" + push + "initially = \"off\"\n" +
-              switched("level", "when = \"t\"\nabove = \"0.3 s\"\ntell = \"push\"\norder = \"set\"\nto = \"40 N\"\n"
-                                "rate = \"150 N/s\"\n") +
-              switched("on", "when = \"t\"\nabove = \"0.4 s\"\ntell = \"push\"\norder = \"on\"\n"),
-          GetParam());
+  const auto motion = run(slider(2., "1 s") + "F = \"push.force\"\n" + push + "initially = \"off\"\n" +
+                              switched("level", "t above 0.3 s", "push set", {{"to", "40 N"}, {"rate", "150 N/s"}}) +
+                              switched("on", "t above 0.4 s", "push on"),
+                          GetParam());
   EXPECT_NEAR(time_of(motion, "next_segment"), 0.5, 1e-9);
   EXPECT_NEAR(motion.signal("F").max, 40., 1e-9);
   EXPECT_NEAR(motion.signal("v").final, (0.5 * (25. + 40.) * 0.1 + 40. * 0.5) / 2., 1e-5);
@@ -265,11 +250,9 @@ TEST_P(Switches, GiveOrdersToWhatIsOff)
 // Off and on again it keeps the level it was told, although its profile says 10 N.
 TEST(Switches, LeaveOrdersStandingThatCameBefore)
 {
-  const auto motion =
-      run(slider(2., "1 s") + "F = \"push.force\"\n" + push +
-          switched("level", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"push\"\norder = \"set\"\nto = \"30 N\"\n") +
-          switched("off", "when = \"t\"\nabove = \"0.2 s\"\ntell = \"push\"\norder = \"off\"\n") +
-          switched("on", "when = \"t\"\nabove = \"0.7 s\"\ntell = \"push\"\norder = \"on\"\n"));
+  const auto motion = run(slider(2., "1 s") + "F = \"push.force\"\n" + push +
+                          switched("level", "t above 0.1 s", "push set", {{"to", "30 N"}}) +
+                          switched("off", "t above 0.2 s", "push off") + switched("on", "t above 0.7 s", "push on"));
   EXPECT_EQ(motion.signal("F").final, 30.);
   EXPECT_NEAR(motion.signal("v").final, (10. * 0.1 + 30. * 0.1 + 30. * 0.3) / 2., 1e-6);
 }
@@ -283,8 +266,7 @@ TEST(Switches, EndARunInWhichASecondStartWouldMakeTheSpeedJump)
   const auto motion =
       stopped("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n" + feed +
               "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
-              switched("go", "when = \"t\"\nabove = \"0.1 s\"\ntell = \"feed\"\norder = \"start\"\n") +
-              switched("again", "when = \"t\"\nabove = \"0.6 s\"\ntell = \"feed\"\norder = \"start\"\n"));
+              switched("go", "t above 0.1 s", "feed start") + switched("again", "t above 0.6 s", "feed start"));
   for (const std::string words : {"at t = 0.6 s, switch \"again\" tells \"feed\"", "jump from 0.5 to 0"})
     EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
   EXPECT_NEAR(motion.signal("x").final, 0.5 * 0.5 - 0.5 * 0.25 * 0.5, 1e-6); // saved until then
@@ -351,63 +333,59 @@ TEST(Motors, KeepTheSpeedAgainstTheirStator)
 
 // --- bad input
 
+std::string at_time(const std::string &order, const Keys &more = {})
+{
+  return switched("s", "t above 1 s", order, more);
+}
+
 TEST(Switches, RefuseWhatCannotBe)
 {
   const std::string machine =
       slider(2., "1 s") + push + spring + "[element.mass]\ntype = \"point mass\"\non = \"slide\"\nmass = 1\n";
-  const auto refuses = [&](const std::string &keys, const std::string &words)
-  { expect_complaint(machine + switched("s", keys), words); };
-  const std::string at_time = "when = \"t\"\nabove = \"1 s\"\n";
-  refuses(at_time + "tell = \"push\"\norder = \"of\"\n", "knows no order 'of'; it obeys");
-  refuses(at_time + "tell = \"spring\"\norder = \"brake\"\n", "knows no order 'brake'; it obeys 'on', 'off'");
-  refuses(at_time + "tell = \"mass\"\norder = \"off\"\n", "is a mass");
-  refuses(at_time + "tell = \"pusch\"\norder = \"off\"\n",
-          "there is no element or joint 'pusch'; did you mean 'push'?");
-  refuses(at_time + "tell = \"push\"\norder = \"set\"\n", "the key 'to' is missing; it needs a force");
-  refuses(at_time + "tell = \"push\"\norder = \"set\"\nto = \"2 m\"\n", "switch.s.to");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\nto = \"2 N\"\n", "unknown key 'to'");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\nrepeat = true\n", "only once");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\nhysteresis = \"1 s\"\n", "goes with repeat");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\ndelay = \"-1 s\"\n", "switch.s.delay");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"u\"\n", "there is no switch 'u'");
-  refuses(at_time + "tell = \"push\"\norder = \"off\"\nafter = \"s\"\n", "in a circle");
-  refuses(at_time + "orders = []\n", "orders");
-  refuses(at_time + "below = \"2 s\"\ntell = \"push\"\norder = \"off\"\n", "cannot be given together with 'above'");
-  refuses("when = \"t\"\ntell = \"push\"\norder = \"off\"\n", "needs 'above', 'below' or 'crosses'");
-  refuses("when = \"slide.velocty\"\nabove = 1\ntell = \"push\"\norder = \"off\"\n",
-          "when: there is no \"slide.velocty\"; did you mean 'slide.velocity'?");
-  refuses("when = \"t\"\nabove = \"1 m\"\ntell = \"push\"\norder = \"off\"\n", "is in s, but the level is");
-  refuses("when = \"slide.velocity\"\nabove = \"1 m/s\"\nrepeat = true\nhysteresis = \"1 m\"\ntell = \"push\"\n"
-          "order = \"off\"\n",
-          "is in m/s, but the hysteresis is");
+  const auto refuses = [&](const std::string &order, const std::string &words, const Keys &more = {})
+  { expect_complaint(machine + at_time(order, more), words); };
+  refuses("push of", "knows no order 'of'; it obeys");
+  refuses("spring brake", "knows no order 'brake'; it obeys 'on', 'off'");
+  refuses("mass off", "is a mass");
+  refuses("pusch off", "there is no element or joint 'pusch'; did you mean 'push'?");
+  refuses("push set", "the key 'to' is missing; it needs a force");
+  refuses("push set", "switch.s.to", {{"to", "2 m"}});
+  refuses("push off", "unknown key 'to'", {{"to", "2 N"}});
+  refuses("push off", "only once", {{"repeat", "true"}});
+  refuses("push off", "goes with repeat", {{"hysteresis", "1 s"}});
+  refuses("push off", "switch.s.delay", {{"delay", "-1 s"}});
+  refuses("push off", "there is no switch 'u'", {{"after", "u"}});
+  refuses("push off", "in a circle", {{"after", "s"}});
+  refuses("push off", "cannot be given together with 'above'", {{"below", "2 s"}});
+  const auto wrong = [&](const std::string &keys, const std::string &words)
+  { expect_complaint(machine + "[switch.s]\n" + test::quoted(keys), words); };
+  wrong("when = 't'\nabove = '1 s'\norders = []\n", "orders");
+  wrong("when = 't'\ntell = 'push'\norder = 'off'\n", "needs 'above', 'below' or 'crosses'");
+  const auto when = [&](const std::string &level, const std::string &words, const Keys &more = {})
+  { expect_complaint(machine + switched("s", level, "push off", more), words); };
+  when("slide.velocty above 1", "when: there is no \"slide.velocty\"; did you mean 'slide.velocity'?");
+  when("t above 1 m", "is in s, but the level is");
+  when("slide.velocity above 1 m/s", "is in m/s, but the hysteresis is", {{"repeat", "true"}, {"hysteresis", "1 m"}});
   expect_complaint(slider(2., "1 s") + push + "initially = \"of\"\n", "element.push.initially");
   expect_complaint(machine + "initially = \"off\"\n", "cannot be switched");
 }
 
 TEST(Switches, RefuseWhatElementsCannotObey)
 {
-  const std::string at_time = "when = \"t\"\nabove = \"1 s\"\n";
-  expect_complaint(rotor(2., "1 s") + motor + brake +
-                       switched("s", at_time + "tell = \"brake\"\norder = \"set\"\nto = 2\n"),
-                   "between 0 and 1");
+  expect_complaint(rotor(2., "1 s") + motor + brake + at_time("brake set", {{"to", "2"}}), "between 0 and 1");
   const std::string feed = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = 1 }\n";
-  expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"off\"\n"),
-                   "is an ideal joint");
+  expect_complaint(slider(2., "1 s") + feed + at_time("feed off"), "is an ideal joint");
   const std::string pin = point_body("bob", "1", "[0, 0, 0]") +
                           joint("pin", "spherical", "ground", "bob", "[0, 0, 0]", {{"stiffness", "1e6"}});
-  expect_complaint(slider(2., "1 s") + pin + switched("s", at_time + "tell = \"pin\"\norder = \"off\"\n"),
-                   "is a compliant joint");
-  expect_complaint(slider(2., "1 s") + feed + switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\n"),
-                   "no finite force makes masses jump");
+  expect_complaint(slider(2., "1 s") + pin + at_time("pin off"), "is a compliant joint");
+  expect_complaint(slider(2., "1 s") + feed + at_time("feed brake"), "no finite force makes masses jump");
   const std::string braked = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\n"
                              "motion = { speed = 1, brake = { family = \"linear\", duration = \"0.1 s\" } }\n";
-  expect_complaint(slider(2., "1 s") + braked +
-                       switched("s", at_time + "tell = \"feed\"\norder = \"brake\"\njerk = 5\n"),
+  expect_complaint(slider(2., "1 s") + braked + at_time("feed brake", {{"jerk", "5"}}),
                    "takes neither an acceleration nor a jerk");
-  expect_complaint(slider(2., "1 s") + braked + switched("s", at_time + "tell = \"feed\"\norder = \"hold\"\n"),
-                   "knows no order 'hold'; it obeys 'brake'");
+  expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"), "knows no order 'hold'; it obeys 'brake'");
   // A name that is missing is mistaken for nothing that could not obey: a joint is never off.
-  expect_complaint(slider(2., "1 s") + feed + push + switched("s", at_time + "tell = \"feet\"\norder = \"off\"\n"),
+  expect_complaint(slider(2., "1 s") + feed + push + at_time("feet off"),
                    "there is no element or joint 'feet'; valid: 'push'");
   const std::string jumps =
       "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\nmotion = { speed = 1, waits = true }\n";

@@ -3,6 +3,7 @@
 #include "fem/geometry/geo_script.h"
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/refusal.h"
 
 #include <gmock/gmock.h>
 #include <gmsh.h>
@@ -25,15 +26,7 @@ std::string judgement(const std::string &script)
 {
   const RefuseLine refuse = [](int line, const std::string &what)
   { throw std::invalid_argument(std::to_string(line) + ": " + what); };
-  try
-  {
-    judge_geo(geo_tokens(script, refuse), refuse);
-  }
-  catch (const std::invalid_argument &refusal)
-  {
-    return refusal.what();
-  }
-  return "";
+  return gestell::tests::refusal([&] { judge_geo(geo_tokens(script, refuse), refuse); });
 }
 
 std::string text_as_judged(const std::string &script)

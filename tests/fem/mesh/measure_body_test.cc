@@ -3,6 +3,7 @@
 #include "fem/mesh/measure_body.h"
 #include "fem/values/triangle_surface.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/refusal.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -34,15 +35,7 @@ CadBody measured(const std::string &path, double unit = 0.)
 
 std::string complaint(const std::string &path, double unit = 0.)
 {
-  try
-  {
-    measured(path, unit);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
+  return gestell::tests::refusal([&] { measured(path, unit); });
 }
 
 /// A cuboid's tensor about its centre for density one.
