@@ -76,10 +76,7 @@ Matrix step_map(const std::string &name, double zeta, double omega_h)
   const SmallSystem system = oscillator(zeta, omega);
   if (const int order = bdf_order(name))
   {
-    Bdf::Options options;
-    options.order = order;
-    options.step  = 1.;
-    Bdf    bdf(system, options);
+    Bdf    bdf(system, {order, 1.});
     Matrix map = Matrix::Zero(2 * order, 2 * order);
     for (int j = 0; j < 2 * order; ++j)
     {

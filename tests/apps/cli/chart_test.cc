@@ -9,6 +9,7 @@
 #include "apps/output/report/work_precision_page.h"
 #include "apps/scene/build/build_machine.h"
 #include "tests/support/csv_table.h"
+#include "tests/support/methods.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
@@ -268,12 +269,9 @@ TEST(OwnReference, HoldsForAMachineWithEventsToo)
   TinyProblem              tiny(true);
   std::vector<std::string> notes;
   const Reference          reference = own_reference(tiny.problem, notes);
-  coupling::MethodOptions  other; // another method altogether: of second order, so extrapolated from two steps
-  other.method               = "newmark";
-  other.step                 = 1e-5;
-  const SignalSamples fine   = measure(tiny.problem, other, true).values;
-  other.step                 = 2e-5;
-  const SignalSamples coarse = measure(tiny.problem, other, true).values;
+  // another method altogether: of second order, so extrapolated from two steps
+  const SignalSamples fine   = measure(tiny.problem, method("newmark", 1e-5), true).values;
+  const SignalSamples coarse = measure(tiny.problem, method("newmark", 2e-5), true).values;
   ASSERT_GT(fine.size(), 0);
   const double step_error = scaled_error(fine, coarse) / 3.;
   EXPECT_LT(scaled_error(fine, reference.values), 2. * step_error);
@@ -303,12 +301,9 @@ TEST(Measurement, OfAPeerGivesTheSameSignalsAsOurMethods)
 {
   if (!peers::peers_available())
     GTEST_SKIP() << "no SUNDIALS in this build";
-  TinyProblem             tiny(true);
-  coupling::MethodOptions own;
-  own.method = "exact";
-  own.order  = 6;
-  own.step   = 2e-4;
-  peers::PeerOptions peer;
+  TinyProblem                   tiny(true);
+  const coupling::MethodOptions own = method("exact", 2e-4, 6);
+  peers::PeerOptions            peer;
   peer.tolerance  = 1e-8;
   peer.events     = true;
   const WorkRun a = measure(tiny.problem, own, true),

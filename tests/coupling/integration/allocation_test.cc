@@ -43,10 +43,7 @@ std::unique_ptr<TimeIntegrator> make(const std::string &method, const SecondOrde
   const int order = bdf_order(method);
   if (order == 0)
     return one_step_method(method, system, h);
-  Bdf::Options options;
-  options.order = order;
-  options.step  = h;
-  return std::make_unique<Bdf>(system, options);
+  return std::make_unique<Bdf>(system, Bdf::Options{order, h});
 }
 
 using EveryMethod = ::testing::TestWithParam<const char *>;

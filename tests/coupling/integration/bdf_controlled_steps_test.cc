@@ -46,12 +46,8 @@ CommandedProfile course(long failing_call)
 {
   auto       spring = std::make_shared<FailingSpring>(FailingSpring{failing_call});
   const auto law    = [spring](double u, double v, double &p, double &du, double &dv) { (*spring)(u, v, p, du, dv); };
-  const ModalSystem      system = oscillator(1., 0.5, 1., law);
-  BdfControlled::Options options;
-  options.tolerance    = 1e-2;
-  options.largest_step = 1.;
-  options.max_order    = 2;
-  BdfControlled bdf(system, options);
+  const ModalSystem system = oscillator(1., 0.5, 1., law);
+  BdfControlled     bdf(system, {1e-2, 1., 0., 2});
   bdf.begin(0., Vector::Constant(1, 2.), Vector::Zero(1));
   CommandedProfile result;
   for (int i = 0; i < 400; ++i)
@@ -84,10 +80,7 @@ TEST(BdfControlled, StepsWhoseNewtonFailsAreHalved)
   // u = u_free + h_b^2 400 u^2 has no root for large steps.
   const ModalSystem system =
       oscillator(1., 0., 1e-6, law_of([](double u) { return 400. * u * u; }, [](double u) { return 800. * u; }));
-  BdfControlled::Options options;
-  options.tolerance    = 0.1;
-  options.largest_step = 32.;
-  BdfControlled bdf(system, options);
+  BdfControlled bdf(system, {0.1, 32.});
   bdf.begin(0., Vector::Ones(1), Vector::Zero(1));
   bdf.advance();
   EXPECT_GT(bdf.work().rejected, 0);
@@ -99,11 +92,7 @@ TEST(BdfControlled, AtTheFloorTheMessageNamesTimeStepReasonAndCoordinate)
 {
   const auto message = [](const ModalSystem &system)
   {
-    BdfControlled::Options options;
-    options.tolerance     = 1e-6;
-    options.largest_step  = 0.01;
-    options.smallest_step = 1e-6;
-    BdfControlled bdf(system, options);
+    BdfControlled bdf(system, {1e-6, 0.01, 1e-6});
     bdf.begin(0., Vector::Ones(1), Vector::Zero(1));
     Instant last = bdf.instant();
     try
@@ -143,10 +132,7 @@ TEST(BdfControlled, BeginsFromRestWhateverPowerTheLoadGrowsWith)
   system.loads().add_harmonic(0, 8., 0., 30.);
   for (const double tolerance : {1e-2, 1e-5, 1e-8})
   {
-    BdfControlled::Options options;
-    options.tolerance    = tolerance;
-    options.largest_step = 0.05;
-    BdfControlled bdf(system, options);
+    BdfControlled bdf(system, {tolerance, 0.05});
     bdf.begin(0., Vector::Zero(1), Vector::Zero(1));
     while (bdf.time() < 0.1)
       bdf.advance();
@@ -165,10 +151,7 @@ TEST(BdfControlled, IsNotDeceivedByStepsNearThePoleOfAFallingCharacteristic)
     {
       const double k = 1024. * std::pow(4., (i + 0.5) / 50.), w = std::sqrt(k - 1e-6);
       const auto system = oscillator(1., 0., 1e-6, law_of([k](double u) { return k * u; }, [k](double) { return k; }));
-      BdfControlled::Options options;
-      options.tolerance    = tolerance;
-      options.largest_step = 1.;
-      BdfControlled bdf(system, options);
+      BdfControlled bdf(system, {tolerance, 1.});
       bdf.begin(0., Vector::Ones(1), Vector::Zero(1));
       double worst = 0.;
       while (bdf.time() < 6. / w)
@@ -183,11 +166,8 @@ TEST(BdfControlled, IsNotDeceivedByStepsNearThePoleOfAFallingCharacteristic)
 
 TEST(BdfControlled, MaybeCutAnywhereAndAgainAndAtItsBegin)
 {
-  const ModalSystem      system = duffing(1., 1.);
-  BdfControlled::Options options;
-  options.tolerance    = 1e-5;
-  options.largest_step = 0.25;
-  BdfControlled bdf(system, options);
+  const ModalSystem system = duffing(1., 1.);
+  BdfControlled     bdf(system, {1e-5, 0.25});
   bdf.begin(0., Vector::Constant(1, 2.), Vector::Zero(1));
   for (int i = 0; i < 60; ++i)
   {
@@ -226,10 +206,7 @@ TEST(BdfControlled, IsTheSameEveryTimeAndTakesNothingFromTheHeap)
 {
   ModalSystem system = duffing(1., 1.);
   system.loads().add_harmonic(0, 2., 0.3, 0.1);
-  BdfControlled::Options options;
-  options.tolerance    = 1e-5;
-  options.largest_step = 0.25;
-  BdfControlled bdf(system, options);
+  BdfControlled bdf(system, {1e-5, 0.25});
   double        end[2] = {};
   for (double &q : end)
   {
@@ -265,13 +242,10 @@ private:
 
 TEST(BdfControlled, WhatHoldsAMassFollowsFromEquilibrium)
 {
-  const StuckMass        system;
-  const double           x = 0.05;
-  BdfControlled::Options options;
-  options.tolerance    = 1e-6;
-  options.largest_step = 0.01;
-  BdfControlled bdf(system, options);
-  const auto    force = [&](double t) { return 100. * x - 10. * std::cos(4. * t); };
+  const StuckMass system;
+  const double    x = 0.05;
+  BdfControlled   bdf(system, {1e-6, 0.01});
+  const auto      force = [&](double t) { return 100. * x - 10. * std::cos(4. * t); };
   bdf.begin(0., Vector::Constant(1, x), Vector::Zero(1));
   EXPECT_NEAR(bdf.local().p[0], force(0.), 1e-12);
   for (int i = 0; i < 100; ++i)
@@ -280,7 +254,7 @@ TEST(BdfControlled, WhatHoldsAMassFollowsFromEquilibrium)
     EXPECT_NEAR(bdf.instant().q[0], x, 1e-14);
     EXPECT_NEAR(bdf.local().p[0], force(bdf.time()), 1e-9);
   }
-  EXPECT_EQ(bdf.step(), options.largest_step); // nothing moves: no error
+  EXPECT_EQ(bdf.step(), 0.01); // nothing moves: no error
   LocalState dense;
   dense.resize(1);
   const double middle = bdf.time() - 0.4 * bdf.step();

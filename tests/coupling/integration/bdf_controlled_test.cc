@@ -137,12 +137,9 @@ TEST(BdfControlled, MeetsTheEllipticSolutionsOfDuffing)
   for (const auto &[name, parameters] : cases)
     for (const double tolerance : {1e-4, 1e-6, 1e-8})
     {
-      const ModalSystem      system = duffing(parameters.first, parameters.second);
-      BdfControlled::Options options;
-      options.tolerance    = tolerance;
-      options.largest_step = 0.5;
-      BdfControlled bdf(system, options);
-      LocalState    local;
+      const ModalSystem system = duffing(parameters.first, parameters.second);
+      BdfControlled     bdf(system, {tolerance, 0.5});
+      LocalState        local;
       local.resize(1);
       double largest = 0.;
       bool   begun   = false;
@@ -169,12 +166,8 @@ TEST(BdfControlled, MeetsTheEllipticSolutionsOfDuffing)
 
 TEST(BdfControlled, StepsThatComeBackFindTheirFactorisations)
 {
-  const ModalSystem      system = duffing(1., 1.);
-  BdfControlled::Options options;
-  options.tolerance    = 1e-4;
-  options.largest_step = 0.5;
-  options.max_order    = 2;
-  BdfControlled bdf(system, options);
+  const ModalSystem system = duffing(1., 1.);
+  BdfControlled     bdf(system, {1e-4, 0.5, 0., 2});
   bdf.begin(0., Vector::Constant(1, 2.), Vector::Zero(1));
   const double     period = 3.1797233167817153;
   std::set<double> steps;
@@ -216,10 +209,7 @@ TEST(BdfControlled, TimesOfImpactsFallWithTheTolerance)
       dp_dv             = 0.;
     };
     system.loads().add_harmonic(0, 18., 400., 0.);
-    BdfControlled::Options options;
-    options.tolerance    = tolerance;
-    options.largest_step = 0.05;
-    BdfControlled bdf(system, options);
+    BdfControlled bdf(system, {tolerance, 0.05});
     EventDriver   driver(system, bdf, {});
     driver.begin(0., Vector::Zero(1), Vector::Zero(1));
     while (bdf.time() < 2.)
@@ -247,12 +237,9 @@ ModalSystem frame_of_many_modes()
 
 TEST(BdfControlled, OrdersThatWouldMakeAModeGrowAreNotUsed)
 {
-  const ModalSystem      system   = frame_of_many_modes();
-  const auto             spectrum = system.linear().spectrum();
-  BdfControlled::Options options;
-  options.tolerance    = 1e-3;
-  options.largest_step = 0.01;
-  BdfControlled bdf(system, options);
+  const ModalSystem system   = frame_of_many_modes();
+  const auto        spectrum = system.linear().spectrum();
+  BdfControlled     bdf(system, {1e-3, 0.01});
   bdf.begin(0., Vector::Zero(16), Vector::Zero(16));
   std::map<std::pair<int, double>, long> steps; // by order and length
   while (bdf.time() < 3.)

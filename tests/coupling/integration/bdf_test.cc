@@ -95,15 +95,12 @@ TEST(Bdf, CondensedStepSolvesTheWholeEquationOfTheStep)
 {
   SmallSystem system = driven_chain();
   system.set_law(Eigen::Vector2d(1., -2.), stiffening);
-  Bdf::Options options;
-  options.order = 1;
-  options.step  = 0.01;
-  Bdf                   bdf(system, options);
+  Bdf                   bdf(system, {1, 0.01});
   const Eigen::Vector2d q0(0.1, 0.9), v0(2., -1.);
   bdf.begin(0., q0, v0);
   bdf.advance();
   // Order 1: A q = M q0 + h (M v0 + B q0) + h^2 (f + W p)   (5.5.2/13)
-  const double  h = options.step;
+  const double  h = 0.01;
   const Vector &q = bdf.instant().q;
   double        p, du, dv;
   const Vector  w = system.W * Vector::Ones(1);
@@ -119,9 +116,7 @@ TEST(Bdf, OneFactorisationServesEveryStepOfAFixedSize)
 {
   SmallSystem system = driven_chain();
   system.set_law(Eigen::Vector2d(1., -2.), stiffening);
-  Bdf::Options options;
-  options.step = 0.001;
-  Bdf bdf(system, options);
+  Bdf bdf(system, {2, 0.001});
   bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
   for (int i = 0; i < 500; ++i)
     bdf.advance();
@@ -168,9 +163,7 @@ TEST(Bdf, NewtonBelievesOnlyInAContractionSeenSinceTheRestart)
 {
   SmallSystem system = driven_chain();
   system.set_law(Eigen::Vector2d(1., -2.), law_of([](double u) { return -30. * u; }, [](double) { return -30.; }));
-  Bdf::Options options;
-  options.step = 0.01;
-  Bdf bdf(system, options);
+  Bdf bdf(system, {2, 0.01});
   bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
   const auto iterations = [&bdf]
   {

@@ -145,9 +145,7 @@ TEST(ConsistentStart, BdfBeginsWithTheForceOfWhatSticks)
 {
   const ChainThatSticks system;
   const auto [a, local] = started(system, 0.);
-  Bdf::Options options;
-  options.step = 1e-3;
-  Bdf bdf(system, options);
+  Bdf bdf(system, {2, 1e-3});
   bdf.begin(0., q0, v0);
   EXPECT_DOUBLE_EQ(bdf.local().p[1], local.p[1]);
 }
@@ -157,9 +155,7 @@ TEST(ConsistentStart, BdfNeedsNoMassEvenWhereSomethingSticks)
   ChainThatSticks system;
   system.M.row(2).setZero();
   system.M.col(2).setZero();
-  Bdf::Options options;
-  options.step = 1e-3;
-  Bdf bdf(system, options);
+  Bdf bdf(system, {2, 1e-3});
   bdf.begin(0., q0, v0);
   bdf.advance();
   EXPECT_NEAR(bdf.local().v[1], 0.4, 1e-12);

@@ -25,9 +25,7 @@ EnergyState balance(double h)
                    du = 0.;
                    dv = -2.;
                  });
-  Bdf::Options options;
-  options.step = h;
-  Bdf           bdf(system, options);
+  Bdf           bdf(system, {2, h});
   EnergyBalance energy(system);
   bdf.begin(0., Eigen::VectorXd::Constant(1, 0.1), Eigen::VectorXd::Constant(1, 1.));
   energy.begin(bdf.instant());

@@ -93,11 +93,8 @@ Errors errors(const LinearPair &pair, const std::string &method, int n)
   int                             first = 0;
   if (const int order = bdf_order(method))
   {
-    Bdf::Options options;
-    options.order = order;
-    options.step  = h;
-    auto bdf      = std::make_unique<Bdf>(pair.system(), options);
-    first         = order - 1;
+    auto bdf = std::make_unique<Bdf>(pair.system(), Bdf::Options{order, h});
+    first    = order - 1;
     std::vector<Vector> q, v;
     for (int i = first; i >= 0; --i)
     {

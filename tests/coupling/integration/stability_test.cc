@@ -6,6 +6,7 @@
 #include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/polynomial_roots.h"
 #include "coupling/integration/stability/stability.h"
+#include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 #include "tests/support/step_map.h"
@@ -72,11 +73,7 @@ TEST(Stability, RadiusAtInfinityAndLimitOfWilson)
     }
   }
   for (int order = 1; order <= 6; ++order) // r^p omega_h -> const: zero as omega h grows
-  {
-    MethodOptions o;
-    o.order = order;
-    EXPECT_LT(spectral_radius(o, {0., 1e12}), 2e-2);
-  }
+    EXPECT_LT(spectral_radius(bdf(order, 0.), {0., 1e12}), 2e-2);
 }
 
 TEST(Stability, UnstableIntervalsAgreeWithTheTable)
@@ -157,13 +154,11 @@ TEST(Stability, OvershootOfBdfIsThatOfTheIntegratorItself)
     for (const double omega : {0.5, 2., 5.})
       for (const auto start : {OscillatorStart::displaced, OscillatorStart::moving})
       {
-        const SmallSystem system(Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1),
-                                 Eigen::MatrixXd::Constant(1, 1, omega * omega));
-        MethodOptions     method;
-        method.order          = order;
-        method.step           = 1.;
-        const auto integrator = make_integrator(system, method);
-        const bool displaced  = start == OscillatorStart::displaced;
+        const SmallSystem   system(Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1),
+                                   Eigen::MatrixXd::Constant(1, 1, omega * omega));
+        const MethodOptions method     = bdf(order, 1.);
+        const auto          integrator = make_integrator(system, method);
+        const bool          displaced  = start == OscillatorStart::displaced;
         integrator->begin(0., Eigen::VectorXd::Constant(1, displaced ? 1. : 0.),
                           Eigen::VectorXd::Constant(1, displaced ? 0. : omega));
         double x = displaced ? 1. : 0., v = 1. - x;
@@ -213,9 +208,7 @@ TEST(Stability, MatrixAndCharacteristicRootsAreTheSameStep)
 
 TEST(Stability, NewmarkStepLimitIsTheClosedFormula)
 {
-  MethodOptions o;
-  o.method = "newmark";
-  o.set("gamma", 0.5);
+  MethodOptions o = method("newmark", 0., 2, {{"gamma", 0.5}});
   for (const double beta : {0., 1. / 12., 1. / 8., 1. / 6., 0.24})
   {
     o.set("beta", beta);
@@ -233,8 +226,7 @@ TEST(Stability, NewmarkStepLimitIsTheClosedFormula)
 
 TEST(Stability, ExactPropagationNeverMakesTheBaseGrow)
 {
-  MethodOptions o;
-  o.method = "exact";
+  const MethodOptions o = method("exact", 0.);
   for (const double zeta : {0., 0.02, 1., 3.})
     for (const double omega_h : {1e-3, 1., 3.14159, 1e3})
     {
@@ -249,9 +241,7 @@ TEST(Stability, ExactPropagationNeverMakesTheBaseGrow)
 
 TEST(Stability, ContactsUnderExactPropagation)
 {
-  MethodOptions o;
-  o.method = "exact";
-  o.set("force", "average");
+  MethodOptions o = method("exact", 0., 2, {{"force", "average"}});
   EXPECT_TRUE(unstable_intervals(o, 0., Spring::contact).empty());
   EXPECT_TRUE(unstable_intervals(o, 0.05, Spring::contact).empty());
 
@@ -287,9 +277,7 @@ TEST(Stability, ContactsUnderExactPropagation)
 
 TEST(Stability, NoIslandOfGrowthIsMissed)
 {
-  MethodOptions o;
-  o.method = "exact";
-  o.set("force", "collocation");
+  MethodOptions o = method("exact", 0., 2, {{"force", "collocation"}});
   for (const double zeta : {0., 1e-4, 0.02})
     for (const int order : {2, 4, 6, 8})
     {
@@ -308,9 +296,7 @@ TEST(Stability, NoIslandOfGrowthIsMissed)
 
 TEST(Stability, ContactCollocationHasTheOrderOfItsPoints)
 {
-  MethodOptions o;
-  o.method = "exact";
-  o.set("force", "collocation");
+  MethodOptions o = method("exact", 0., 2, {{"force", "collocation"}});
   for (const int order : {2, 4, 6, 8})
   {
     o.order           = order;

@@ -95,10 +95,7 @@ Overshoot run(const std::string &method, double omega, double x0, double v0)
     way.v.push_back(std::abs(v0) / omega);
     for (int n = 1; n <= 20; ++n) // the first steps by orders 1, 2, ...
     {
-      Bdf::Options options;
-      options.order = std::min(n, order);
-      options.step  = 1.;
-      Bdf bdf(system, options);
+      Bdf bdf(system, {std::min(n, order), 1.});
       bdf.begin(0., q, v);
       bdf.advance();
       note(bdf.instant());

@@ -30,10 +30,7 @@ fem::FrameSpecification block()
 
 TEST(ConvergeMesh, FollowsQuantitiesByTheirNames)
 {
-  coupling::ConvergenceOptions options;
-  options.tolerance     = 0.2;
-  options.n_frequencies = 12;
-  const auto result     = coupling::converge_mesh(block(), {}, options);
+  const auto result = coupling::converge_mesh(block(), {}, {0.2, 12});
   ASSERT_GE(result.levels.size(), 2u);
   ASSERT_EQ(result.quantities.size(), 13u);
   for (const coupling::MeshLevel &level : result.levels)
@@ -54,10 +51,7 @@ TEST(ConvergeMesh, DoesNotWatchTheComplianceOfPointsWhichHasNoLimit)
   frame.interfaces.push_back({"corner", {}, fem::InterfaceCoupling::node, fem::Vector3{0., 0., 0.5}, "scene.toml:15"});
   frame.interfaces.push_back(
       {"spot", {"side"}, fem::InterfaceCoupling::point, fem::Vector3{0.2, 0.05, 0.5}, "scene.toml:18"});
-  coupling::ConvergenceOptions options;
-  options.tolerance     = 0.2;
-  options.n_frequencies = 2;
-  const auto result     = coupling::converge_mesh(frame, {}, options);
+  const auto result = coupling::converge_mesh(frame, {}, {0.2, 2});
   EXPECT_TRUE(result.converged) << result.stopped;
   EXPECT_EQ(result.at_points, (std::vector<std::string>{"corner", "spot"}));
   ASSERT_EQ(result.quantities.size(), 3u);
@@ -120,9 +114,7 @@ fem::FrameSpecification block_by_script(const std::string &mesh)
 
 TEST(ConvergeMesh, RefinesAScriptThatMeshesByItselfAsAWhole)
 {
-  coupling::ConvergenceOptions options;
-  options.tolerance = 0.05;
-  const auto result = coupling::converge_mesh(block_by_script(""), {}, options);
+  const auto result = coupling::converge_mesh(block_by_script(""), {}, {0.05});
   ASSERT_GE(result.levels.size(), 2u) << result.stopped;
   EXPECT_TRUE(result.converged) << result.stopped;
   for (std::size_t i = 1; i < result.levels.size(); ++i)
@@ -135,10 +127,8 @@ TEST(ConvergeMesh, RefinesAScriptThatMeshesByItselfAsAWhole)
 TEST(ConvergeMesh, IsNotProvedByAMeshThatStaysAsItIs)
 {
   // a third of the nodes is held: they are no coordinates, and no finer mesh
-  coupling::ConvergenceOptions options;
-  options.tolerance = 0.9;
   const auto result = coupling::converge_mesh(
-      block_by_script("Transfinite Curve {:} = 3;\nTransfinite Surface {:};\nTransfinite Volume {:};\n"), {}, options);
+      block_by_script("Transfinite Curve {:} = 3;\nTransfinite Surface {:};\nTransfinite Volume {:};\n"), {}, {0.9});
   EXPECT_EQ(result.levels.size(), 1u);
   EXPECT_FALSE(result.converged);
   EXPECT_THAT(result.stopped, HasSubstr("gmsh makes no mesh with distinctly more than"));
