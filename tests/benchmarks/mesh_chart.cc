@@ -8,6 +8,7 @@
 
 #include "apps/output/charts/chart.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/text/write_file.h"
 #include "apps/scene/file/csv_file.h"
 
 #include <algorithm>
