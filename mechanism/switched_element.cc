@@ -105,7 +105,10 @@ bool SwitchedElement::command(const SwitchCommand &order, const LocalMotion &mot
     return true; // it is already
   history[changed] = 1. - history[changed];
   if (!is_on(history))
+  {
+    history[brought] -= std::min(0., law_->stored_energy(motion, history + n_slots)); // given, not dissipated
     return true;
+  }
   resume_law(motion, history);
   history[brought] += law_->stored_energy(motion, history + n_slots);
   return true;

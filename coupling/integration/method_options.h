@@ -20,7 +20,7 @@ struct MethodOptions
   double        step         = 0.; ///< [s]; fixed, or the largest one if a tolerance is given
   double        tolerance    = 0.; ///< of the local error, relative to the scales of the motion; 0: fixed step
   int           max_halvings = 10; ///< of the step when Newton fails
-  NewtonOptions newton;
+  NewtonOptions newton{};
 
   /// Parameters of IntegrationMethod::parameters(); those left out have their default, those of other methods are not
   /// looked at.

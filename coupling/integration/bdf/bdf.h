@@ -40,7 +40,7 @@ public:
     int           order        = 2;
     double        step         = 0.; ///< h [s], > 0
     int           max_halvings = 10;
-    NewtonOptions newton;
+    NewtonOptions newton{};
   };
 
   /// @throws std::invalid_argument for an order outside 1..6 or a step that is not positive.

@@ -66,7 +66,7 @@ public:
     int           max_order     = 5;     ///< 1..6
     int           min_order     = 0;     ///< 1..max_order; 0: 2, as implicit Euler damps too much, or max_order if less
     bool          fixed_order   = false; ///< max_order throughout
-    NewtonOptions newton;                ///< max_iterations; the tolerance follows from that of the error
+    NewtonOptions newton{};              ///< max_iterations; the tolerance follows from that of the error
   };
 
   /// @throws std::invalid_argument naming the option, its value and what it may be

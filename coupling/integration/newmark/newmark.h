@@ -34,7 +34,7 @@ public:
     double        alpha_f      = 0.;   ///< weight of the forces at the begin, in [0, 1)
     double        step         = 0.;   ///< h [s], > 0
     int           max_halvings = 10;
-    NewtonOptions newton;
+    NewtonOptions newton{};
   };
 
   /// alpha in [-1/3, 0]: alpha_f = -alpha, beta = (1 - alpha)^2/4, gamma = 1/2 - alpha.  The step is left to be set.

@@ -31,7 +31,7 @@ public:
     double        theta        = 1.4; ///< >= 1
     double        step         = 0.;  ///< h [s], > 0
     int           max_halvings = 10;
-    NewtonOptions newton;
+    NewtonOptions newton{};
   };
 
   /// @throws std::invalid_argument for theta < 1, a step that is not positive, a singular M

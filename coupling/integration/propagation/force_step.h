@@ -15,7 +15,7 @@ struct PropagationContext
 {
   const SecondOrderSystem *system = nullptr;
   ModalMeasures            measures;
-  NewtonOptions            newton;
+  NewtonOptions            newton{};
   Eigen::VectorXd          u_begin, scale;       ///< [n_u] largest excursion of every measure so far
   Eigen::VectorXd          force;                ///< [n_u] largest force so far
   double                   error_tolerance = 0.; ///< 0: steps are fixed

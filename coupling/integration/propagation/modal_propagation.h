@@ -43,7 +43,7 @@ public:
     double        step      = 0.; ///< h [s], the largest one with a tolerance; 0 there: chosen from the lowest mode
     double        tolerance = 0.; ///< of the local error in the measures, relative to their largest excursion; 0: fixed
     int           max_halvings = 24;
-    NewtonOptions newton;
+    NewtonOptions newton{};
   };
 
   /// @throws std::invalid_argument as modal_blocks()

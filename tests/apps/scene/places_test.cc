@@ -198,9 +198,10 @@ TEST(Places, LoadsOnPlacesObeySwitches)
   }
   const std::string spring = "type = \"spring-damper\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\npreload = -3\n";
   const auto        freed =
-      stopped(with_tip(spring + "[switch.off]\nwhen = \"tip.vz\"\nabove = 0.5\ntell = \"load\"\norder = \"off\"\n"));
+      run(with_tip(spring + "[switch.off]\nwhen = \"tip.vz\"\nabove = 0.5\ntell = \"load\"\norder = \"off\"\n"));
   EXPECT_NEAR(freed.signal("vz").final, 3. / 2. * time_of(freed, "switch"), 1e-9);
   EXPECT_LT(time_of(freed, "switch"), 0.4);
+  expect_closed_balance(freed, 1e-6); // the preload has worked, and what it gave stays given
 }
 
 TEST(Places, ASwitchWatchesAPlace)
