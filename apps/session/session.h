@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// How a session tells what it is doing, and how it is told to stop.
+/// Receives the progress of a session, and may interrupt it.
 struct Watch
 {
   coupling::Progress       progress{};             ///< phase, and the share of it that is done; negative: unknown

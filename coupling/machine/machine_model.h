@@ -120,7 +120,7 @@ struct NamedMeasure
   double acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const;
 };
 
-/// What is told to which element or joint.
+/// A command of a switch, and the element or joint it goes to.
 struct SwitchOrder
 {
   std::string              element;

@@ -30,7 +30,7 @@ enum class Marker
   none
 };
 
-/// What a point of a curve is told by.
+/// What a browser shows of a point of a curve, and how its marker is drawn.
 struct PointNote
 {
   std::string text;           ///< shown by browsers under the pointer

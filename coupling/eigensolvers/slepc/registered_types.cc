@@ -26,7 +26,7 @@ const ModeProblem &problem_of(Mat shell)
   return *problem;
 }
 
-/// Exceptions must not cross C: PETSc is told their words, and the problem keeps them for whoever called PETSc.
+/// Exceptions must not cross C: PETSc gets their message, and the problem keeps them for whoever called PETSc.
 template <typename Work>
 PetscErrorCode guarded(const ModeProblem *problem, const Work &work)
 {
