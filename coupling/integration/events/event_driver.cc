@@ -344,6 +344,8 @@ void EventDriver::take(const Crossing &crossing)
     return;
   }
   observe();
+  if (guard_observer_)
+    guard_observer_(guard);
   const ActiveGuard active = system_.events().guard(guard);
   events_.push_back({integrator_.time(), active.name, active.kind});
   between_ = integrator_.local();

@@ -47,6 +47,9 @@ public:
   /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
   /// there: before anything of it is accepted and before the transition at its end.
   void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
+  /// `observer` is called with the number of a guard whose zero was located, at the end of the step that was cut there,
+  /// before the transition: the history is that of before.
+  void on_guard(std::function<void(int)> observer) { guard_observer_ = std::move(observer); }
   /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events
   /// of a step that was gone over at its end.
   void on_event(std::function<void(const Event &)> observer) { event_observer_ = std::move(observer); }
@@ -100,6 +103,7 @@ private:
   long                                      chattering_      = 0;
   double                                    chattering_time_ = 0.;
   std::function<void()>                     observer_;
+  std::function<void(int)>                  guard_observer_;
   std::function<void(const Event &)>        event_observer_;
   std::size_t                               told_ = 0; ///< events
 };

@@ -175,6 +175,13 @@ void CollocationStep::predict(double h)
   }
 }
 
+void CollocationStep::fill_rows(const StepTable &table, int i, MatrixXd &matrix) const
+{
+  auto rows      = matrix.middleRows(i * n_u_, n_u_);
+  rows.noalias() = -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
+  rows.noalias() -= dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
+}
+
 bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
 {
   const SecondOrderSystem &system = *context_.system;
@@ -186,8 +193,7 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
     if (jacobian)
     {
       system.forces().derivatives(node_, node_.p, dp_du_, dp_dv_);
-      lu_.matrix().middleRows(i * n_u_, n_u_).noalias() = -dp_du_.lazyProduct(table.S_u.middleRows(i * n_u_, n_u_));
-      lu_.matrix().middleRows(i * n_u_, n_u_).noalias() -= dp_dv_.lazyProduct(table.S_v.middleRows(i * n_u_, n_u_));
+      fill_rows(table, i, lu_.matrix());
     }
     else
       system.forces().force(node_, node_.p);

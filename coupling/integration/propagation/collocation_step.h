@@ -48,6 +48,8 @@ public:
 
   void interpolate(double sigma, LocalState &state) const override;
 
+  void carry_tangents(Eigen::MatrixXd &X) override;
+
 private:
   static HermiteNodes hermite_nodes(std::vector<double> points);
 
@@ -56,6 +58,9 @@ private:
 
   /// The last step's polynomial goes on; behind an event the force at its begin does.
   void predict(double h);
+
+  /// Rows of point i of I - dp S, from dp_du_ and dp_dv_.
+  void fill_rows(const StepTable &table, int i, Eigen::MatrixXd &matrix) const;
 
   /// Residuals phi(u_i, v_i) - P_i; with their Jacobian if it is wanted.
   bool evaluate(const StepTable &table, bool jacobian);

@@ -60,13 +60,13 @@ double PropagationContext::way(const Eigen::VectorXd &x) const
   return std::sqrt(v > 0. ? std::min(q, v * time_ * time_) : q);
 }
 
-void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
+void PropagationContext::free_rates(const double *x, double *rate) const
 {
   for (int b = 0; b < measures.n_p; ++b)
   {
     const ModalBlock &block = measures.blocks[b];
     const double      x_1 = x[b], x_2 = x[measures.n_p + b];
-    double           &y_1 = rate_[b], &y_2 = rate_[measures.n_p + b];
+    double           &y_1 = rate[b], &y_2 = rate[measures.n_p + b];
     switch (block.kind)
     {
     case ModalBlock::oscillating:
@@ -83,6 +83,11 @@ void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
       break;
     }
   }
+}
+
+void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
+{
+  free_rates(x.data(), rate_.data());
   rate_ += measures.constant;
   local.a.noalias() = measures.read_v.transpose() * rate_;
   const auto &held  = system->forces().held();
@@ -98,6 +103,50 @@ void PropagationContext::accelerate(const Eigen::VectorXd &x, LocalState &local)
       local.p[held[i].measure] = rest_[Eigen::Index(i)];
   }
   local.a.noalias() += mobility.lazyProduct(local.p);
+}
+
+void PropagationContext::accelerate_tangents(const Eigen::MatrixXd &X, double t, LocalTangents &local)
+{
+  local.a.resize(mobility.rows(), X.cols());
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+  {
+    free_rates(X.col(k).data(), rate_.data());
+    local.a.col(k).noalias() = measures.read_v.transpose() * rate_;
+  }
+  const auto &held = system->forces().held();
+  for (const HeldMeasure &h : held)
+    local.p.row(h.measure).setZero();
+  local.a.noalias() += mobility * local.p;
+  if (held.empty())
+    return;
+  factorise_delassus(t);
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+  {
+    for (std::size_t i = 0; i < held.size(); ++i)
+      rest_[Eigen::Index(i)] = -local.a(held[i].measure, k);
+    delassus_.solve_in_place(rest_);
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      local.p(held[i].measure, k) = rest_[Eigen::Index(i)];
+      local.a.col(k) += rest_[Eigen::Index(i)] * mobility.col(held[i].measure);
+    }
+  }
+}
+
+void PropagationContext::project_held_tangents(double t, Eigen::MatrixXd &X)
+{
+  const auto &held = system->forces().held();
+  if (held.empty())
+    return;
+  factorise_delassus(t);
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+  {
+    for (std::size_t i = 0; i < held.size(); ++i)
+      rest_[Eigen::Index(i)] = -measures.read_v.col(held[i].measure).dot(X.col(k));
+    delassus_.solve_in_place(rest_);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      X.col(k) += rest_[Eigen::Index(i)] * measures.put.col(held[i].measure);
+  }
 }
 
 /// W_h^T M^-1 W_h of the held measures.

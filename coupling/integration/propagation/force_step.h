@@ -3,6 +3,7 @@
 #include "coupling/integration/propagation/force_rule.h"
 #include "coupling/integration/propagation/propagation_tables.h"
 #include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/system/motion_tangents.h"
 #include "coupling/integration/system/small_lu.h"
 
 #include <memory>
@@ -42,6 +43,13 @@ struct PropagationContext
   void accelerate(const Eigen::VectorXd &x, LocalState &local);
   /// What is left of the mobility of each measure while others are held, as a part of it: 0 for one that is held too.
   void mobile_parts(double t, Eigen::VectorXd &part);
+  /// Lambda x [2 n_p].
+  void free_rates(const double *x, double *rate) const;
+  /// Derivatives of what accelerate() finds: u'' and p into `local`, whose p
+  /// holds those of laws.
+  void accelerate_tangents(const Eigen::MatrixXd &X, double t, LocalTangents &local);
+  /// Of project_held(), for tangents: no held measure moves.
+  void project_held_tangents(double t, Eigen::MatrixXd &X);
   /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes
   /// only.
   void project_held(Eigen::VectorXd &x, LocalState &local);
@@ -84,6 +92,9 @@ public:
   virtual double interpolation_error(double /*phase*/) const { return 0.; }
   /// p_j of the basis in the step solved last [n_basis n_u].
   virtual void forces(Eigen::VectorXd &p) const = 0;
+  /// dx/ds [2 n_p x k] at the begin of the step solved last becomes that at its end.
+  /// @throws std::invalid_argument for a rule that has none
+  virtual void carry_tangents(Eigen::MatrixXd &X) = 0;
 };
 
 std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages);

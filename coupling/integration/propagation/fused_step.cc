@@ -1,6 +1,7 @@
 #include "coupling/integration/propagation/force_step.h"
 #include "coupling/integration/propagation/fused_kernel.h"
 
+#include <stdexcept>
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,11 @@ public:
     at_end_   = at;
     table_    = nullptr; // y is made when the table is known
     p_before_ = at.p;
+  }
+
+  void carry_tangents(Eigen::MatrixXd &) override
+  {
+    throw std::invalid_argument("tangents are carried with run.force = \"collocation\" only");
   }
 
   bool solve(const StepTable &table, LocalState &end) override

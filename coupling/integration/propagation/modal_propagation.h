@@ -2,6 +2,7 @@
 
 #include "coupling/integration/propagation/force_step.h"
 #include "coupling/integration/system/error_control.h"
+#include "coupling/integration/system/motion_tangents.h"
 #include "coupling/integration/system/time_integrator.h"
 
 #include <cstdint>
@@ -33,7 +34,7 @@ namespace gestell::coupling
  * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
  * the grid allows.
  */
-class ModalPropagation : public TimeIntegrator, public ErrorControl
+class ModalPropagation : public TimeIntegrator, public ErrorControl, public MotionTangents
 {
 public:
   struct Options
@@ -64,6 +65,13 @@ public:
   bool                   controls_error() const override { return options_.tolerance > 0.; }
   void                   expect(double way, double speed) override;
 
+  void          begin_tangents(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv) override;
+  void          carry_tangents() override;
+  void          jump_tangents(const Eigen::VectorXd &before, const Eigen::RowVectorXd &dt) override;
+  void          tangents(Eigen::MatrixXd &dq, Eigen::MatrixXd &dv) const override;
+  LocalTangents local_tangents() override { return local_tangents_of(X_); }
+  LocalTangents local_rates() override;
+
 private:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone
 
@@ -83,6 +91,7 @@ private:
   double                 spacing(int rung) const { return std::ldexp(step_, -rung); }
   bool                   attempt(const Target &target);
   void                   start_piece();
+  LocalTangents          local_tangents_of(const Eigen::MatrixXd &X);
   void                   turn_harmonics();
   void                   forget_inside();
   bool                   is_smooth(double h) const;
@@ -107,6 +116,7 @@ private:
   Target                     target_;
   LocalState                 local_, local_begin_;
   Eigen::VectorXd            x_;
+  Eigen::MatrixXd            X_; ///< tangents of the states [2 n_p x k]
   mutable Eigen::VectorXd    x_work_, x_inside_, forces_;
   mutable LocalState         held_; ///< scratch of hold_rates()
   mutable Instant            now_;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/// Derivatives of the measures' motion and forces, [n_u x k] each.
+struct LocalTangents
+{
+  Eigen::MatrixXd u, v, a, p;
+};
+
+/**
+ * What integrators have besides that carry tangents: derivatives of the motion with respect to k numbers that its start
+ * depends on, dq/ds and dq'/ds [n x k], exactly those of the steps that are made, with the matrix of these steps.
+ *
+ * Whoever drives the integrator carries them along:
+ *
+ *     begin_tangents(dq, dv)     behind TimeIntegrator::begin()
+ *     carry_tangents()           behind every step or part of one, before it is accepted
+ *     jump_tangents(...)         behind a transition and the restart after it
+ */
+class MotionTangents
+{
+public:
+  virtual ~MotionTangents() = default;
+
+  virtual void begin_tangents(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv) = 0;
+  virtual void carry_tangents()                                                     = 0;
+
+  /// Forces jump from `before` to those of local(), at a time that depends on the start too: dt [1 x k] (saltation).
+  ///     dx' = (x'_before - x'_behind) dt
+  virtual void jump_tangents(const Eigen::VectorXd &before, const Eigen::RowVectorXd &dt) = 0;
+
+  virtual void          tangents(Eigen::MatrixXd &dq, Eigen::MatrixXd &dv) const = 0; ///< here
+  virtual LocalTangents local_tangents()                                         = 0; ///< here
+  /// The derivative with respect to time, k = 1, but for what laws tell of the time itself.
+  virtual LocalTangents local_rates() = 0;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,288 @@
+#include "coupling/periodic/period_flow.h"
+
+#include "coupling/integration/integration_methods.h"
+#include "coupling/integration/system/dense_solvers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double longest_step = 1. / 32.; ///< of a period
+constexpr double fine         = 1e-11;    ///< tolerance of steps where none is given
+constexpr double small_way    = 1e-5;     ///< over which gradients of guards are taken, of the largest motion so far
+constexpr double touching     = 1e-6;     ///< slope of a guard, of what the motion could give it
+constexpr double rounding     = 1e-12;    ///< of a period: the end is reached
+
+/// What is not said of the integration.
+MethodOptions completed(const MethodOptions &given, double period)
+{
+  MethodOptions options = given;
+  if (!(options.step > 0.) && !(options.tolerance > 0.))
+    options.tolerance = fine;
+  if (!(options.step > 0.) || options.step > longest_step * period)
+    options.step = longest_step * period;
+  return options;
+}
+} // namespace
+
+PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration)
+    : problem_(problem), system_(*problem.system), integration_(completed(integration, problem.period)),
+      integrator_(make_integrator(system_, integration_)), tangents_(dynamic_cast<MotionTangents *>(integrator_.get()))
+{
+  local_look_.resize(system_);
+  q_look_.setZero(system_.linear().size());
+  v_look_ = q_look_;
+}
+
+PeriodFlow::~PeriodFlow() = default;
+
+void PeriodFlow::look_on(int samples, std::function<void(const OrbitPoint &)> look)
+{
+  samples_ = samples;
+  look_    = std::move(look);
+}
+
+void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool tangents)
+{
+  if (tangents && !tangents_)
+    throw std::invalid_argument(method_name(integration_) + " carries no tangents; take exact, collocation");
+  EventOptions options;
+  options.end      = end;
+  driver_          = std::make_unique<EventDriver>(system_, *integrator_, options);
+  passage_         = {};
+  passage_.q_begin = q;
+  passage_.v_begin = v;
+  passage_.fastest = v.norm();
+  carries_         = tangents;
+  end_             = end;
+  shown_           = 0;
+  t_event_         = -std::numeric_limits<double>::infinity();
+  for (VectorXd &largest : largest_)
+    largest.setZero(system_.forces().directions().cols());
+  driver_->begin(problem_.begin, q, v);
+  if (tangents)
+  {
+    const Index n = q.size();
+    MatrixXd    dq(n, 2 * n), dv(n, 2 * n);
+    dq << MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
+    dv << MatrixXd::Zero(n, n), MatrixXd::Identity(n, n);
+    tangents_->begin_tangents(dq, dv);
+  }
+  driver_->on_step([this] { at_step(); });
+  driver_->on_guard([this](int guard) { at_guard(guard); });
+  driver_->on_event([this](const Event &) { at_event(); });
+}
+
+const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, double period, bool tangents)
+{
+  const IntegrationWork before = integrator_->work();
+  begin(q, v, problem_.begin + period, tangents);
+  while (integrator_->time() < end_ - rounding * period)
+    driver_->advance();
+  passage_.period = period;
+  passage_.q      = integrator_->instant().q;
+  passage_.v      = integrator_->instant().v;
+  finish(before);
+  return passage_;
+}
+
+const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v, double longest)
+{
+  const IntegrationWork before = integrator_->work();
+  const int             phase  = problem_.phase;
+  const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase];
+  begin(q, v, problem_.begin + longest, false);
+  bool there = false;
+  driver_->on_step(
+      [&]
+      {
+        at_step();
+        // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction.
+        const auto past = [&](double t)
+        {
+          integrator_->interpolate(t, q_look_, v_look_);
+          return q_look_[phase] - target;
+        };
+        double low = integrator_->step_begin(), high = integrator_->time();
+        if (there || !(high > low) || !(past(low) < 0.) || !(past(high) >= 0.))
+          return;
+        for (int k = 0; k < 60 && high - low > 1e-15 * (high - problem_.begin); ++k)
+        {
+          const double middle              = 0.5 * (low + high);
+          (past(middle) < 0. ? low : high) = middle;
+        }
+        past(high);
+        there           = true;
+        passage_.period = high - problem_.begin;
+        passage_.q      = q_look_;
+        passage_.v      = v_look_;
+      });
+  while (!there && integrator_->time() < end_ - rounding * longest)
+    driver_->advance();
+  finish(before);
+  if (there)
+    return passage_;
+  std::ostringstream text;
+  text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not come round in " << longest
+       << " s: it goes from " << from << " to " << integrator_->instant().q[phase] << ", a period ends at " << target;
+  throw NoPeriodicMotion(text.str());
+}
+
+void PeriodFlow::finish(const IntegrationWork &before)
+{
+  passage_.events              = driver_->events();
+  const IntegrationWork &now   = integrator_->work();
+  passage_.work.steps          = now.steps - before.steps;
+  passage_.work.rejected       = now.rejected - before.rejected;
+  passage_.work.newton         = now.newton - before.newton;
+  passage_.work.factorisations = now.factorisations - before.factorisations;
+  passage_.work.solves         = now.solves - before.solves;
+  passage_.work.evaluations    = now.evaluations - before.evaluations;
+  if (driver_->chattering_steps() > 0)
+    passage_.chattering = driver_->chattering_time() / (end_ - problem_.begin);
+  if (!carries_)
+    return;
+  const Index n = passage_.q_begin.size();
+  MatrixXd    dq, dv;
+  tangents_->tangents(dq, dv);
+  passage_.monodromy.resize(2 * n, 2 * n);
+  passage_.monodromy << dq, dv;
+}
+
+const VectorXd &PeriodFlow::end_acceleration()
+{
+  const LinearSystem &linear = system_.linear();
+  if (!mass_)
+    mass_ = linear.factorise(1., 0., 0.);
+  const LocalState &local = integrator_->local();
+  const Instant    &now   = integrator_->instant();
+  VectorXd          f(now.q.size()), product(now.q.size());
+  linear.excitation().at(local.t, f);
+  linear.damping_times(now.v, product);
+  f -= product;
+  linear.stiffness_times(now.q, product);
+  f -= product;
+  f += system_.forces().directions() * local.p;
+  acceleration_.resize(f.size());
+  mass_->solve(f, acceleration_);
+  return acceleration_;
+}
+
+/// A step was made; its dense output and its history are there.
+void PeriodFlow::at_step()
+{
+  const LocalState &local = integrator_->local();
+  if (carries_)
+    tangents_->carry_tangents();
+  largest_[0]      = largest_[0].cwiseMax(local.u.cwiseAbs());
+  largest_[1]      = largest_[1].cwiseMax(local.v.cwiseAbs());
+  largest_[2]      = largest_[2].cwiseMax(local.a.cwiseAbs());
+  largest_[3]      = largest_[3].cwiseMax(local.p.cwiseAbs());
+  passage_.fastest = std::max(passage_.fastest, integrator_->instant().v.norm());
+  if (samples_ > 0)
+    show(integrator_->time());
+}
+
+void PeriodFlow::show(double until)
+{
+  for (; shown_ <= samples_; ++shown_)
+  {
+    const double t    = problem_.begin + (end_ - problem_.begin) * shown_ / samples_;
+    const bool   last = shown_ == samples_ && until >= end_ - rounding * (end_ - problem_.begin);
+    if (t > until && !last)
+      return;
+    const double at = std::clamp(t, integrator_->step_begin(), until);
+    integrator_->interpolate(at, local_look_);
+    integrator_->interpolate(at, q_look_, v_look_);
+    look_({at, q_look_, v_look_, local_look_});
+  }
+}
+
+/// Gradient of a guard in u, v, a, p [n_u x 4], and its derivative with respect to the time alone; by differences,
+/// which are exact for the linear functions that nearly all guards are.
+void PeriodFlow::find_slopes(int guard, MatrixXd &gradient, double &partial)
+{
+  const EventSystem &events = system_.events();
+  LocalState         at     = integrator_->local();
+  VectorXd           g      = VectorXd::Zero(events.n_guards());
+  const auto         slope  = [&](double &x, double way)
+  {
+    const double here = x;
+    x                 = here + way;
+    const double up   = x;
+    events.guard_values(at, g);
+    const double above = g[guard];
+    x                  = here - way;
+    const double down  = x;
+    events.guard_values(at, g);
+    x = here;
+    return (above - g[guard]) / (up - down);
+  };
+  VectorXd *const parts[] = {&at.u, &at.v, &at.a, &at.p};
+  for (int part = 0; part < 4; ++part)
+    for (Index i = 0; i < gradient.rows(); ++i)
+    {
+      const double largest = largest_[part][i];
+      gradient(i, part)    = slope((*parts[part])[i], largest > 0. ? small_way * largest : small_way);
+    }
+  partial = slope(at.t, small_way * problem_.period);
+}
+
+void PeriodFlow::at_guard(int guard)
+{
+  if (!carries_)
+    return;
+  before_ = integrator_->local().p;
+  jumps_  = true;
+  if (integrator_->time() == t_event_)
+    return; // follows at once from the event before: its time moves with it
+  t_event_ = integrator_->time();
+  MatrixXd gradient(before_.size(), 4);
+  double   partial = 0.;
+  find_slopes(guard, gradient, partial);
+  const auto along = [&](const LocalTangents &x) -> Eigen::RowVectorXd
+  {
+    return gradient.col(0).transpose() * x.u + gradient.col(1).transpose() * x.v + gradient.col(2).transpose() * x.a +
+           gradient.col(3).transpose() * x.p;
+  };
+  const double rate  = partial + along(tangents_->local_rates())[0];
+  double       could = std::abs(partial);
+  for (int part = 0; part < 3; ++part)
+    could += (gradient.col(part).cwiseAbs().array() * largest_[part + 1].array()).sum();
+  dt_ = Eigen::RowVectorXd::Zero(2 * passage_.q_begin.size());
+  if (!gradient.isZero(0.) && std::abs(rate) > touching * could)
+    dt_ = along(tangents_->local_tangents()) / -rate;
+  else if (!gradient.isZero(0.))
+  {
+    const ActiveGuard active = system_.events().guard(guard);
+    passage_.grazing.push_back(active.name + ", " + active.kind);
+  }
+}
+
+void PeriodFlow::at_event()
+{
+  if (!carries_ || !jumps_)
+    return;
+  jumps_ = false;
+  tangents_->jump_tangents(before_, dt_);
+}
+
+Eigen::VectorXcd multipliers_of(const MatrixXd &monodromy)
+{
+  Eigen::VectorXcd values = GeneralEigenSolver(monodromy, WithVectors::no).eigenvalues();
+  std::sort(values.data(), values.data() + values.size(),
+            [](const auto &a, const auto &b)
+            { return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag(); });
+  return values;
+}
+
+} // namespace gestell::coupling

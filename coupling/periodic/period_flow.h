@@ -1,0 +1,94 @@
+#pragma once
+
+#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/system/motion_tangents.h"
+#include "coupling/periodic/periodic_solution.h"
+
+#include <memory>
+
+namespace gestell::coupling
+{
+
+/// Where a start leads in one period.
+struct PeriodPassage
+{
+  double                   period = 0.;      ///< T [s]
+  Eigen::VectorXd          q_begin, v_begin; ///< [n]
+  Eigen::VectorXd          q, v;             ///< at t_0 + T [n]
+  double                   fastest = 0.;     ///< max_t sqrt(sum_k q'_k^2)
+  Eigen::MatrixXd          monodromy;        ///< d(q, q')(T)/d(q, q')(0) [2n x 2n]; empty: not asked for
+  std::vector<Event>       events;
+  std::vector<std::string> grazing;         ///< events whose guard touches its zero rather than crosses it
+  double                   chattering = 0.; ///< share of the period gone over with more events than are located
+  IntegrationWork          work;
+};
+
+/**
+ * The motion over one period of a problem, with the derivative of its end with respect to its start.
+ *
+ * Tangents ride with the integrator (MotionTangents).  At an event with guard g, located at t*, the time of the switch
+ * moves with the start,
+ *
+ *     dt* = -(grad g . dx)/g',     dx_behind = dx_before + (x'_before - x'_behind) dt*,
+ *
+ * the saltation matrix (Aizerman, Gantmakher 1958; Mueller 1995).  Transitions that follow at the same instant share
+ * dt*.  Where g' is zero beside what the motion moves, the guard is touched only: dt* is left out, and told.
+ */
+class PeriodFlow
+{
+public:
+  /// @throws std::invalid_argument as the integrator
+  PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration);
+  ~PeriodFlow();
+
+  bool has_tangents() const { return tangents_ != nullptr; }
+
+  /// Over `period`.
+  /// @throws ConvergenceFailure, std::invalid_argument if tangents are asked for and the integrator has none
+  const PeriodPassage &pass(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period, bool tangents);
+  /// Until the coordinate `phase` of the problem has come to its value and its turn; at most `longest` [s].
+  /// @throws ConvergenceFailure, NoPeriodicMotion if it does not come there
+  const PeriodPassage &pass_turn(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double longest);
+
+  const PeriodPassage &passage() const { return passage_; }
+  /// q'' at the end of the last passage [n].
+  const Eigen::VectorXd &end_acceleration();
+
+  /// `look` is called at samples + 1 instants of every passage.
+  void look_on(int samples, std::function<void(const OrbitPoint &)> look);
+
+private:
+  void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double end, bool tangents);
+  void finish(const IntegrationWork &before);
+  void at_step();
+  void at_guard(int guard);
+  void at_event();
+  void find_slopes(int guard, Eigen::MatrixXd &gradient, double &partial);
+  void show(double until);
+
+  const PeriodicProblem                  &problem_;
+  SecondOrderSystem                      &system_;
+  MethodOptions                           integration_;
+  std::unique_ptr<TimeIntegrator>         integrator_;
+  MotionTangents                         *tangents_ = nullptr;
+  std::unique_ptr<EventDriver>            driver_;
+  PeriodPassage                           passage_;
+  bool                                    carries_ = false;
+  bool                                    jumps_   = false; ///< a transition is under way
+  double                                  end_     = 0.;
+  Eigen::RowVectorXd                      dt_; ///< of the event under way
+  double                                  t_event_ = 0.;
+  Eigen::VectorXd                         before_;     ///< forces before it
+  Eigen::VectorXd                         largest_[4]; ///< |u|, |v|, |a|, |p| so far
+  std::unique_ptr<LinearSolver>           mass_;
+  Eigen::VectorXd                         acceleration_;
+  int                                     samples_ = 0, shown_ = 0;
+  std::function<void(const OrbitPoint &)> look_;
+  Eigen::VectorXd                         q_look_, v_look_;
+  LocalState                              local_look_;
+};
+
+/// Floquet multipliers: eigenvalues of the monodromy matrix, largest first.
+Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd &monodromy);
+
+} // namespace gestell::coupling

@@ -1,0 +1,30 @@
+#include "coupling/periodic/periodic_methods.h"
+
+#include "coupling/periodic/minimising.h"
+#include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting.h"
+
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+const std::vector<const PeriodicMethod *> &periodic_methods()
+{
+  static const std::vector<const PeriodicMethod *> all = {&shooting_method(), &minimising_method(), &settling_method()};
+  return all;
+}
+
+const PeriodicMethod &periodic_method(const std::string &name)
+{
+  std::string names;
+  for (const PeriodicMethod *method : periodic_methods())
+  {
+    if (method->name() == name)
+      return *method;
+    names += (names.empty() ? "" : ", ") + method->name();
+  }
+  throw std::invalid_argument("there is no periodic method \"" + name + "\"; there are " + names);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "coupling/periodic/periodic_method.h"
+
+namespace gestell::coupling
+{
+
+/// All ways to periodic motions.
+const std::vector<const PeriodicMethod *> &periodic_methods();
+
+/// @throws std::invalid_argument for a name there is not
+const PeriodicMethod &periodic_method(const std::string &name);
+
+} // namespace gestell::coupling

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "coupling/integration/method_options.h"
+#include "coupling/integration/system/second_order_system.h"
+
+#include <Eigen/Core>
+
+#include <atomic>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+/**
+ * What is to repeat (5.5.4/1):
+ *
+ *     q(t_0 + T) = q(t_0) + turn,     q'(t_0 + T) = q'(t_0),
+ *
+ * turn [n] being whole turns [rad] of angles and zero for all else.  Where nothing depends on the time, T is unknown
+ * too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) = phase_value.
+ *
+ * What elements remember starts anew at t_0 and in every period after it, as when a press is fed.
+ */
+struct PeriodicProblem
+{
+  SecondOrderSystem *system = nullptr;
+  double             begin  = 0.; ///< t_0 [s]
+  double             period = 0.; ///< T [s]; a first guess where it is unknown
+  int                ratio  = 1;  ///< T in periods of the excitation: of a subharmonic motion above 1
+  Eigen::VectorXd    turn;        ///< [n] [rad]
+  int                phase       = -1;
+  double             phase_value = 0.; ///< [rad] or [m]
+
+  bool period_is_unknown() const { return phase >= 0; }
+};
+
+/// What all methods obey; each takes what it knows.
+struct PeriodicOptions
+{
+  double                   tolerance     = 1e-10; ///< of PeriodicSolution::residual
+  int                      iterations    = 40;    ///< of Newton's method
+  int                      lead_in       = 10;    ///< periods integrated before Newton's method begins
+  MethodOptions            integration   = options_of("exact", 8).with("force", "collocation");
+  int                      harmonics     = 0;   ///< H; 0: chosen from the residual
+  int                      starts        = 64;  ///< of searches from many starts
+  int                      periods       = 500; ///< most of them that settling integrates
+  double                   extra_damping = 0.;  ///< of settling, at first: share of critical in every mode
+  const std::atomic<bool> *stop          = nullptr;
+
+  bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
+};
+
+/// There is no such motion, or the method does not come to it; the message tells the place and what serves instead.
+struct NoPeriodicMotion : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,212 @@
+#include "coupling/periodic/settling.h"
+
+#include "coupling/integration/integration_methods.h"
+#include "coupling/integration/propagation/modal_blocks.h"
+#include "coupling/periodic/raised_damping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::VectorXd;
+
+constexpr double near_enough = 0.01; ///< closing error at which the lead-in ends
+constexpr double turn_margin = 3.;   ///< of the period expected, within which an angle comes round
+constexpr double kick        = 0.5;  ///< of the velocities, for the second start
+constexpr double same        = 1e-4; ///< distance of two motions, of their size, within which they are one
+
+/// One period; the state behind it, whole turns taken off, becomes the next start.
+double one_period(PeriodFlow &flow, const PeriodicProblem &problem, PeriodicGuess &at)
+{
+  const double         expected = at.period > 0. ? at.period : problem.period;
+  const PeriodPassage &passage  = problem.period_is_unknown() ? flow.pass_turn(at.q, at.v, turn_margin * expected)
+                                                              : flow.pass(at.q, at.v, problem.period, false);
+  const VectorXd       q        = passage.q - problem.turn;
+  const double         error = closing_error(q - at.q, passage.v - at.v, 2. * M_PI / passage.period, passage.fastest);
+  at                         = {q, passage.v, passage.period};
+  return error;
+}
+
+struct Settled
+{
+  PeriodicGuess at;
+  int           periods = 0;
+  double        error = 1., contraction = 1.;
+  PeriodicWork  work;
+};
+
+/// From `at` until the motion closes to `tolerance`, or `most` periods.
+Settled settle(const PeriodicProblem &problem, const PeriodicGuess &from, const PeriodicOptions &options,
+               double tolerance, int most)
+{
+  PeriodFlow flow(problem, options.integration);
+  Settled    settled;
+  settled.at   = from;
+  double first = 1.;
+  while (settled.periods < most && settled.error > tolerance && !options.interrupted())
+  {
+    const double before = settled.error;
+    settled.error       = one_period(flow, problem, settled.at);
+    settled.work.add({0, 1, flow.passage().work});
+    ++settled.periods;
+    if (settled.error < near_enough && first == 1.)
+      first = settled.error;
+    settled.contraction = settled.error / before;
+  }
+  return settled;
+}
+
+/// With damping raised at first, and set back.
+Settled settle_damped(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicOptions &options)
+{
+  constexpr double levels[] = {1., 0.3, 0.1};
+  Settled          all;
+  all.at       = guess;
+  double omega = 0.;
+  for (const SpectrumLine &line : problem.system->linear().spectrum())
+    if (line.omega > 0. && (omega == 0. || line.omega < omega))
+      omega = line.omega;
+  for (const double level : levels)
+  {
+    if (!(options.extra_damping > 0.) || omega == 0.)
+      break;
+    RaisedDamping   damped(*problem.system, 2. * level * options.extra_damping / omega);
+    PeriodicProblem harder = problem;
+    harder.system          = &damped;
+    const Settled part     = settle(harder, all.at, options, near_enough, options.periods);
+    all.at                 = part.at;
+    all.periods += part.periods;
+    all.work.add(part.work);
+  }
+  const Settled last = settle(problem, all.at, options, options.tolerance, options.periods);
+  all.at             = last.at;
+  all.periods += last.periods;
+  all.work.add(last.work);
+  all.error       = last.error;
+  all.contraction = last.contraction;
+  return all;
+}
+
+/// The passage that the settled motion is, with multipliers where the integrator tells them.
+PeriodicSolution told(const PeriodicProblem &problem, const Settled &settled, const PeriodicOptions &options)
+{
+  PeriodFlow           flow(problem, options.integration);
+  const double         period  = problem.period_is_unknown() ? settled.at.period : problem.period;
+  const PeriodPassage &passage = flow.pass(settled.at.q, settled.at.v, period, flow.has_tangents());
+  PeriodicSolution     solution;
+  solution.begin       = problem.begin;
+  solution.period      = period;
+  solution.ratio       = problem.ratio;
+  solution.q           = settled.at.q;
+  solution.v           = settled.at.v;
+  solution.turn        = problem.turn;
+  solution.residual    = closing_error(passage.q - passage.q_begin - problem.turn, passage.v - passage.v_begin,
+                                       2. * M_PI / period, passage.fastest);
+  solution.events      = passage.events;
+  solution.method      = "settling";
+  solution.integration = options.integration;
+  solution.work        = settled.work;
+  solution.work.add({0, 1, passage.work});
+  solution.trivial_multiplier = problem.period_is_unknown() && flow.has_tangents();
+  if (flow.has_tangents())
+    solution.multipliers = multipliers_of(passage.monodromy);
+  else
+  {
+    solution.multipliers = Eigen::VectorXcd::Constant(1, std::min(settled.contraction, 1. - 1e-9));
+    solution.notes.push_back("the multiplier is estimated from how the last periods came nearer: " +
+                             method_name(options.integration) + " carries no tangents");
+  }
+  solution.notes.push_back("settled in " + std::to_string(settled.periods) + " periods");
+  return solution;
+}
+
+[[noreturn]] void not_settled(const Settled &settled, const PeriodicProblem &problem)
+{
+  std::ostringstream text;
+  text << "the motion does not repeat after " << settled.periods << " periods of " << problem.period
+       << " s: it still misses by " << settled.error << " of its speed";
+  if (settled.contraction > 0.9 && settled.contraction < 1.)
+    text << ", and comes nearer by " << 100. * (1. - settled.contraction)
+         << " % a period; let it settle longer, or take --method shooting";
+  else
+    text << " and comes no nearer: it may repeat after several periods (--ratio 2, 3 ...), or never";
+  throw NoPeriodicMotion(text.str());
+}
+
+class Settling final : public PeriodicMethod
+{
+public:
+  std::string name() const override { return "settling"; }
+  std::string meaning() const override
+  {
+    return "Integrates period by period until (5.5.4/1) holds, with damping that may be raised at first; a second "
+           "start "
+           "looks for another motion.";
+  }
+  std::string refuses(const PeriodicProblem &) const override { return ""; }
+
+  std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
+                                      const PeriodicOptions &options) const override
+  {
+    const Settled first = settle_damped(problem, guess, options);
+    if (!(first.error <= options.tolerance))
+      not_settled(first, problem);
+    std::vector<PeriodicSolution> found = {told(problem, first, options)};
+    PeriodicGuess                 other = first.at;
+    other.v *= 1. + kick;
+    if (problem.period_is_unknown())
+      return found; // a drive that is kicked only needs long to come back
+    const Settled second = settle(problem, other, options, options.tolerance, options.periods);
+    if (second.error <= options.tolerance && !alike(first.at, second.at, problem))
+      found.push_back(told(problem, second, options));
+    else
+      found[0].notes.push_back("a second start, half as fast again, settled " +
+                               std::string(second.error <= options.tolerance ? "to the same motion" : "nowhere"));
+    return found;
+  }
+
+private:
+  static bool alike(const PeriodicGuess &a, const PeriodicGuess &b, const PeriodicProblem &problem)
+  {
+    const double omega = 2. * M_PI / problem.period;
+    const double size  = std::sqrt(omega * omega * a.q.squaredNorm() + a.v.squaredNorm());
+    return std::sqrt(omega * omega * (a.q - b.q).squaredNorm() + (a.v - b.v).squaredNorm()) <= same * size;
+  }
+};
+
+} // namespace
+
+std::string why_not_propagated(const SecondOrderSystem &system, const std::string &instead)
+{
+  try
+  {
+    modal_blocks(system);
+    return "";
+  }
+  catch (const std::invalid_argument &reason)
+  {
+    return std::string(reason.what()) + "; --method " + instead + " takes it";
+  }
+}
+
+void lead_in(PeriodFlow &flow, const PeriodicProblem &problem, const PeriodicOptions &options, PeriodicGuess &guess)
+{
+  if (!(guess.period > 0.))
+    guess.period = problem.period;
+  for (int k = 0; k < options.lead_in && !options.interrupted(); ++k)
+    if (one_period(flow, problem, guess) < near_enough)
+      return;
+}
+
+const PeriodicMethod &settling_method()
+{
+  static const Settling method;
+  return method;
+}
+
+} // namespace gestell::coupling

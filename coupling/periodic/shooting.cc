@@ -1,0 +1,221 @@
+#include "coupling/periodic/shooting.h"
+
+#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/settling.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int    most_halvings = 12;
+constexpr double as_integrated = 1e-7;  ///< closing error that rounding and the steps' tolerance may leave at worst
+constexpr double free_to_move  = 1e-11; ///< singular value of Phi - E, of the largest
+} // namespace
+
+ShootingEquations::ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration)
+    : problem_(problem), integration_(integration), flow_(problem, integration), omega_(2. * M_PI / problem.period)
+{
+}
+
+VectorXd ShootingEquations::unknowns(const VectorXd &q, const VectorXd &v, double period) const
+{
+  const Index n = q.size();
+  VectorXd    z(2 * n + (problem_.period_is_unknown() ? 1 : 0));
+  z.head(n)       = omega_ * q;
+  z.segment(n, n) = v;
+  if (problem_.period_is_unknown())
+    z[2 * n] = period;
+  return z;
+}
+
+const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobian)
+{
+  const Index  n      = problem_.turn.size();
+  const double period = problem_.period_is_unknown() ? z[2 * n] : problem_.period;
+  if (!(period > 0.))
+    throw ConvergenceFailure("Newton's method asks for a period that is not positive");
+  const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, jacobian);
+  ++passages_;
+  PeriodicWork sum{0, 0, work_};
+  sum.add({0, 1, passage.work});
+  work_ = sum.integration;
+
+  const VectorXd dq = passage.q - passage.q_begin - problem_.turn, dv = passage.v - passage.v_begin;
+  residual_.setZero(z.size());
+  residual_.head(n)       = omega_ * dq;
+  residual_.segment(n, n) = dv;
+  closing_                = closing_error(dq, dv, 2. * M_PI / period, passage.fastest);
+  if (!jacobian)
+    return passage;
+  jacobian_.setZero(z.size(), z.size());
+  jacobian_.topLeftCorner(2 * n, 2 * n) = passage.monodromy - MatrixXd::Identity(2 * n, 2 * n);
+  jacobian_.block(0, n, n, n) *= omega_;
+  jacobian_.block(n, 0, n, n) /= omega_;
+  if (!problem_.period_is_unknown())
+    return passage;
+  jacobian_.col(2 * n).head(n)       = omega_ * passage.v;
+  jacobian_.col(2 * n).segment(n, n) = flow_.end_acceleration();
+  jacobian_(2 * n, problem_.phase)   = 1.;
+  residual_[2 * n]                   = z[problem_.phase] - omega_ * problem_.phase_value;
+  return passage;
+}
+
+PeriodicSolution ShootingEquations::solution(const std::string &method) const
+{
+  const PeriodPassage &passage = flow_.passage();
+  PeriodicSolution     solution;
+  solution.begin              = problem_.begin;
+  solution.period             = passage.period;
+  solution.ratio              = problem_.ratio;
+  solution.q                  = passage.q_begin;
+  solution.v                  = passage.v_begin;
+  solution.turn               = problem_.turn;
+  solution.residual           = closing_;
+  solution.events             = passage.events;
+  solution.method             = method;
+  solution.integration        = integration_;
+  solution.trivial_multiplier = problem_.period_is_unknown();
+  solution.work               = {0, passages_, work_};
+  if (passage.monodromy.size() > 0)
+    solution.multipliers = multipliers_of(passage.monodromy);
+  for (const std::string &event : passage.grazing)
+    solution.notes.push_back("grazing: " + event +
+                             ": the motion touches this event rather than crosses it; stability "
+                             "is that of the motion on one side");
+  if (passage.chattering > 0.)
+    solution.notes.push_back("chatter: events in " + std::to_string(100. * passage.chattering) +
+                             " % of the period were gone over; its derivative leaves them out");
+  return solution;
+}
+
+namespace
+{
+
+/// What moves most in the motion that Phi - E leaves free; empty: none.
+std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
+{
+  const SymmetricEigenSolver squares(jacobian.transpose() * jacobian);
+  if (squares.eigenvalues()[0] > free_to_move * free_to_move * squares.eigenvalues().tail(1)[0])
+    return "";
+  const Index n = linear.size();
+  Index       most;
+  squares.eigenvectors().col(0).head(2 * n).cwiseAbs().maxCoeff(&most);
+  return linear.coordinate_name(int(most % n));
+}
+
+[[noreturn]] void give_up(const ShootingEquations &equations, const PeriodicProblem &problem, int iterations)
+{
+  std::ostringstream text;
+  text << "shooting does not close the motion: after " << iterations << " Newton steps it still misses by "
+       << equations.closing() << " of its speed";
+  if (equations.jacobian().size() > 0)
+    if (const std::string free = free_motion(equations.jacobian(), problem.system->linear()); !free.empty())
+      text << "; nothing determines the motion of " << free << ": hold it by a spring, or give it a drive";
+  text << "; begin nearer to it (more periods of lead-in), or try --method settling or minimise";
+  throw NoPeriodicMotion(text.str());
+}
+
+/// z - damping dz with the least damping that closes better.
+bool step_closer(ShootingEquations &equations, VectorXd &z, const VectorXd &dz)
+{
+  const double before = equations.residual().norm();
+  double       part   = 1.;
+  for (int k = 0; k < most_halvings; ++k, part *= 0.5)
+  {
+    const VectorXd next = z - part * dz;
+    try
+    {
+      equations.evaluate(next, true);
+      if (equations.residual().norm() < (1. - 0.1 * part) * before)
+      {
+        z = next;
+        return true;
+      }
+    }
+    catch (const ConvergenceFailure &)
+    {
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, VectorXd z,
+                       const PeriodicOptions &options)
+{
+  equations.evaluate(z, true);
+  int iteration = 0;
+  for (; iteration < options.iterations && equations.closing() > options.tolerance && !options.interrupted();
+       ++iteration)
+  {
+    const VectorXd dz = equations.jacobian().partialPivLu().solve(equations.residual());
+    if (!dz.allFinite())
+      give_up(equations, problem, iteration);
+    if (!step_closer(equations, z, dz))
+    {
+      equations.evaluate(z, true);
+      break;
+    }
+  }
+  if (!(equations.closing() <= std::max(options.tolerance, as_integrated)))
+    give_up(equations, problem, iteration);
+  PeriodicSolution solution = equations.solution("shooting");
+  solution.work.iterations  = iteration;
+  if (equations.closing() > options.tolerance)
+  {
+    std::ostringstream text;
+    text << "the motion closes to " << equations.closing() << " of its speed, not to " << options.tolerance
+         << ": what the integration leaves; give it a smaller tolerance";
+    solution.notes.push_back(text.str());
+  }
+  return solution;
+}
+
+namespace
+{
+
+class Shooting final : public PeriodicMethod
+{
+public:
+  std::string name() const override { return "shooting"; }
+  std::string meaning() const override
+  {
+    return "Newton's method on q(T) - q(0), q'(T) - q'(0) (5.5.4/1), its matrix by tangents that ride with the "
+           "integrator, through events by saltation.";
+  }
+  std::string refuses(const PeriodicProblem &problem) const override
+  {
+    return why_not_propagated(*problem.system, "settling");
+  }
+
+  std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
+                                      const PeriodicOptions &options) const override
+  {
+    ShootingEquations equations(problem, options.integration);
+    PeriodicGuess     near = guess;
+    lead_in(equations.flow(), problem, options, near);
+    return {shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options)};
+  }
+};
+
+} // namespace
+
+const PeriodicMethod &shooting_method()
+{
+  static const Shooting method;
+  return method;
+}
+
+} // namespace gestell::coupling

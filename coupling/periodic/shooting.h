@@ -1,0 +1,61 @@
+#pragma once
+
+#include "coupling/periodic/period_flow.h"
+#include "coupling/periodic/periodic_method.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * The equations of shooting for one problem, unknowns z = (Omega q, q') at t_0 [2n], and T behind them [s] where it is
+ * unknown:
+ *
+ *     r(z) = (Omega (q(T) - q(0) - turn), q'(T) - q'(0)),     dr/dz = S (Phi - E) S^-1,  dr/dT = (Omega q'(T), q''(T)),
+ *
+ * Phi the monodromy matrix, S = diag(Omega, 1).  Where T is unknown a last row keeps the phase: q_phase(0) = given.
+ */
+class ShootingEquations
+{
+public:
+  ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration);
+
+  PeriodFlow &flow() { return flow_; }
+
+  Eigen::VectorXd unknowns(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period) const;
+  /// Integrates one period from z.  @throws ConvergenceFailure
+  const PeriodPassage &evaluate(const Eigen::VectorXd &z, bool jacobian);
+
+  const Eigen::VectorXd &residual() const { return residual_; } ///< r(z), the last of them zero for the phase
+  const Eigen::MatrixXd &jacobian() const { return jacobian_; }
+  double                 closing() const { return closing_; } ///< closing_error()
+  long                   passages() const { return passages_; }
+  const IntegrationWork &work() const { return work_; }
+
+  /// The solution that the last evaluation is, with the multipliers of its monodromy matrix if it has one.
+  PeriodicSolution solution(const std::string &method) const;
+
+private:
+  const PeriodicProblem &problem_;
+  MethodOptions          integration_;
+  PeriodFlow             flow_;
+  double                 omega_; ///< Omega of the scaling: that of the problem's period
+  Eigen::VectorXd        residual_;
+  Eigen::MatrixXd        jacobian_;
+  double                 closing_  = 0.;
+  long                   passages_ = 0;
+  IntegrationWork        work_;
+};
+
+/**
+ * Newton's method from z, each step halved until the motion closes better.
+ *
+ * @throws NoPeriodicMotion if it stops before closing() is below the tolerance, naming what moves freely where the
+ * matrix is singular; ConvergenceFailure
+ */
+PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, Eigen::VectorXd z,
+                       const PeriodicOptions &options);
+
+/// Newton on the motion over one period (5.5.4/1), after some periods of lead-in.
+const PeriodicMethod &shooting_method();
+
+} // namespace gestell::coupling
