@@ -1,6 +1,7 @@
 #include "apps/output/result_files.h"
 
 #include "apps/output/tables/modes_along_table.h"
+#include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 
 namespace gestell::apps
@@ -28,7 +29,37 @@ std::string along_shapes(const Result &result)
   return result.along ? modes_along_shapes_csv(*result.along, result.coordinate_names) : "";
 }
 
+std::string solutions(const Result &result)
+{
+  return result.periodic ? solutions_csv(*result.periodic) : "";
+}
+
+std::string multipliers(const Result &result)
+{
+  return result.periodic ? multipliers_csv(*result.periodic) : "";
+}
+
+std::string special_points(const Result &result)
+{
+  return result.periodic ? special_points_csv(*result.periodic) : "";
+}
+
+std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
+{
+  return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
+}
+
 } // namespace
+
+bool ResultFile::has_name(const std::string &file) const
+{
+  const auto star = name.find('*');
+  if (star == std::string::npos)
+    return file == name;
+  const std::string begin = name.substr(0, star), end = name.substr(star + 1);
+  return file.size() > begin.size() + end.size() && file.compare(0, begin.size(), begin) == 0 &&
+         file.compare(file.size() - end.size(), end.size(), end) == 0;
+}
 
 const std::vector<ResultFile> &result_files()
 {
@@ -37,6 +68,10 @@ const std::vector<ResultFile> &result_files()
       {"modes.csv", "natural frequencies, damping, effective masses", modes},
       {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
       {"modes_along_shapes.csv", "the shapes to them", along_shapes},
+      {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},
+      {"multipliers.csv", "their Floquet multipliers", multipliers},
+      {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
+      {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},
       {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
       {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},

@@ -3,6 +3,7 @@
 #include "apps/output/values/result.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gestell::apps
@@ -16,6 +17,10 @@ struct ResultFile
   /// What stands in it; empty: `result` has nothing for it.  Null: written by what makes several files at once.
   std::string (*content)(const Result &result) = nullptr;
   std::string folder{}, ending{}; ///< that hold what the file names, "motion" and ".vtp"
+  /// Of a name with a star, "orbit_*.csv": names and contents of all such files.
+  std::vector<std::pair<std::string, std::string>> (*several)(const Result &result) = nullptr;
+
+  bool has_name(const std::string &file) const; ///< the name is that, or of that form
 };
 
 /// All of them, in the order of writing; what prepare_folder() removes, and the list of docs/results.md.

@@ -44,7 +44,13 @@ void remove_earlier_results(const fs::path &folder)
   fs::remove(folder / complete);
   for (const ResultFile &file : result_files())
     fs::remove(folder / file.name);
-  remove_files(folder, [](const fs::path &) { return false; });
+  remove_files(folder,
+               [](const fs::path &path)
+               {
+                 return std::any_of(result_files().begin(), result_files().end(),
+                                    [&](const ResultFile &file)
+                                    { return file.several && file.has_name(path.filename().string()); });
+               });
   for (const ResultFile &file : result_files())
     if (const fs::path inner = folder / file.folder; !file.folder.empty() && fs::is_directory(inner))
     {
@@ -71,8 +77,13 @@ template <typename Write>
 void write_tables(const Write &write, const Result &result)
 {
   for (const ResultFile &file : result_files())
+  {
     if (const std::string content = file.content ? file.content(result) : ""; !content.empty())
       write(file.name, content);
+    if (file.several)
+      for (const auto &[name, content] : file.several(result))
+        write(name, content);
+  }
 }
 
 } // namespace

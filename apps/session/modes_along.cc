@@ -1,7 +1,6 @@
 #include "apps/session/modes_along.h"
 
-#include "apps/scene/language/parse_quantity.h"
-#include "apps/scene/language/quantity.h"
+#include "apps/session/option_value.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -13,24 +12,6 @@ namespace
 {
 
 constexpr double doubtful = 0.5; ///< modal assurance below which a line may have changed its shape for another one
-
-double option_value(const std::string &option, const std::string &text, const Kind &kind)
-{
-  try
-  {
-    Quantity quantity = parse_quantity(
-        text, [](const std::string &) { return std::nullopt; }, {}, &kind);
-    char *end = nullptr;
-    std::strtod(text.c_str(), &end);
-    if (!text.empty() && *end == '\0') // plain numbers are SI
-      return quantity.value;
-    return value_as(quantity, kind, text);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    throw std::invalid_argument(option + ": " + error.what());
-  }
-}
 
 coupling::SweptCoordinate named(const std::string &option, const coupling::Machine &machine, const std::string &name)
 {

@@ -3,9 +3,11 @@
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/scene.h"
 #include "apps/session/modes_along.h"
+#include "apps/session/periodic_answer.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/simulation/simulation.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace gestell::apps
@@ -55,6 +57,30 @@ coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared
     failure = none.what();
     return {};
   }
+}
+
+constexpr int orbit_rows = 512; ///< of a period
+
+/// The solutions by a second method, compared with the first of them.
+void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeating,
+                    const coupling::PeriodicOptions &options, const std::string &name,
+                    const std::vector<coupling::Signal> &signals, PeriodicResult &found)
+{
+  const ChosenMethod second = chosen_method(repeating, name);
+  for (const PeriodicEntry &entry : found.entries)
+    try
+    {
+      coupling::PeriodicOptions again = options;
+      again.lead_in                   = 0;
+      const coupling::PeriodicGuess near{entry.solution.q, entry.solution.v, entry.solution.period};
+      const auto                    solutions = second.method->solve(repeating.problem, near, again);
+      found.checks.push_back(
+          compared(entry, entry_of(machine, repeating.problem, solutions.front(), signals, orbit_rows), name));
+    }
+    catch (const std::runtime_error &none)
+    {
+      found.checks.push_back({name, {}, none.what()});
+    }
 }
 
 coupling::RunResult not_started(const coupling::RunOptions &run, const std::string &failure)
@@ -159,6 +185,57 @@ Result Session::run()
   if (scene_.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);
   return finished(std::move(result));
+}
+
+Result Session::periodic(const PeriodicRequest &request)
+{
+  PreparedMachine &prepared = machine();
+  progress()("modes", -1.);
+  Result result = begin_result(scene_, "periodic", prepared);
+  result.asked  = {path_, overrides_, std::nullopt};
+  periodic_motions(request, result);
+  return finished(std::move(result));
+}
+
+void Session::periodic_motions(const PeriodicRequest &request, Result &result)
+{
+  coupling::Machine &machine = machine_->machine;
+  const auto         signals = scene_signals(scene_, machine);
+  progress()("start", -1.);
+  const coupling::InitialState start     = prepare_start(scene_, *machine_);
+  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request);
+  const ChosenMethod           chosen    = chosen_method(repeating, request.method);
+  const auto                   options   = periodic_options(scene_, request, repeating.problem, watch_.interruption);
+  PeriodicResult               found;
+  found.method = chosen.method->name();
+  found.reason = chosen.reason + "; " + repeating.reason;
+  for (int i = 0; i < machine.size(); ++i)
+    found.coordinates.push_back(machine.coordinate_name(i));
+  progress()("periodic motions", -1.);
+  const coupling::PeriodicGuess guess{start.q, start.v, 0.};
+  try
+  {
+    for (const auto &solution : chosen.method->solve(repeating.problem, guess, options))
+    {
+      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
+      found.work.add(solution.work);
+    }
+  }
+  catch (const std::runtime_error &none)
+  {
+    found.failure = none.what();
+  }
+  if (!request.check.empty())
+    check_periodic(machine, repeating, options, request.check, signals, found);
+  found.interrupted = options.interrupted();
+  const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
+                                   [](const PeriodicEntry &entry) { return entry.solution.stable(); });
+  if (stable != found.entries.end())
+  {
+    result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
+    states_for_pictures(*machine_, *result.run);
+  }
+  result.periodic = std::move(found);
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/session/modes_options.h"
+#include "apps/session/periodic_request.h"
 #include "apps/session/phase_times.h"
 #include "apps/session/prepared_machine.h"
 
@@ -60,6 +61,9 @@ public:
   /// The scene simulated in time, with modes, stresses and warnings.
   Result run();
 
+  /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
+  Result periodic(const PeriodicRequest &request = {});
+
   /// Of all that was computed so far, by phase.
   const std::vector<std::pair<std::string, double>> &wall_seconds() const { return times_.seconds(); }
 
@@ -68,6 +72,7 @@ public:
 
 private:
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals);
+  void                periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
   std::string                    path_;

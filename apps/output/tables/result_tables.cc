@@ -1,6 +1,7 @@
 #include "apps/output/tables/result_tables.h"
 
 #include "apps/output/tables/modes_along_table.h"
+#include "apps/output/tables/periodic_tables.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -301,6 +302,8 @@ std::string summary_json(const Result &result)
   json["operating_poles"]              = array_of(result.poles, pole_json);
   if (result.along)
     json["modes_along"] = along_json(*result.along);
+  if (result.periodic)
+    json["periodic"] = periodic_json(*result.periodic);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/values/periodic_result.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/excitation_orders.h"
@@ -78,6 +79,7 @@ struct Result
   std::vector<coupling::Mode>                 coupled_modes;
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
+  std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people

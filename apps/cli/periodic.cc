@@ -1,0 +1,118 @@
+#include "apps/cli/command.h"
+#include "apps/cli/interruption.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/result_folder.h"
+#include "apps/session/session.h"
+#include "fem/values/number_text.h"
+
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr std::size_t most_rows = 40; ///< of standard output
+
+std::string stability_text(const coupling::PeriodicSolution &solution)
+{
+  if (!solution.stability_is_known())
+    return "unknown";
+  return (solution.stable() ? "stable, " : "unstable, ") + short_text(solution.largest_multiplier(), 4);
+}
+
+void print_signals(const PeriodicEntry &entry)
+{
+  for (const SignalOrbit &signal : entry.signals)
+    std::cout << "    " << std::left << std::setw(12) << signal.name << std::right << " max " << std::setw(12)
+              << short_text(signal.max, 6) << "  min " << std::setw(12) << short_text(signal.min, 6) << "  a1 "
+              << std::setw(12) << (signal.amplitude.empty() ? "" : short_text(signal.amplitude[0], 6)) << "  "
+              << signal.unit << '\n';
+}
+
+void print_solutions(const PeriodicResult &result)
+{
+  std::cout << result.method << ": " << result.reason << '\n';
+  int number = 0;
+  for (const PeriodicEntry &entry : result.entries)
+  {
+    if (++number > int(most_rows))
+      break;
+    const coupling::PeriodicSolution &s = entry.solution;
+    std::cout << "  " << number << "  ";
+    if (!result.parameter.empty())
+      std::cout << result.parameter << " = " << short_text(entry.parameter, 8) << ", ";
+    std::cout << kind_of(s) << ", period " << short_text(s.period, 10) << " s, " << stability_text(s) << ", closes to "
+              << short_text(s.residual, 2) << '\n';
+    if (result.parameter.empty())
+      print_signals(entry);
+    for (const std::string &note : s.notes)
+      std::cout << "    " << note << '\n';
+  }
+  if (result.entries.size() > most_rows)
+    std::cout << "  ... " << result.entries.size() << " in all, in solutions.csv\n";
+  for (const SpecialPoint &point : result.special_points)
+    std::cout << "  " << point.kind << " at " << result.parameter << " = " << short_text(point.parameter, 10) << '\n';
+  for (const PeriodicCheck &check : result.checks)
+  {
+    std::cout << "  by " << check.method << ": ";
+    if (!check.failure.empty())
+      std::cout << check.failure;
+    for (const auto &[name, distance] : check.distances)
+      std::cout << name << " differs by " << short_text(distance, 2) << " of its amplitude  ";
+    std::cout << '\n';
+  }
+}
+
+int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
+{
+  ProgressLine progress(options.quiet);
+  Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
+  session.check();
+  const std::filesystem::path folder = results_path(options, session.scene());
+  require_writable(folder);
+  const Result result = session.periodic(request);
+  progress.done();
+  prepare_folder(folder);
+  write_results(folder, result);
+  print_solutions(*result.periodic);
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  if (result.periodic->interrupted)
+    return exit_interrupted;
+  if (result.periodic->failure.empty())
+    return exit_done;
+  std::cerr << "gestell: the computation failed: " << result.periodic->failure << '\n';
+  return exit_failed;
+}
+
+} // namespace
+
+Command periodic_command()
+{
+  const auto own = std::make_shared<PeriodicRequest>();
+  return {"periodic",
+          "periodic motions and whether they last",
+          {"gestell periodic apps/scenes/press.toml"},
+          CommandInput::scene,
+          {{"--method", &own->method, "shooting, minimise or settling (default: chosen by the scene, and said why)"},
+           {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
+           CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
+               .above_zero(),
+           CommandOption{"--lead-in", &own->lead_in, "periods integrated before Newton's method begins (default 10)"},
+           CommandOption{"--closing", &own->tolerance,
+                         "how well a motion must close, relative to its speed (default 1e-10)"}
+               .above_zero(),
+           CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero(),
+           CommandOption{"--damping", &own->damping,
+                         "of settling: share of critical by which the lowest mode is damped more at first"}
+               .above_zero(),
+           CommandOption{"--check", &own->check, "a second method; the distance is told"}},
+          [own](const CommonOptions &options) { return find_periodic(options, *own); }};
+}
+
+} // namespace gestell::apps

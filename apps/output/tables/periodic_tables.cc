@@ -1,0 +1,204 @@
+#include "apps/output/tables/periodic_tables.h"
+
+#include "fem/values/number_text.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// A name in the first line of a table, quoted where it holds a comma.
+std::string head(const std::string &name)
+{
+  return name.find(',') == std::string::npos ? name : '"' + name + '"';
+}
+
+std::string parameter_head(const PeriodicResult &result)
+{
+  if (result.parameter.empty())
+    return "parameter";
+  return head(result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]"));
+}
+
+std::string yes_no(const coupling::PeriodicSolution &solution)
+{
+  return !solution.stability_is_known() ? "" : solution.stable() ? "yes" : "no";
+}
+
+void append_parameter(const PeriodicResult &result, double value, std::string &csv)
+{
+  csv += ',';
+  if (!result.parameter.empty())
+    append_exact(csv, value);
+}
+
+Json signal_json(const SignalOrbit &signal)
+{
+  return {{"unit", signal.unit},
+          {"max", signal.max},
+          {"min", signal.min},
+          {"mean", signal.mean},
+          {"amplitudes", signal.amplitude},
+          {"phases", signal.phase}};
+}
+
+Json entry_json(const PeriodicResult &result, const PeriodicEntry &entry)
+{
+  const coupling::PeriodicSolution &s = entry.solution;
+  Json json      = {{"period", s.period}, {"ratio", s.ratio},   {"residual", s.residual},    {"branch", entry.branch},
+                    {"kind", kind_of(s)}, {"method", s.method}, {"events", s.events.size()}, {"notes", s.notes}};
+  json["stable"] = s.stability_is_known() ? Json(s.stable()) : Json();
+  if (!result.parameter.empty())
+    json["parameter"] = entry.parameter;
+  if (!std::isnan(s.share))
+    json["share"] = s.share;
+  json["multipliers"] = Json::array();
+  for (const auto &mu : s.multipliers)
+    json["multipliers"].push_back(std::vector<double>{mu.real(), mu.imag()});
+  json["signals"] = Json::object();
+  for (const SignalOrbit &signal : entry.signals)
+    json["signals"][signal.name] = signal_json(signal);
+  json["initial"] = Json::object();
+  for (Eigen::Index i = 0; i < s.q.size(); ++i)
+    json["initial"][result.coordinates[std::size_t(i)]] = std::vector<double>{s.q[i], s.v[i]};
+  return json;
+}
+
+} // namespace
+
+std::string kind_of(const coupling::PeriodicSolution &solution)
+{
+  return solution.ratio > 1 ? "sub-harmonic 1/" + std::to_string(solution.ratio) : "periodic";
+}
+
+std::string solutions_csv(const PeriodicResult &result)
+{
+  std::string csv =
+      "solution,branch," + parameter_head(result) + ",period [s],period ratio,residual,stable,largest multiplier,kind";
+  if (!result.entries.empty())
+    for (const SignalOrbit &signal : result.entries.front().signals)
+    {
+      for (const char *what : {" max", " min", " mean"})
+        csv += ',' + head(signal.name + what);
+      for (std::size_t k = 1; k <= signal.amplitude.size(); ++k)
+        csv +=
+            ',' + head(signal.name + " a" + std::to_string(k)) + ',' + head(signal.name + " phi" + std::to_string(k));
+    }
+  csv += '\n';
+  int number = 0;
+  for (const PeriodicEntry &entry : result.entries)
+  {
+    csv += std::to_string(++number) + ',' + std::to_string(entry.branch);
+    append_parameter(result, entry.parameter, csv);
+    append_exact(csv += ',', entry.solution.period);
+    csv += ',' + std::to_string(entry.solution.ratio);
+    append_exact(csv += ',', entry.solution.residual);
+    csv += ',' + yes_no(entry.solution);
+    append_exact(csv += ',', entry.solution.largest_multiplier());
+    csv += ',' + kind_of(entry.solution);
+    for (const SignalOrbit &signal : entry.signals)
+    {
+      for (const double x : {signal.max, signal.min, signal.mean})
+        append_exact(csv += ',', x);
+      for (std::size_t k = 0; k < signal.amplitude.size(); ++k)
+      {
+        append_exact(csv += ',', signal.amplitude[k]);
+        append_exact(csv += ',', signal.phase[k]);
+      }
+    }
+    csv += '\n';
+  }
+  return csv;
+}
+
+std::string multipliers_csv(const PeriodicResult &result)
+{
+  std::string csv    = "solution,re,im,abs\n";
+  int         number = 0;
+  for (const PeriodicEntry &entry : result.entries)
+  {
+    ++number;
+    for (const auto &mu : entry.solution.multipliers)
+    {
+      csv += std::to_string(number);
+      for (const double x : {mu.real(), mu.imag(), std::abs(mu)})
+        append_exact(csv += ',', x);
+      csv += '\n';
+    }
+  }
+  return csv;
+}
+
+std::string special_points_csv(const PeriodicResult &result)
+{
+  std::string csv = "kind," + parameter_head(result) + ",period [s],solution\n";
+  for (const SpecialPoint &point : result.special_points)
+  {
+    csv += point.kind;
+    append_parameter(result, point.parameter, csv);
+    append_exact(csv += ',', point.period);
+    csv += ',' + std::to_string(point.solution) + '\n';
+  }
+  return csv;
+}
+
+std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResult &result)
+{
+  std::vector<std::pair<std::string, std::string>> files;
+  int                                              number = 0;
+  for (const PeriodicEntry &entry : result.entries)
+  {
+    ++number;
+    const std::size_t width = entry.signals.size() + 1;
+    std::string       csv   = "t [s]";
+    for (const SignalOrbit &signal : entry.signals)
+      csv += ',' + head(signal.name + " [" + signal.unit + "]");
+    csv += '\n';
+    for (std::size_t i = 0; i < entry.rows.size(); ++i)
+    {
+      append_exact(csv, entry.rows[i]);
+      csv += (i + 1) % width == 0 ? '\n' : ',';
+    }
+    files.emplace_back("orbit_" + std::to_string(number) + ".csv", csv);
+  }
+  return files;
+}
+
+Json periodic_json(const PeriodicResult &result)
+{
+  Json json = {{"method", result.method},
+               {"reason", result.reason},
+               {"interrupted", result.interrupted},
+               {"failure", result.failure.empty() ? Json() : Json(result.failure)}};
+  if (!result.parameter.empty())
+    json["parameter"] = {{"key", result.parameter}, {"unit", result.parameter_unit}};
+  json["solutions"] = Json::array();
+  for (const PeriodicEntry &entry : result.entries)
+    json["solutions"].push_back(entry_json(result, entry));
+  json["special_points"] = Json::array();
+  for (const SpecialPoint &point : result.special_points)
+    json["special_points"].push_back(
+        {{"kind", point.kind}, {"parameter", point.parameter}, {"period", point.period}, {"solution", point.solution}});
+  json["checks"] = Json::array();
+  for (const PeriodicCheck &check : result.checks)
+  {
+    Json distances = Json::object();
+    for (const auto &[name, distance] : check.distances)
+      distances[name] = distance;
+    json["checks"].push_back({{"method", check.method},
+                              {"distances", distances},
+                              {"failure", check.failure.empty() ? Json() : Json(check.failure)}});
+  }
+  const coupling::IntegrationWork &work = result.work.integration;
+  json["work"]                          = {{"iterations", result.work.iterations},
+                                           {"periods", result.work.periods},
+                                           {"steps", work.steps},
+                                           {"newton", work.newton},
+                                           {"factorisations", work.factorisations},
+                                           {"evaluations", work.evaluations}};
+  return json;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "coupling/periodic/periodic_solution.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A signal over one period: mean + sum_k amplitude_k cos(k Omega t + phase_k), Omega that of the drive.
+struct SignalOrbit
+{
+  std::string         name, unit;
+  double              max = 0., min = 0., mean = 0.;
+  std::vector<double> amplitude, phase; ///< of harmonic k + 1 of the drive; [rad]
+};
+
+/// A periodic motion with its signals.
+struct PeriodicEntry
+{
+  coupling::PeriodicSolution solution;
+  int                        branch    = 1;
+  double                     parameter = 0.; ///< where one is followed
+  std::vector<SignalOrbit>   signals;
+  std::vector<double>        rows; ///< of orbit_<solution>.csv: t, every signal; row major
+};
+
+/// A place on a branch where motions begin, end or change their stability.
+struct SpecialPoint
+{
+  std::string kind; ///< fold, period doubling, Neimark-Sacker, branch, grazing
+  double      parameter = 0., period = 0.;
+  int         solution = 0; ///< number of the nearest one, from 1
+};
+
+/// A second way to the same motion.
+struct PeriodicCheck
+{
+  std::string                                 method;
+  std::vector<std::pair<std::string, double>> distances; ///< by signal: largest difference over its amplitude
+  std::string                                 failure;   ///< empty: none
+};
+
+/// What `gestell periodic` finds.
+struct PeriodicResult
+{
+  std::string                method, reason;            ///< why this method
+  std::string                parameter, parameter_unit; ///< that is followed; empty: none
+  std::vector<std::string>   coordinates;               ///< of the machine
+  std::vector<PeriodicEntry> entries;
+  std::vector<SpecialPoint>  special_points;
+  std::vector<PeriodicCheck> checks;
+  coupling::PeriodicWork     work;
+  std::string                failure; ///< not empty: why it ended early
+  bool                       interrupted = false;
+};
+
+/// "periodic", "sub-harmonic 1/2"
+std::string kind_of(const coupling::PeriodicSolution &solution);
+
+} // namespace gestell::apps

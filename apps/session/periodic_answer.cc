@@ -1,0 +1,199 @@
+#include "apps/session/periodic_answer.h"
+
+#include "coupling/machine/accelerations.h"
+#include "coupling/periodic/periodic_methods.h"
+#include "coupling/periodic/settling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
+constexpr int    harmonics_told  = 10;    ///< of the drive
+constexpr double fine            = 1e-11; ///< tolerance of the steps that trace a motion
+
+using coupling::PeriodicSolution;
+
+/// Amplitudes and phases from rows over one period, the last row being the first again.
+void find_harmonics(const std::vector<double> &rows, std::size_t width, std::size_t column, int ratio, double begin,
+                    double period, SignalOrbit &signal)
+{
+  const std::size_t n   = rows.size() / width - 1;
+  double            sum = 0.;
+  for (std::size_t i = 0; i < n; ++i)
+    sum += rows[i * width + column];
+  signal.mean = sum / double(n);
+  // What turns has a ramp, that of the period, taken off before.
+  const double ramp = (rows[n * width + column] - rows[column]) / double(n);
+  for (int k = 1; k <= harmonics_told; ++k)
+  {
+    const double w = 2. * M_PI * k * ratio / period;
+    double       c = 0., s = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const double t = begin + period * double(i) / double(n), x = rows[i * width + column] - ramp * double(i);
+      c += x * std::cos(w * t);
+      s += x * std::sin(w * t);
+    }
+    signal.amplitude.push_back(2. / double(n) * std::hypot(c, s));
+    signal.phase.push_back(std::atan2(-s, c));
+  }
+}
+
+/// Columns t and signals of a history.
+std::vector<double> signal_rows(const coupling::RunResult &run, std::size_t n_signals)
+{
+  std::vector<double> rows;
+  const std::size_t   width = run.columns.size();
+  for (std::size_t i = 0; i + width <= run.rows.size(); i += width)
+    rows.insert(rows.end(), run.rows.begin() + std::ptrdiff_t(i), run.rows.begin() + std::ptrdiff_t(i + n_signals + 1));
+  return rows;
+}
+
+/// The signals of a motion that is a series, at instants equally spaced.
+void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                   const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows,
+                   PeriodicEntry &entry)
+{
+  machine.will_read(signals);
+  std::optional<coupling::Accelerations> accelerations;
+  if (std::any_of(signals.begin(), signals.end(), [](const auto &signal) { return signal.reads_acceleration(); }))
+    accelerations.emplace(machine);
+  const Eigen::VectorXd none;
+  coupling::trace(problem, solution, rows,
+                  [&](const coupling::OrbitPoint &point)
+                  {
+                    const Eigen::VectorXd &a = accelerations ? accelerations->at(point.q, point.v, point.local) : none;
+                    entry.rows.push_back(point.t);
+                    for (const coupling::Signal &signal : signals)
+                      entry.rows.push_back(machine.evaluate(signal, point.q, point.v, a, point.local));
+                  });
+  for (std::size_t j = 0; j < signals.size(); ++j)
+  {
+    SignalOrbit signal;
+    signal.name = signals[j].name;
+    signal.unit = signals[j].unit;
+    signal.max = signal.min = entry.rows[j + 1];
+    for (std::size_t i = j + 1; i < entry.rows.size(); i += signals.size() + 1)
+    {
+      signal.max = std::max(signal.max, entry.rows[i]);
+      signal.min = std::min(signal.min, entry.rows[i]);
+    }
+    entry.signals.push_back(signal);
+  }
+}
+
+} // namespace
+
+ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name)
+{
+  const coupling::PeriodicProblem &problem = repeating.problem;
+  if (!name.empty())
+  {
+    const coupling::PeriodicMethod &method = coupling::periodic_method(name);
+    if (const std::string why = method.refuses(problem); !why.empty())
+      throw std::invalid_argument("--method " + name + ": " + why);
+    return {&method, "asked for"};
+  }
+  const std::string why = coupling::periodic_method("shooting").refuses(problem);
+  if (!why.empty())
+    return {&coupling::periodic_method("settling"), why};
+  if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
+    return {&coupling::periodic_method("minimise"), "few coordinates: all solutions are looked for"};
+  return {&coupling::periodic_method("shooting"), "it takes few periods, and tells the stability"};
+}
+
+coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
+                                           const coupling::PeriodicProblem &problem, const std::atomic<bool> *stop)
+{
+  coupling::PeriodicOptions options;
+  options.stop          = stop;
+  options.harmonics     = request.harmonics;
+  options.starts        = request.starts;
+  options.extra_damping = request.damping;
+  if (request.lead_in >= 0)
+    options.lead_in = request.lead_in;
+  if (request.tolerance > 0.)
+    options.tolerance = request.tolerance;
+  if (coupling::why_not_propagated(*problem.system, "settling").empty())
+    return options;
+  if (!scene.run.given)
+    throw std::invalid_argument(scene.file + ": such a machine is integrated as [run] says, but there is no [run]");
+  options.integration = scene.run.options.method;
+  if (!(request.tolerance > 0.))
+    options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
+  return options;
+}
+
+coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution &solution,
+                              const std::vector<coupling::Signal> &signals, int rows)
+{
+  coupling::RunOptions run;
+  run.method = solution.integration;
+  if (!(run.method.tolerance > 0.) && !(run.method.step > 0.))
+    run.method.tolerance = fine;
+  run.begin          = solution.begin;
+  run.end            = solution.begin + solution.period;
+  run.output_step    = solution.period / rows;
+  run.picture_step   = solution.period / 60.;
+  run.force_unstable = true;
+  coupling::InitialState initial;
+  initial.t       = solution.begin;
+  initial.q       = solution.q;
+  initial.v       = solution.v;
+  initial.settled = true;
+  return coupling::simulate(machine, initial, run, signals);
+}
+
+PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                       const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows)
+{
+  PeriodicEntry entry;
+  entry.solution = solution;
+  if (solution.series)
+    trace_signals(machine, problem, solution, signals, rows, entry);
+  else
+  {
+    const coupling::RunResult run = orbit_run(machine, solution, signals, rows);
+    if (!run.failure.empty())
+      throw coupling::ConvergenceFailure("the motion that was found cannot be traced: " + run.failure);
+    entry.rows = signal_rows(run, signals.size());
+    for (const coupling::SignalSummary &summary : run.signals)
+    {
+      SignalOrbit signal;
+      signal.name = summary.name;
+      signal.unit = summary.unit;
+      signal.max  = summary.max;
+      signal.min  = summary.min;
+      entry.signals.push_back(signal);
+    }
+  }
+  for (std::size_t j = 0; j < entry.signals.size(); ++j)
+    find_harmonics(entry.rows, signals.size() + 1, j + 1, solution.ratio, solution.begin, solution.period,
+                   entry.signals[j]);
+  return entry;
+}
+
+PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, const std::string &method)
+{
+  PeriodicCheck     check{method, {}, ""};
+  const std::size_t width = first.signals.size() + 1;
+  for (std::size_t j = 0; j < first.signals.size(); ++j)
+  {
+    double apart = 0., size = 0.;
+    for (std::size_t i = j + 1; i < std::min(first.rows.size(), second.rows.size()); i += width)
+    {
+      apart = std::max(apart, std::abs(first.rows[i] - second.rows[i]));
+      size  = std::max(size, std::abs(first.rows[i] - first.signals[j].mean));
+    }
+    check.distances.emplace_back(first.signals[j].name, size > 0. ? apart / size : apart);
+  }
+  return check;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "apps/output/values/periodic_result.h"
+#include "apps/session/prepared_machine.h"
+#include "apps/session/repeating_machine.h"
+#include "coupling/periodic/periodic_method.h"
+#include "coupling/simulation/simulation.h"
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A way to periodic motions, and why this one.
+struct ChosenMethod
+{
+  const coupling::PeriodicMethod *method = nullptr;
+  std::string                     reason;
+};
+
+/// By its name; none: the first that can treat the machine, all solutions of small ones.
+/// @throws std::invalid_argument where it cannot, with what serves instead
+ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name);
+
+/// What methods obey; a machine that exact propagation cannot carry is integrated as [run] says.
+coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
+                                           const coupling::PeriodicProblem &problem, const std::atomic<bool> *stop);
+
+/// One period of a solution as a run of the machine, begun on it.
+coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::PeriodicSolution &solution,
+                              const std::vector<coupling::Signal> &signals, int rows);
+
+/// The solution with its signals: extremes, harmonics, rows.
+PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                       const coupling::PeriodicSolution &solution, const std::vector<coupling::Signal> &signals,
+                       int rows);
+
+/// How far two solutions are apart in their signals.
+PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, const std::string &method);
+
+} // namespace gestell::apps

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// What `gestell periodic` is asked for; texts are as they are typed.
+struct PeriodicRequest
+{
+  std::string method;          ///< empty: chosen by the scene
+  std::string period;          ///< "0.2 s"; empty: from drives and loads
+  int         ratio     = 1;   ///< of the motion's period to that of the excitation
+  int         harmonics = 0;   ///< of harmonic balance; 0: from the residual
+  int         starts    = 64;  ///< of minimise
+  int         lead_in   = -1;  ///< periods before Newton's method; negative: as usual
+  double      tolerance = 0.;  ///< of closing; 0: as usual
+  double      damping   = 0.;  ///< raised damping of settling
+  std::string along, from, to; ///< key of the scene that is followed, and its ends
+  int         points = 0;      ///< of a branch at most; 0: as usual
+  std::string check;           ///< second method
+};
+
+} // namespace gestell::apps

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "apps/session/periodic_request.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
+#include "coupling/periodic/periodic_problem.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// What of a machine is to repeat, and why.
+struct RepeatingMachine
+{
+  coupling::PeriodicProblem problem;
+  std::string               reason; ///< where the period comes from, for people
+};
+
+/**
+ * The period of a machine and what turns in it.
+ *
+ * Loads that oscillate, and nothing that turns freely: the least common period of their frequencies.  Angles that turn
+ * at the start without stiffness against it, driven by a motor: they come round after whole turns, in a period that is
+ * unknown; the slowest of them keeps its angle at the begin.  Else the period must be asked for.
+ *
+ * @throws std::invalid_argument with the frequencies that have no common period, the elements that tell of the time
+ * without a period being known, or where nothing drives the machine
+ */
+RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
+                                   const PeriodicRequest &request);
+
+} // namespace gestell::apps
