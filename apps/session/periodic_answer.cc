@@ -109,10 +109,9 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 }
 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::PeriodicProblem &problem, const std::atomic<bool> *stop)
+                                           const coupling::PeriodicProblem &problem)
 {
   coupling::PeriodicOptions options;
-  options.stop          = stop;
   options.harmonics     = request.harmonics;
   options.starts        = request.starts;
   options.extra_damping = request.damping;

@@ -6,7 +6,6 @@
 #include "coupling/periodic/periodic_method.h"
 #include "coupling/simulation/simulation.h"
 
-#include <atomic>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 
 /// What methods obey; a machine that exact propagation cannot carry is integrated as [run] says.
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::PeriodicProblem &problem, const std::atomic<bool> *stop);
+                                           const coupling::PeriodicProblem &problem);
 
 /// One period of a solution as a run of the machine, begun on it.
 coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::PeriodicSolution &solution,

@@ -203,10 +203,11 @@ void Session::periodic_motions(const PeriodicRequest &request, Result &result)
   const auto         signals = scene_signals(scene_, machine);
   progress()("start", -1.);
   const coupling::InitialState start     = prepare_start(scene_, *machine_);
-  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request);
-  const ChosenMethod           chosen    = chosen_method(repeating, request.method);
-  const auto                   options   = periodic_options(scene_, request, repeating.problem, watch_.interruption);
-  PeriodicResult               found;
+  RepeatingMachine             repeating = repeating_machine(scene_, machine, start, request);
+  repeating.problem.stop                 = watch_.interruption;
+  const ChosenMethod chosen              = chosen_method(repeating, request.method);
+  const auto         options             = periodic_options(scene_, request, repeating.problem);
+  PeriodicResult     found;
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)
@@ -227,7 +228,7 @@ void Session::periodic_motions(const PeriodicRequest &request, Result &result)
   }
   if (!request.check.empty())
     check_periodic(machine, repeating, options, request.check, signals, found);
-  found.interrupted = options.interrupted();
+  found.interrupted = repeating.problem.interrupted();
   const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
                                    [](const PeriodicEntry &entry) { return entry.solution.stable(); });
   if (stable != found.entries.end())

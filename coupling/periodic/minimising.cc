@@ -189,7 +189,7 @@ void Minimising::search(const PeriodicProblem &problem, const Box &box, const Pe
   newton.iterations        = 15;
   const VectorXd middle    = equations.unknowns(box.q, box.v, problem.period);
   const double   far       = astray * equations.unknowns(box.q_half, box.v_half, problem.period).norm();
-  for (int k = 1; k <= options.starts && !options.interrupted(); ++k)
+  for (int k = 1; k <= options.starts && !problem.interrupted(); ++k)
     try
     {
       PeriodicGuess at{box.at(k, 0, box.q, box.q_half), box.at(k, box.q.size(), box.v, box.v_half), problem.period};

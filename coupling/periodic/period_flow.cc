@@ -87,7 +87,7 @@ const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, doub
   const IntegrationWork before = integrator_->work();
   begin(q, v, problem_.begin + period, tangents);
   while (integrator_->time() < end_ - rounding * period)
-    driver_->advance();
+    advance(before.steps);
   passage_.period = period;
   passage_.q      = integrator_->instant().q;
   passage_.v      = integrator_->instant().v;
@@ -127,7 +127,7 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
         passage_.v      = v_look_;
       });
   while (!there && integrator_->time() < end_ - rounding * longest)
-    driver_->advance();
+    advance(before.steps);
   finish(before);
   if (there)
     return passage_;
@@ -135,6 +135,16 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
   text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not come round in " << longest
        << " s: it goes from " << from << " to " << integrator_->instant().q[phase] << ", a period ends at " << target;
   throw NoPeriodicMotion(text.str());
+}
+
+void PeriodFlow::advance(long steps_before)
+{
+  driver_->advance();
+  if (problem_.interrupted())
+    throw SearchInterrupted();
+  if (integrator_->work().steps - steps_before > problem_.most_steps)
+    throw ConvergenceFailure("a period needs more than " + std::to_string(problem_.most_steps) +
+                             " steps; take a larger tolerance");
 }
 
 void PeriodFlow::finish(const IntegrationWork &before)

@@ -59,6 +59,7 @@ public:
 
 private:
   void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double end, bool tangents);
+  void advance(long steps_before);
   void finish(const IntegrationWork &before);
   void at_step();
   void at_guard(int guard);

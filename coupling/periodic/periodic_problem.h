@@ -31,29 +31,37 @@ struct PeriodicProblem
   int                phase       = -1;
   double             phase_value = 0.; ///< [rad] or [m]
 
+  const std::atomic<bool> *stop       = nullptr; ///< ends a search
+  long                     most_steps = 1000000; ///< of one period: more is a motion astray
+
+  bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
+
   bool period_is_unknown() const { return phase >= 0; }
 };
 
 /// What all methods obey; each takes what it knows.
 struct PeriodicOptions
 {
-  double                   tolerance     = 1e-10; ///< of PeriodicSolution::residual
-  int                      iterations    = 40;    ///< of Newton's method
-  int                      lead_in       = 10;    ///< periods integrated before Newton's method begins
-  MethodOptions            integration   = options_of("exact", 8).with("force", "collocation");
-  int                      harmonics     = 0;   ///< H; 0: chosen from the residual
-  int                      starts        = 64;  ///< of searches from many starts
-  int                      periods       = 500; ///< most of them that settling integrates
-  double                   extra_damping = 0.;  ///< of settling, at first: share of critical in every mode
-  const std::atomic<bool> *stop          = nullptr;
-
-  bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
+  double        tolerance     = 1e-10; ///< of PeriodicSolution::residual
+  int           iterations    = 40;    ///< of Newton's method
+  int           lead_in       = 10;    ///< periods integrated before Newton's method begins
+  MethodOptions integration   = options_of("exact", 8).with("force", "collocation");
+  int           harmonics     = 0;   ///< H; 0: chosen from the residual
+  int           starts        = 64;  ///< of searches from many starts
+  int           periods       = 500; ///< most of them that settling integrates
+  double        extra_damping = 0.;  ///< of settling, at first: share of critical in every mode
 };
 
 /// There is no such motion, or the method does not come to it; the message tells the place and what serves instead.
 struct NoPeriodicMotion : std::runtime_error
 {
   using std::runtime_error::runtime_error;
+};
+
+/// A search was ended from outside.
+struct SearchInterrupted : NoPeriodicMotion
+{
+  SearchInterrupted() : NoPeriodicMotion("interrupted") {}
 };
 
 } // namespace gestell::coupling

@@ -48,7 +48,7 @@ Settled settle(const PeriodicProblem &problem, const PeriodicGuess &from, const 
   Settled    settled;
   settled.at   = from;
   double first = 1.;
-  while (settled.periods < most && settled.error > tolerance && !options.interrupted())
+  while (settled.periods < most && settled.error > tolerance && !problem.interrupted())
   {
     const double before = settled.error;
     settled.error       = one_period(flow, problem, settled.at);
@@ -198,7 +198,7 @@ void lead_in(PeriodFlow &flow, const PeriodicProblem &problem, const PeriodicOpt
 {
   if (!(guess.period > 0.))
     guess.period = problem.period;
-  for (int k = 0; k < options.lead_in && !options.interrupted(); ++k)
+  for (int k = 0; k < options.lead_in && !problem.interrupted(); ++k)
     if (one_period(flow, problem, guess) < near_enough)
       return;
 }

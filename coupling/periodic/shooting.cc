@@ -157,7 +157,7 @@ PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &prob
 {
   equations.evaluate(z, true);
   int iteration = 0;
-  for (; iteration < options.iterations && equations.closing() > options.tolerance && !options.interrupted();
+  for (; iteration < options.iterations && equations.closing() > options.tolerance && !problem.interrupted();
        ++iteration)
   {
     const VectorXd dz = equations.jacobian().partialPivLu().solve(equations.residual());
