@@ -1,0 +1,98 @@
+#pragma once
+
+#include "coupling/periodic/base_response.h"
+#include "coupling/periodic/harmonic_forces.h"
+#include "coupling/periodic/periodic_solution.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * Harmonic balance (Ritz-Galerkin, 5.5.4), condensed to the measures u = W^T q: the equations for the coefficients of
+ * exp(i h omega (t - t_0)), h = 0 ... H,
+ *
+ *     u_h - R_h p_h(u) - u0_h - [h = 0] U_y y = 0,     P_y p_0 + l = 0,     q_phase(t_0) = phase_value,
+ *
+ * of which the second holds for motions without stiffness, whose mean displacements y are unknowns (see BaseResponse),
+ * and the third where the period is one.  The unknowns are
+ *
+ *     z = (c_0, c_1, s_1, ... c_H, s_H; y; T)   [n_u (2 H + 1) + n_y + (0 or 1)],   c_h, s_h of cos, sin h omega (t -
+ * t_0).
+ *
+ * However many modes the base has, they are in R_h alone, formed once for each omega.
+ */
+class HarmonicBalance
+{
+public:
+  /// @param samples of a period; 0: by the laws, see HarmonicForces
+  /// @throws std::invalid_argument as BaseResponse and HarmonicForces do
+  HarmonicBalance(const PeriodicProblem &problem, int harmonics, int samples = 0);
+
+  int  size() const { return size_; }
+  bool period_is_unknown() const { return problem_.period_is_unknown(); }
+  int  harmonics() const { return harmonics_; }
+  int  samples() const { return forces_->samples(); }
+  int  largest_load() const { return base_.largest_load(); } ///< highest harmonic of the load
+
+  /// Another number of harmonics; the modes of the base stay.
+  void set_harmonics(int harmonics, int samples = 0);
+
+  double period() const { return period_; }
+  /// Of a continuation in the speed of the drive: harmonics of the load remain what they are of the period.
+  void set_period(double period);
+
+  /// The linear response: all elements replaced by nothing.
+  Eigen::VectorXd linear_start();
+  /// One harmonic through the state q, v [n] at t_0, about the mean of the linear response.
+  Eigen::VectorXd start_through(const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+  /// The unknowns of a motion that is known, cut or filled to H harmonics.
+  Eigen::VectorXd pack(const FourierSeries &motion) const;
+
+  /// r(z) [size], each in the unit of the unknown at its place.
+  void residual(const Eigen::VectorXd &z, Eigen::VectorXd &r);
+  /// The same with dr/dz.
+  void linearise(const Eigen::VectorXd &z, Eigen::VectorXd &r, Eigen::MatrixXd &J);
+  /// dr/dT at fixed coefficients; explicit times in laws not counted.
+  Eigen::VectorXd period_slope(const Eigen::VectorXd &z);
+  /// A size of each unknown: the amplitude of its measure, of z as a whole where that rests.
+  Eigen::VectorXd scales(const Eigen::VectorXd &z) const;
+
+  /// Displacement that forces above harmonic H would give, against the motion: |sum_{h>H} R_h p_h| / |u|, the largest
+  /// of all measures that move.
+  double left_out(const Eigen::VectorXd &z);
+  /// Whether laws remember beyond what the motion shows, and by how much of the force; see HarmonicForces::memory().
+  double memory(const Eigen::VectorXd &z);
+
+  /// All coordinates, in the time t itself.
+  FourierSeries series(const Eigen::VectorXd &z);
+  /// q, q' [n] at t_0.
+  void state_at_begin(const Eigen::VectorXd &z, Eigen::VectorXd &q, Eigen::VectorXd &v);
+
+  /// Spectra of the derivatives at the z of the last linearise().
+  const std::vector<HarmonicForces::Derivative> &derivatives() const { return forces_->derivatives(); }
+
+private:
+  Eigen::MatrixXcd coefficients_of(const Eigen::VectorXd &z) const;
+  Eigen::MatrixXcd displacements(const Eigen::VectorXd &z);
+  void             put(int h, const Eigen::VectorXcd &u, Eigen::VectorXd &z) const;
+  void             use(const Eigen::VectorXd &z);
+  void             balance(const Eigen::VectorXd &z, Eigen::VectorXd &r) const;
+  void             fill_block(const ForceBlock &block, Eigen::MatrixXd &J) const;
+  Eigen::VectorXd  omega_slope() const;
+  Eigen::VectorXd  free_of(const Eigen::VectorXd &z) const { return z.segment(first_free(), n_free_); }
+  int              first_free() const { return n_u_ * (2 * harmonics_ + 1); }
+
+  PeriodicProblem                 problem_;
+  BaseResponse                    base_;
+  std::unique_ptr<HarmonicForces> forces_;
+  int                             harmonics_ = 0, n_u_ = 0, n_free_ = 0, size_ = 0;
+  double                          period_, formed_ = 0.; ///< [s]; [rad/s] that R_h are formed for, 0: for none
+  bool                            formed_with_slopes_ = false;
+};
+
+} // namespace gestell::coupling

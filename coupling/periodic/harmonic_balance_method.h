@@ -1,0 +1,28 @@
+#pragma once
+
+#include "coupling/periodic/harmonic_balance.h"
+#include "coupling/periodic/periodic_method.h"
+
+namespace gestell::coupling
+{
+
+/// How Newton's method came to r(z) = 0.
+struct HarmonicNewton
+{
+  bool   converged  = false;
+  int    iterations = 0;
+  double residual   = 0.; ///< largest |r_i| against the amplitude of its measure
+};
+
+/// Newton's method with a line search, from z on; z is the last one.
+HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, Eigen::VectorXd &z);
+
+/// The PeriodicSolution at z, without its multipliers.
+PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
+                                   const HarmonicNewton &newton);
+
+/// "harmonic-balance": one solution near the guess, or near the linear response if that is at rest.  The number of
+/// harmonics grows until what is left out is below the tolerance; a note tells what remains.
+const PeriodicMethod &harmonic_balance_method();
+
+} // namespace gestell::coupling

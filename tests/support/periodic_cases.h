@@ -1,0 +1,61 @@
+#pragma once
+
+#include "coupling/periodic/periodic_problem.h"
+#include "tests/support/cubic_system.h"
+
+#include <map>
+#include <string>
+
+namespace gestell::tests
+{
+
+/// Oscillators of tests/reference/numerics/periodic.
+struct DuffingCase
+{
+  double zeta, beta, F, Omega;
+};
+/// x'' + 2 zeta x' + x + beta x^3 = F cos(Omega t)
+inline const std::map<std::string, DuffingCase> duffing_cases = {{"duffing1", {0.05, 0.5, 0.3, 1.4}},
+                                                                 {"duffing2", {0.02, -0.05, 0.1, 0.9}},
+                                                                 {"duffing3", {0.05, 1.0, 0.8, 0.45}},
+                                                                 {"duffing4", {0.005, 0.02, 0.03, 1.03}}};
+
+inline CubicSystem duffing_system(const DuffingCase &given)
+{
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  CubicSystem           system(one, 2. * given.zeta * one, one, {{given.beta, Eigen::VectorXd::Ones(1)}});
+  system.loads().add_harmonic(0, given.Omega, given.F, 0.);
+  return system;
+}
+
+/// M q'' + B q' + C q + sum beta w (w^T q)^3 = F cos(Omega t)
+inline CubicSystem two_dof_system(const std::string &name, double Omega)
+{
+  Eigen::MatrixXd M(2, 2), B(2, 2), C(2, 2);
+  if (name == "two_dof1")
+  {
+    M << 1., 0., 0., 0.05;
+    B << 0.015, -0.013, -0.013, 0.013;
+    C << 1.0453, -0.0453, -0.0453, 0.0453;
+    CubicSystem system(M, B, C, {{1., Eigen::Vector2d(1., 0.)}, {0.0042, Eigen::Vector2d(1., -1.)}});
+    system.loads().add_harmonic(0, Omega, 0.11, 0.);
+    return system;
+  }
+  M << 2., 0., 0., 1.;
+  B << 0.06, -0.02, -0.02, 0.04;
+  C << 3., -1., -1., 2.;
+  CubicSystem system(M, B, C, {{0.5, Eigen::Vector2d(1., 0.)}});
+  system.loads().add_harmonic(0, Omega, 0.8, 0.);
+  return system;
+}
+
+inline coupling::PeriodicProblem problem_of_period(coupling::SecondOrderSystem &system, double period)
+{
+  coupling::PeriodicProblem problem;
+  problem.system = &system;
+  problem.period = period;
+  problem.turn   = Eigen::VectorXd::Zero(system.linear().size());
+  return problem;
+}
+
+} // namespace gestell::tests
