@@ -2,6 +2,10 @@
 
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/hill.h"
+
+#include "coupling/integration/system/convergence_failure.h"
+#include "coupling/integration/system/dense_solvers.h"
 
 #include <cmath>
 #include <sstream>
@@ -100,6 +104,20 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 
 namespace
 {
+
+/// None where forces depend on accelerations.
+void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
+                      PeriodicSolution &solution)
+{
+  VectorXd r;
+  MatrixXd J;
+  balance.linearise(z, r, J);
+  for (const HarmonicForces::Derivative &d : balance.derivatives())
+    if (d.of_a.size() > 0)
+      return;
+  solution.multipliers =
+      hill_multipliers(problem, 2. * M_PI / balance.period(), balance.harmonics(), balance.derivatives()).multipliers;
+}
 
 class HarmonicBalanceMethod final : public PeriodicMethod
 {
@@ -211,6 +229,8 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   if (left_out > options.tolerance)
     note << (options.harmonics > 0 ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
   solution.notes.push_back(note.str());
+  if (floquet_way(own, balance.harmonics()) == FloquetWay::hill)
+    find_multipliers(own, balance, z, solution);
   return {solution};
 }
 

@@ -22,7 +22,8 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
                                    const HarmonicNewton &newton);
 
 /// "harmonic-balance": one solution near the guess, or near the linear response if that is at rest.  The number of
-/// harmonics grows until what is left out is below the tolerance; a note tells what remains.
+/// harmonics grows until what is left out is below the tolerance; a note tells what remains.  Multipliers are those of
+/// Hill's matrix where floquet_way() chooses it, and left to a shooting pass elsewhere.
 const PeriodicMethod &harmonic_balance_method();
 
 } // namespace gestell::coupling

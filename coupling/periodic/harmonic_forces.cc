@@ -35,8 +35,13 @@ int samples_for(const PeriodicProblem &problem, int harmonics, int samples)
 
 std::complex<double> HarmonicForces::Derivative::at(int h, double l_omega) const
 {
-  const auto coefficient = [h](const VectorXcd &c) { return h >= 0 ? c[h] : std::conj(c[-h]); };
-  auto       sum         = coefficient(of_u) + std::complex<double>(0., l_omega) * coefficient(of_v);
+  const auto coefficient = [h](const VectorXcd &c) -> std::complex<double>
+  {
+    if (std::abs(h) >= c.size())
+      return 0.;
+    return h >= 0 ? c[h] : std::conj(c[-h]);
+  };
+  auto sum = coefficient(of_u) + std::complex<double>(0., l_omega) * coefficient(of_v);
   if (of_a.size() > 0)
     sum -= l_omega * l_omega * coefficient(of_a);
   return sum;
@@ -161,7 +166,7 @@ void HarmonicForces::evaluate(const MatrixXcd &u, double omega, With with)
   const auto transforms = [this](const Eigen::MatrixXd &of, std::size_t e)
   {
     transform_.coefficients(of.col(Eigen::Index(e)).data(), coefficients_);
-    return VectorXcd(coefficients_.head(2 * harmonics_ + 1));
+    return coefficients_;
   };
   for (std::size_t e = 0; e < derivatives_.size(); ++e)
   {

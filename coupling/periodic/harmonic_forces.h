@@ -24,7 +24,7 @@ namespace gestell::coupling
 class HarmonicForces
 {
 public:
-  /// Of p_i over u_j, u'_j and u''_j, coefficients of exp(i h omega (t - t_0)), h = 0 ... 2 H; those of -h are their
+  /// Of p_i over u_j, u'_j and u''_j, coefficients of exp(i h omega (t - t_0)), h = 0 ... N/2; those of -h are their
   /// conjugates.
   struct Derivative
   {

@@ -33,6 +33,10 @@ public:
       blocks.push_back({int(i), 1});
     return blocks;
   }
+  // no branches, nothing to remember
+  Vector save_history() const override { return {}; }
+  void   restore_history(const Vector &) override {}
+
   void force(const coupling::LocalState &state, Vector &p) const override
   {
     for (std::size_t i = 0; i < springs_.size(); ++i)
