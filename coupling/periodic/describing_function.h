@@ -65,7 +65,8 @@ public:
   DescribedForces(const SecondOrderSystem &system, Eigen::VectorXd d);
 
   DescribingFunction     at(const Eigen::VectorXd &u_0, double A, double omega);
-  const Eigen::VectorXd &mean_forces() const { return mean_; } ///< of p in the last at() [n_u]
+  const Eigen::VectorXd &mean_forces() const { return mean_; }      ///< of p in the last at() [n_u]
+  double                 largest_force() const { return largest_; } ///< |p| in it
 
 private:
   using Sums = Eigen::VectorXd; ///< int p, int d^T p cos, int d^T p sin [n_u + 2]

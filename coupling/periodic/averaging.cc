@@ -1,0 +1,381 @@
+#include "coupling/periodic/averaging.h"
+
+#include "coupling/integration/system/dense_solvers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int    rest_iterations = 100, mean_iterations = 500;
+constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
+constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
+constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
+constexpr double least_damping = 1e-4; ///< critical share that resonance is told with at least
+constexpr int    grid_points   = 1500;
+
+[[noreturn]] void refuse_averaging(const std::string &reason)
+{
+  throw std::invalid_argument("averaging: " + reason);
+}
+
+} // namespace
+
+SlowFlow::SlowFlow(const PeriodicProblem &problem, int mode)
+    : problem_(problem), entry_history_(problem.system->events().save_history())
+{
+  const SecondOrderSystem &system = *problem.system;
+  if (system.joints().n_rows() > 0)
+    refuse_averaging("ideal joints are not averaged by it; take shooting, or compliant joints");
+  if (!system.linear().dense_matrices(M_, B_, C_))
+    refuse_averaging("it works in a mode of the base system, and an unreduced frame has too many; reduce the frame");
+  if (problem.turn.size() > 0 && !problem.turn.isZero(0.))
+    refuse_averaging("a motion that turns is no vibration about a place of rest; take shooting");
+  W_ = MatrixXd(system.forces().directions());
+  problem.system->events().follow_history(false);
+  find_rest();
+  find_load();
+  find_mode(mode);
+}
+
+SlowFlow::~SlowFlow()
+{
+  problem_.system->events().restore_history(entry_history_);
+}
+
+/// C q = f_0 + W p(W^T q, 0) by Newton's method, and the system linearised there.
+void SlowFlow::find_rest()
+{
+  const SecondOrderSystem &system = *problem_.system;
+  LocalState               state;
+  state.resize(W_.cols());
+  MatrixXd       dp_du = MatrixXd::Zero(W_.cols(), W_.cols()), dp_dv = dp_du;
+  const VectorXd load = system.linear().excitation().constant();
+  rest_               = VectorXd::Zero(M_.rows());
+  for (int k = 0; k < rest_iterations; ++k)
+  {
+    state.t = problem_.begin;
+    state.u = W_.transpose() * rest_;
+    if (k == 0)
+      problem_.system->events().start(state);
+    if (W_.cols() > 0)
+      system.forces().derivatives(state, state.p, dp_du, dp_dv);
+    linear_C_           = C_ - W_ * dp_du * W_.transpose();
+    const VectorXd step = lu_solution(linear_C_, load + W_ * state.p - C_ * rest_);
+    if (!step.allFinite())
+      refuse_averaging("nothing holds a motion of the system, so that it has no place of rest; take shooting");
+    rest_ += step;
+    if (step.norm() <= rest_tolerance * (1e-300 + rest_.norm()))
+    {
+      linear_B_    = B_ - W_ * dp_dv * W_.transpose();
+      flexibility_ = lu_solution(linear_C_, MatrixXd::Identity(C_.rows(), C_.rows()));
+      q_0_         = rest_;
+      return;
+    }
+  }
+  refuse_averaging("the place where the system rests is not found; take settling");
+}
+
+void SlowFlow::find_load()
+{
+  const Excitation &excitation = problem_.system->linear().excitation();
+  if (excitation.has_rest() || excitation.harmonics().size() > 1)
+    refuse_averaging("loads of one frequency only are averaged; take harmonic-balance for more");
+  if (!excitation.harmonics().empty())
+    load_omega_ = excitation.harmonics()[0].omega;
+}
+
+/// Distance of a mode from what is asked for; infinite for one that neither load nor elements move.
+double SlowFlow::nearness(int mode, const VectorXd &omega, const MatrixXd &shapes) const
+{
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const VectorXd   phi   = shapes.col(mode);
+  if (!(omega[mode] > 0.))
+    return never;
+  if (load_omega_ > 0.)
+  {
+    double force = 0., largest = 0.;
+    for (const Excitation::Entry &entry : problem_.system->linear().excitation().harmonics()[0].load)
+    {
+      force += phi[entry.coordinate] * std::hypot(entry.cosine, entry.sine);
+      largest += phi.cwiseAbs().maxCoeff() * std::hypot(entry.cosine, entry.sine);
+    }
+    return std::abs(force) > no_mode_moved * largest ? std::abs(omega[mode] - load_omega_) : never;
+  }
+  return phi.dot(linear_B_ * phi) < 0. ? std::abs(omega[mode] - 2. * M_PI / problem_.period) : never;
+}
+
+void SlowFlow::find_mode(int mode)
+{
+  const SymmetricPencilSolver modes(0.5 * (linear_C_ + linear_C_.transpose()), M_);
+  if (!modes.converged())
+    refuse_averaging("the modes of the base system were not found: its mass matrix is singular");
+  const VectorXd omega = modes.eigenvalues().unaryExpr([](double x) { return x > 0. ? std::sqrt(x) : 0.; });
+  if (mode < 0)
+  {
+    double best = std::numeric_limits<double>::infinity();
+    for (int j = 0; j < omega.size(); ++j)
+      if (const double distance = nearness(j, omega, modes.eigenvectors()); distance < best)
+      {
+        best = distance;
+        mode = j;
+      }
+    if (mode < 0)
+      refuse_averaging(load_omega_ > 0. ? "no mode is moved by the load"
+                                        : "there is no load, and no mode is excited by itself about its place of rest");
+  }
+  if (mode >= omega.size() || !(omega[mode] > 0.))
+    refuse_averaging("there is no vibration of mode " + std::to_string(mode + 1));
+  omega_0_        = omega[mode];
+  phi_            = modes.eigenvectors().col(mode);
+  d_              = W_.transpose() * phi_;
+  linear_k_       = phi_.dot((linear_C_ - C_) * phi_);
+  linear_damping_ = phi_.dot(B_ * phi_);
+  if (load_omega_ > 0.)
+    for (const Excitation::Entry &entry : problem_.system->linear().excitation().harmonics()[0].load)
+      load_ += phi_[entry.coordinate] * Complex(entry.cosine, -entry.sine);
+}
+
+/// q_0 that the mean forces keep at the amplitude a, from the last one; what rounding moves stays.
+void SlowFlow::settle_mean(double a)
+{
+  const VectorXd  load = problem_.system->linear().excitation().constant();
+  DescribedForces described(*problem_.system, d_);
+  for (int k = 0; k < mean_iterations; ++k)
+  {
+    described.at(W_.transpose() * q_0_, a, omega_0_);
+    const VectorXd step     = flexibility_ * (load + W_ * described.mean_forces() - C_ * q_0_);
+    const VectorXd rounding = (flexibility_ * W_).cwiseAbs() * VectorXd::Constant(W_.cols(), described.largest_force());
+    if (step.norm() <= rest_tolerance * (a * phi_.norm() + q_0_.norm() + rounding.norm()))
+      return;
+    q_0_ += step;
+  }
+  std::ostringstream message;
+  message << "averaging: the mean of the motion is not found at the amplitude " << a << " of the mode";
+  throw NoPeriodicMotion(message.str());
+}
+
+SlowFlow::Rates SlowFlow::at(double a)
+{
+  if (W_.cols() == 0)
+    return {omega_0_, 0.5 * linear_damping_};
+  settle_mean(a);
+  DescribedForces          described(*problem_.system, d_);
+  const DescribingFunction f = described.at(W_.transpose() * q_0_, a, omega_0_);
+  return {omega_0_ + (f.stiffness - linear_k_) / (2. * omega_0_), 0.5 * (linear_damping_ + f.damping)};
+}
+
+/// Zero where a is steady.
+double SlowFlow::balance(double a)
+{
+  const Rates rates = at(a);
+  if (load_omega_ == 0.)
+    return rates.delta;
+  return a * std::hypot(rates.omega - load_omega_, rates.delta) - std::abs(load_) / (2. * omega_0_);
+}
+
+double SlowFlow::root(double below, double above)
+{
+  const bool rising = balance(above) > 0.;
+  for (int k = 0; k < 200; ++k)
+  {
+    const double middle = 0.5 * (below + above);
+    if (middle <= below || middle >= above)
+      break;
+    ((balance(middle) > 0.) == rising ? above : below) = middle;
+  }
+  return 0.5 * (below + above);
+}
+
+std::vector<double> SlowFlow::amplitudes(double from, double to)
+{
+  if (!(to > from))
+  {
+    const double push   = std::abs(load_) / (2. * omega_0_);
+    const double delta  = std::max(0.5 * std::abs(phi_.dot(linear_B_ * phi_)), least_damping * omega_0_);
+    const double linear = push / std::hypot(omega_0_ - load_omega_, delta);
+    from                = load_omega_ > 0. ? linear / reach : 1. / reach;
+    to                  = load_omega_ > 0. ? beyond * push / delta : reach;
+  }
+  const double        ratio = std::pow(to / from, 1. / (grid_points - 1));
+  std::vector<double> a(grid_points), value(grid_points), found;
+  q_0_ = rest_;
+  for (int i = 0; i < grid_points; ++i)
+  {
+    a[i]     = from * std::pow(ratio, i);
+    value[i] = balance(a[i]);
+  }
+  for (int i = 1; i < grid_points; ++i)
+  {
+    if ((value[i - 1] > 0.) != (value[i] > 0.))
+      found.push_back(root(a[i - 1], a[i]));
+    if (i + 1 == grid_points || (value[i - 1] > 0.) != (value[i] > 0.) || (value[i] > 0.) != (value[i + 1] > 0.))
+      continue;
+    // two roots between points of the grid: where |value| dips, its extremum has the other sign
+    if (std::abs(value[i]) < std::abs(value[i - 1]) && std::abs(value[i]) <= std::abs(value[i + 1]))
+    {
+      const double side  = value[i] > 0. ? 1. : -1.;
+      double       below = a[i - 1], above = a[i + 1];
+      for (int k = 0; k < 60 && above - below > 1e-12 * above; ++k)
+      {
+        const double one = below + (above - below) / 3., two = above - (above - below) / 3.;
+        (side * balance(one) < side * balance(two) ? above : below) =
+            side * balance(one) < side * balance(two) ? two : one;
+      }
+      const double extremum = 0.5 * (below + above);
+      if (side * balance(extremum) < 0.)
+      {
+        found.push_back(root(a[i - 1], extremum));
+        found.push_back(root(extremum, a[i + 1]));
+      }
+    }
+  }
+  return found;
+}
+
+Complex SlowFlow::steady(double a)
+{
+  const Rates rates = at(a);
+  if (load_omega_ == 0.)
+    return a;
+  const Complex z = Complex(0., 0.5) * load_ / (omega_0_ * Complex(-rates.delta, rates.omega - load_omega_));
+  return a * z / std::abs(z);
+}
+
+/// Of z = (a + x + i y) exp(i psi):  x' = (g + a dg/da) x,  with g = -delta + i (omega - Omega).
+Eigen::Vector2cd SlowFlow::eigenvalues(double a)
+{
+  const double  step = 1e-4 * a;
+  const Rates   here = at(a), above = at(a + step), below = at(a - step);
+  const Complex g(-here.delta, load_omega_ > 0. ? here.omega - load_omega_ : 0.);
+  const Complex slope(-(above.delta - below.delta) / (2. * step), (above.omega - below.omega) / (2. * step));
+  const double  trace       = 2. * g.real() + a * slope.real();
+  const double  determinant = (g.real() + a * slope.real()) * g.real() + g.imag() * (g.imag() + a * slope.imag());
+  const Complex root        = std::sqrt(Complex(0.25 * trace * trace - determinant));
+  return {0.5 * trace + root, 0.5 * trace - root};
+}
+
+namespace
+{
+
+class AveragingMethod final : public PeriodicMethod
+{
+public:
+  std::string name() const override { return "averaging"; }
+  std::string meaning() const override
+  {
+    return "slow flow of one mode with the describing functions of the elements (Bogoliubov, Mitropolsky 1961): a "
+           "quick "
+           "look, of first order";
+  }
+  std::string refuses(const PeriodicProblem &problem) const override;
+
+  std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
+                                      const PeriodicOptions &options) const override;
+
+private:
+  static PeriodicSolution solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a);
+  static FourierSeries    series_of(const PeriodicProblem &problem, SlowFlow &flow, double a, double period);
+};
+
+std::string AveragingMethod::refuses(const PeriodicProblem &problem) const
+{
+  try
+  {
+    SlowFlow flow(problem);
+    return "";
+  }
+  catch (const std::invalid_argument &error)
+  {
+    return error.what();
+  }
+}
+
+/// Where nothing depends on the time, at the phase that is asked for, rising.
+FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlow &flow, double a, double period)
+{
+  const bool    free     = flow.load_omega() == 0.;
+  const int     harmonic = free ? 1 : int(std::lround(flow.load_omega() * period / (2. * M_PI)));
+  FourierSeries series;
+  series.omega = 2. * M_PI / period;
+  series.begin = problem.begin;
+  Complex z    = flow.steady(a);
+  if (free && problem.period_is_unknown())
+  {
+    const double x = (problem.phase_value - flow.mean()[problem.phase]) / (a * flow.shape()[problem.phase]);
+    if (!(std::abs(x) <= 1.))
+      refuse_averaging("the coordinate that fixes the phase does not come to its value in this motion; give its mean");
+    const double side = flow.shape()[problem.phase] > 0. ? 1. : -1.;
+    z                 = a * std::exp(Complex(0., -side * std::acos(x) - series.omega * problem.begin));
+  }
+  const auto n                = flow.shape().size();
+  series.ramp                 = VectorXd::Zero(n);
+  series.cosine               = MatrixXd::Zero(n, harmonic + 1);
+  series.sine                 = series.cosine;
+  series.cosine.col(0)        = flow.mean();
+  series.cosine.col(harmonic) = z.real() * flow.shape();
+  series.sine.col(harmonic)   = -z.imag() * flow.shape();
+  return series;
+}
+
+PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a)
+{
+  const Eigen::Vector2cd exponents = flow.eigenvalues(a);
+  const SlowFlow::Rates  rates     = flow.at(a);
+  PeriodicSolution       solution;
+  solution.begin  = problem.begin;
+  solution.period = flow.load_omega() > 0. ? problem.period : 2. * M_PI / rates.omega;
+  solution.ratio  = problem.ratio;
+  solution.turn   = VectorXd::Zero(flow.shape().size());
+  solution.series = series_of(problem, flow, a, solution.period);
+  VectorXd acceleration;
+  solution.series->at(problem.begin, solution.q, solution.v, acceleration);
+  solution.multipliers = (solution.period * exponents).array().exp();
+  if (std::abs(solution.multipliers[0]) < std::abs(solution.multipliers[1]))
+    std::swap(solution.multipliers[0], solution.multipliers[1]);
+  solution.trivial_multiplier = flow.load_omega() == 0.;
+  solution.method             = "averaging";
+  std::ostringstream note;
+  note.precision(2);
+  note << "first order in what the elements add to the frequency of the mode, here "
+       << std::abs(rates.omega / flow.omega_0() - 1.) << " of it; multipliers are those of this mode";
+  solution.notes.push_back(note.str());
+  return solution;
+}
+
+std::vector<PeriodicSolution> AveragingMethod::solve(const PeriodicProblem &problem, const PeriodicGuess &,
+                                                     const PeriodicOptions &) const
+{
+  SlowFlow                      flow(problem);
+  std::vector<PeriodicSolution> found;
+  for (const double a : flow.amplitudes())
+    found.push_back(solution_of(problem, flow, a));
+  if (found.empty())
+  {
+    std::ostringstream message;
+    message << "averaging: the mode of " << flow.omega_0() / (2. * M_PI)
+            << " Hz has no steady amplitude; take settling to see what the motion does";
+    throw NoPeriodicMotion(message.str());
+  }
+  return found;
+}
+
+} // namespace
+
+const PeriodicMethod &averaging_method()
+{
+  static const AveragingMethod method;
+  return method;
+}
+
+} // namespace gestell::coupling
