@@ -56,6 +56,8 @@ void print_solutions(const PeriodicResult &result)
     std::cout << "  ... " << result.entries.size() << " in all, in solutions.csv\n";
   for (const SpecialPoint &point : result.special_points)
     std::cout << "  " << point.kind << " at " << result.parameter << " = " << short_text(point.parameter, 10) << '\n';
+  for (const std::string &note : result.notes)
+    std::cout << "  " << note << '\n';
   for (const PeriodicCheck &check : result.checks)
   {
     std::cout << "  by " << check.method << ": ";
@@ -95,24 +97,34 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
 Command periodic_command()
 {
   const auto own = std::make_shared<PeriodicRequest>();
-  return {"periodic",
-          "periodic motions and whether they last",
-          {"gestell periodic apps/scenes/press.toml"},
-          CommandInput::scene,
-          {{"--method", &own->method, "shooting, minimise or settling (default: chosen by the scene, and said why)"},
-           {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
-           CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
-               .above_zero(),
-           CommandOption{"--lead-in", &own->lead_in, "periods integrated before Newton's method begins (default 10)"},
-           CommandOption{"--closing", &own->tolerance,
-                         "how well a motion must close, relative to its speed (default 1e-10)"}
-               .above_zero(),
-           CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero(),
-           CommandOption{"--damping", &own->damping,
-                         "of settling: share of critical by which the lowest mode is damped more at first"}
-               .above_zero(),
-           CommandOption{"--check", &own->check, "a second method; the distance is told"}},
-          [own](const CommonOptions &options) { return find_periodic(options, *own); }};
+  return {
+      "periodic",
+      "periodic motions and whether they last",
+      {"gestell periodic apps/scenes/press.toml",
+       "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
+      CommandInput::scene,
+      {{"--method", &own->method,
+        "shooting, harmonic-balance, minimise, settling or averaging (default: chosen by the scene, and said why)"},
+       {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
+       CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
+           .above_zero(),
+       {"--along", &own->along, "follow the motions along an entry of the scene, such as parameters.speed"},
+       CommandOption{"--from", &own->from, "its first value, such as \"800 1/min\""}.with("--along"),
+       CommandOption{"--to", &own->to, "its last value"}.with("--along"),
+       CommandOption{"--points", &own->points, "about so many from end to end (default 100)"}.above_zero().with(
+           "--along"),
+       CommandOption{"--harmonics", &own->harmonics, "of harmonic balance (default: until what is left out is small)"}
+           .above_zero(),
+       CommandOption{"--lead-in", &own->lead_in, "periods integrated before Newton's method begins (default 10)"},
+       CommandOption{"--closing", &own->tolerance,
+                     "how well a motion must close, relative to its speed (default 1e-10)"}
+           .above_zero(),
+       CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero(),
+       CommandOption{"--damping", &own->damping,
+                     "of settling: share of critical by which the lowest mode is damped more at first"}
+           .above_zero(),
+       CommandOption{"--check", &own->check, "a second method; the distance is told"}},
+      [own](const CommonOptions &options) { return find_periodic(options, *own); }};
 }
 
 } // namespace gestell::apps

@@ -15,7 +15,7 @@ namespace
 {
 constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
 constexpr int    harmonics_told  = 10;    ///< of the drive
-constexpr double fine            = 1e-11; ///< tolerance of the steps that trace a motion
+constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
 
 using coupling::PeriodicSolution;
 
@@ -135,7 +135,7 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution
   coupling::RunOptions run;
   run.method = solution.integration;
   if (!(run.method.tolerance > 0.) && !(run.method.step > 0.))
-    run.method.tolerance = fine;
+    run.method.tolerance = fine_steps;
   run.begin          = solution.begin;
   run.end            = solution.begin + solution.period;
   run.output_step    = solution.period / rows;

@@ -181,6 +181,12 @@ double asked_period(const PeriodicRequest &request)
 
 } // namespace
 
+double load_period(const Scene &scene, const coupling::Machine &machine)
+{
+  const std::vector<double> omega = load_frequencies(machine);
+  return omega.empty() ? 0. : common_period(omega, scene);
+}
+
 RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                                    const PeriodicRequest &request)
 {

@@ -31,4 +31,8 @@ struct RepeatingMachine
 RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                                    const PeriodicRequest &request);
 
+/// Least common period [s] of all loads that oscillate; 0: none does.
+/// @throws std::invalid_argument with the frequencies if they have none
+double load_period(const Scene &scene, const coupling::Machine &machine);
+
 } // namespace gestell::apps

@@ -4,6 +4,7 @@
 #include "apps/scene/scene.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/periodic_answer.h"
+#include "apps/session/periodic_branches.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/simulation/simulation.h"
 
@@ -95,7 +96,7 @@ coupling::RunResult not_started(const coupling::RunOptions &run, const std::stri
 
 Session::Session(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
                  const Watch &watch)
-    : path_(path), overrides_(overrides), scene_(read_scene(path, overrides, scripts)), watch_(watch)
+    : path_(path), overrides_(overrides), scripts_(scripts), scene_(read_scene(path, overrides, scripts)), watch_(watch)
 {
 }
 
@@ -189,15 +190,26 @@ Result Session::run()
 
 Result Session::periodic(const PeriodicRequest &request)
 {
+  if (request.along.empty())
+    return periodic_here(request);
+  // Branches begin where the parameter does.
+  std::vector<std::string> overrides = overrides_;
+  overrides.push_back(request.along + '=' + request.from);
+  begin_ = std::make_unique<Session>(path_, overrides, scripts_, watch_);
+  return begin_->periodic_here(request);
+}
+
+Result Session::periodic_here(const PeriodicRequest &request)
+{
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
-  Result result = begin_result(scene_, "periodic", prepared);
-  result.asked  = {path_, overrides_, std::nullopt};
-  periodic_motions(request, result);
+  Result result   = begin_result(scene_, "periodic", prepared);
+  result.asked    = {path_, overrides_, std::nullopt};
+  result.periodic = periodic_motions(request, result);
   return finished(std::move(result));
 }
 
-void Session::periodic_motions(const PeriodicRequest &request, Result &result)
+PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result &result)
 {
   coupling::Machine &machine = machine_->machine;
   const auto         signals = scene_signals(scene_, machine);
@@ -213,30 +225,40 @@ void Session::periodic_motions(const PeriodicRequest &request, Result &result)
   for (int i = 0; i < machine.size(); ++i)
     found.coordinates.push_back(machine.coordinate_name(i));
   progress()("periodic motions", -1.);
-  const coupling::PeriodicGuess guess{start.q, start.v, 0.};
+  std::vector<coupling::PeriodicSolution> solutions;
   try
   {
-    for (const auto &solution : chosen.method->solve(repeating.problem, guess, options))
-    {
-      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
-      found.work.add(solution.work);
-    }
+    solutions = chosen.method->solve(repeating.problem, {start.q, start.v, 0.}, options);
   }
   catch (const std::runtime_error &none)
   {
     found.failure = none.what();
   }
+  for (const auto &solution : solutions)
+    found.work.add(solution.work);
+  if (!request.along.empty())
+  {
+    const SceneFamily family(path_, overrides_, scripts_, *machine_, request, repeating.problem);
+    found.parameter      = request.along;
+    found.parameter_unit = family.unit();
+    const auto now       = progress();
+    follow_branches(
+        family, solutions, options, request, [&](double share) { now("branches", share); }, found);
+  }
+  else
+    for (const auto &solution : solutions)
+      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
   if (!request.check.empty())
     check_periodic(machine, repeating, options, request.check, signals, found);
   found.interrupted = repeating.problem.interrupted();
   const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
                                    [](const PeriodicEntry &entry) { return entry.solution.stable(); });
-  if (stable != found.entries.end())
+  if (stable != found.entries.end() && request.along.empty())
   {
     result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
     states_for_pictures(*machine_, *result.run);
   }
-  result.periodic = std::move(found);
+  return found;
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,

@@ -6,6 +6,7 @@
 #include "apps/session/prepared_machine.h"
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,16 +73,19 @@ public:
 
 private:
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals);
-  void                periodic_motions(const PeriodicRequest &request, Result &result);
+  Result              periodic_here(const PeriodicRequest &request);
+  PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
   std::string                    path_;
   std::vector<std::string>       overrides_;
+  fem::Scripts                   scripts_;
   Scene                          scene_;
   Watch                          watch_;
   PhaseTimes                     times_;
   std::optional<PreparedMachine> machine_;
   bool                           checked_ = false;
+  std::unique_ptr<Session>       begin_; ///< of a branch: results draw its machine
 };
 
 } // namespace gestell::apps

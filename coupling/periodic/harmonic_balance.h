@@ -35,6 +35,7 @@ public:
 
   int  size() const { return size_; }
   bool period_is_unknown() const { return problem_.period_is_unknown(); }
+  bool interrupted() const { return problem_.interrupted(); }
   int  harmonics() const { return harmonics_; }
   int  samples() const { return forces_->samples(); }
   int  largest_load() const { return base_.largest_load(); } ///< highest harmonic of the load

@@ -3,9 +3,7 @@
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/periodic/hill.h"
-
-#include "coupling/integration/system/convergence_failure.h"
-#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/period_flow.h"
 
 #include <cmath>
 #include <sstream>
@@ -63,7 +61,7 @@ HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &op
   VectorXd       r;
   MatrixXd       J;
   bool           polished = false;
-  for (; newton.iterations < options.iterations && !options.interrupted(); ++newton.iterations)
+  for (; newton.iterations < options.iterations && !balance.interrupted(); ++newton.iterations)
   {
     balance.linearise(z, r, J);
     const VectorXd scale = balance.scales(z);
@@ -105,10 +103,23 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 namespace
 {
 
+/// Of the motion that starts where the series does.
+void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &solution)
+{
+  PeriodFlow flow(problem, solution.integration);
+  if (flow.has_tangents())
+    solution.multipliers = multipliers_of(flow.pass(solution.q, solution.v, solution.period, true).monodromy);
+}
+
 /// None where forces depend on accelerations.
 void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
                       PeriodicSolution &solution)
 {
+  if (floquet_way(problem, balance.harmonics()) == FloquetWay::shooting)
+  {
+    multipliers_by_a_period(problem, solution);
+    return;
+  }
   VectorXd r;
   MatrixXd J;
   balance.linearise(z, r, J);
@@ -118,6 +129,20 @@ void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, 
   solution.multipliers =
       hill_multipliers(problem, 2. * M_PI / balance.period(), balance.harmonics(), balance.derivatives()).multipliers;
 }
+
+} // namespace
+
+PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
+                                  const HarmonicNewton &newton, const PeriodicOptions &options)
+{
+  PeriodicSolution solution = balanced_solution(problem, balance, z, newton);
+  solution.integration      = options.integration;
+  find_multipliers(problem, balance, z, solution);
+  return solution;
+}
+
+namespace
+{
 
 class HarmonicBalanceMethod final : public PeriodicMethod
 {
@@ -195,7 +220,7 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   HarmonicNewton newton     = first_solution(balance, guess, options, z);
   int            iterations = newton.iterations;
   double         left_out   = newton.converged ? balance.left_out(z) : 0.;
-  while (newton.converged && options.harmonics == 0 && left_out > options.tolerance && !options.interrupted())
+  while (newton.converged && options.harmonics == 0 && left_out > options.tolerance && !problem.interrupted())
   {
     const int next = next_harmonics(balance, n_u);
     if (next == 0)
@@ -229,8 +254,8 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   if (left_out > options.tolerance)
     note << (options.harmonics > 0 ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
   solution.notes.push_back(note.str());
-  if (floquet_way(own, balance.harmonics()) == FloquetWay::hill)
-    find_multipliers(own, balance, z, solution);
+  solution.integration = options.integration;
+  find_multipliers(own, balance, z, solution);
   return {solution};
 }
 

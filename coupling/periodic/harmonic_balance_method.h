@@ -21,9 +21,13 @@ HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &op
 PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
                                    const HarmonicNewton &newton);
 
+/// The same with its multipliers.
+PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
+                                  const HarmonicNewton &newton, const PeriodicOptions &options);
+
 /// "harmonic-balance": one solution near the guess, or near the linear response if that is at rest.  The number of
 /// harmonics grows until what is left out is below the tolerance; a note tells what remains.  Multipliers are those of
-/// Hill's matrix where floquet_way() chooses it, and left to a shooting pass elsewhere.
+/// Hill's matrix where floquet_way() chooses it, else of a period that is integrated.
 const PeriodicMethod &harmonic_balance_method();
 
 } // namespace gestell::coupling

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double longest_step = 1. / 32.; ///< of a period
+constexpr double longest_step = 1. / 64.; ///< of a period
 constexpr double fine         = 1e-11;    ///< tolerance of steps where none is given
 constexpr double small_way    = 1e-5;     ///< over which gradients of guards are taken, of the largest motion so far
 constexpr double touching     = 1e-6;     ///< slope of a guard, of what the motion could give it

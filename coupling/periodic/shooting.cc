@@ -23,8 +23,9 @@ constexpr double as_integrated = 1e-7;  ///< closing error that rounding and the
 constexpr double free_to_move  = 1e-11; ///< singular value of Phi - E, of the largest
 } // namespace
 
-ShootingEquations::ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration)
-    : problem_(problem), integration_(integration), flow_(problem, integration), omega_(2. * M_PI / problem.period)
+ShootingEquations::ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration, double omega)
+    : problem_(problem), integration_(integration), flow_(problem, integration),
+      omega_(omega > 0. ? omega : 2. * M_PI / problem.period)
 {
 }
 
@@ -56,6 +57,8 @@ const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobia
   residual_.head(n)       = omega_ * dq;
   residual_.segment(n, n) = dv;
   closing_                = closing_error(dq, dv, 2. * M_PI / period, passage.fastest);
+  if (problem_.period_is_unknown())
+    residual_[2 * n] = z[problem_.phase] - omega_ * problem_.phase_value;
   if (!jacobian)
     return passage;
   jacobian_.setZero(z.size(), z.size());
@@ -67,7 +70,6 @@ const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobia
   jacobian_.col(2 * n).head(n)       = omega_ * passage.v;
   jacobian_.col(2 * n).segment(n, n) = flow_.end_acceleration();
   jacobian_(2 * n, problem_.phase)   = 1.;
-  residual_[2 * n]                   = z[problem_.phase] - omega_ * problem_.phase_value;
   return passage;
 }
 

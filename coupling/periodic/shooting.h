@@ -17,7 +17,8 @@ namespace gestell::coupling
 class ShootingEquations
 {
 public:
-  ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration);
+  /// @param omega  Omega of the unknowns; 0: that of the problem's period
+  ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration, double omega = 0.);
 
   PeriodFlow &flow() { return flow_; }
 
@@ -38,7 +39,7 @@ private:
   const PeriodicProblem &problem_;
   MethodOptions          integration_;
   PeriodFlow             flow_;
-  double                 omega_; ///< Omega of the scaling: that of the problem's period
+  double                 omega_; ///< Omega of the unknowns
   Eigen::VectorXd        residual_;
   Eigen::MatrixXd        jacobian_;
   double                 closing_  = 0.;

@@ -170,6 +170,7 @@ Json periodic_json(const PeriodicResult &result)
 {
   Json json = {{"method", result.method},
                {"reason", result.reason},
+               {"notes", result.notes},
                {"interrupted", result.interrupted},
                {"failure", result.failure.empty() ? Json() : Json(result.failure)}};
   if (!result.parameter.empty())

@@ -53,6 +53,7 @@ struct PeriodicResult
   std::vector<SpecialPoint>  special_points;
   std::vector<PeriodicCheck> checks;
   coupling::PeriodicWork     work;
+  std::vector<std::string>   notes;   ///< of branches
   std::string                failure; ///< not empty: why it ended early
   bool                       interrupted = false;
 };

@@ -1,0 +1,126 @@
+#include "apps/session/periodic_branches.h"
+
+#include "apps/scene/build/build_machine.h"
+#include "apps/session/periodic_answer.h"
+#include "coupling/periodic/continuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr int    usual_points = 100, rows_of_branches = 128, most_doublings = 2;
+constexpr double same = 1e-5; ///< distance of two motions, of their size
+
+using coupling::PeriodicSolution;
+
+std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &family, const PeriodicSolution &first,
+                                                         coupling::PeriodicOptions options, int doubling)
+{
+  if (first.series)
+  {
+    options.harmonics = first.series->harmonics();
+    return coupling::balance_branch(family.problems(), options);
+  }
+  return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);
+}
+
+/// Whether a solution lies on a branch that was followed already.
+bool known(const PeriodicResult &result, const PeriodicSolution &solution, double parameter, double range)
+{
+  const double omega = 2. * M_PI / solution.period, size = omega * solution.q.norm() + solution.v.norm();
+  return std::any_of(result.entries.begin(), result.entries.end(),
+                     [&](const PeriodicEntry &entry)
+                     {
+                       const PeriodicSolution &s = entry.solution;
+                       return std::abs(entry.parameter - parameter) <= 1e-12 * range && s.ratio == solution.ratio &&
+                              omega * (s.q - solution.q).norm() + (s.v - solution.v).norm() <= same * size;
+                     });
+}
+
+/// Writes a branch into the result, with the signals of every point.
+class BranchTable
+{
+public:
+  BranchTable(const SceneFamily &family, PeriodicResult &result) : family_(family), result_(result) {}
+
+  void add(const coupling::Branch &branch)
+  {
+    ++number_;
+    const std::size_t first = result_.entries.size();
+    for (const coupling::BranchPoint &point : branch.points)
+      add_point(point);
+    for (const coupling::SpecialMotion &special : branch.special)
+      result_.special_points.push_back(
+          {special.kind, special.parameter, special.solution.period, nearest(first, special.parameter)});
+  }
+
+private:
+  void add_point(const coupling::BranchPoint &point)
+  {
+    const auto                member  = family_.member(point.parameter);
+    const auto                signals = scene_signals(*member->scene, member->prepared->machine);
+    coupling::PeriodicProblem problem = member->problem;
+    problem.period                    = point.solution.period;
+    problem.ratio                     = point.solution.ratio;
+    PeriodicEntry entry = entry_of(member->prepared->machine, problem, point.solution, signals, rows_of_branches);
+    entry.branch        = number_;
+    entry.parameter     = point.parameter;
+    result_.entries.push_back(std::move(entry));
+  }
+
+  int nearest(std::size_t first, double parameter) const
+  {
+    std::size_t best = first;
+    for (std::size_t i = first; i < result_.entries.size(); ++i)
+      if (std::abs(result_.entries[i].parameter - parameter) < std::abs(result_.entries[best].parameter - parameter))
+        best = i;
+    return int(best) + 1;
+  }
+
+  const SceneFamily &family_;
+  PeriodicResult    &result_;
+  int                number_ = 0;
+};
+
+} // namespace
+
+void follow_branches(const SceneFamily &family, const std::vector<PeriodicSolution> &solutions,
+                     const coupling::PeriodicOptions &options, const PeriodicRequest &request,
+                     const std::function<void(double)> &progress, PeriodicResult &result)
+{
+  coupling::ContinuationOptions along;
+  along.from   = family.from();
+  along.to     = family.to();
+  along.points = request.points > 0 ? request.points : usual_points;
+  BranchTable table(family, result);
+  const auto  on_point = [&](const coupling::BranchPoint &point)
+  {
+    progress((point.parameter - along.from) / (along.to - along.from));
+    return !family.problems()(point.parameter).problem.interrupted();
+  };
+  for (const PeriodicSolution &first : solutions)
+  {
+    if (known(result, first, along.from, std::abs(along.to - along.from)))
+      continue;
+    try
+    {
+      const int              doubling  = first.series ? 1 : std::max(1, first.ratio / std::max(1, request.ratio));
+      const auto             equations = equations_for(family, first, options, doubling);
+      const coupling::Branch branch    = follow_branch(*equations, first, along, on_point);
+      table.add(branch);
+      if (!branch.ended.empty())
+        result.notes.push_back("branch " + std::to_string(result.entries.back().branch) + ": " + branch.ended);
+    }
+    catch (const std::runtime_error &none)
+    {
+      result.failure = none.what();
+    }
+  }
+}
+
+} // namespace gestell::apps

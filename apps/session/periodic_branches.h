@@ -1,0 +1,21 @@
+#pragma once
+
+#include "apps/output/values/periodic_result.h"
+#include "apps/session/scene_family.h"
+
+#include <functional>
+
+namespace gestell::apps
+{
+
+/**
+ * Follows the branches that the solutions begin (follow_branch()), and those of doubled period that they shed; all
+ * points, numbered by branches, and special points into `result`.
+ *
+ * @param progress  share of the range
+ */
+void follow_branches(const SceneFamily &family, const std::vector<coupling::PeriodicSolution> &solutions,
+                     const coupling::PeriodicOptions &options, const PeriodicRequest &request,
+                     const std::function<void(double)> &progress, PeriodicResult &result);
+
+} // namespace gestell::apps

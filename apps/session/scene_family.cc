@@ -1,0 +1,101 @@
+#include "apps/session/scene_family.h"
+
+#include "apps/session/repeating_machine.h"
+#include "coupling/frame/frame_recipe.h"
+#include "fem/values/number_text.h"
+
+#include <cstdlib>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+/// A number and the unit behind it.
+double split(const std::string &option, const std::string &text, std::string &unit)
+{
+  char        *end   = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str())
+    throw std::invalid_argument(option + " " + text + ": needs a number, with its unit if it has one: \"800 1/min\"");
+  unit = end;
+  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size() : unit.find_first_not_of(' '));
+  return value;
+}
+
+/// What a machine needs of its frame, without what is only drawn or told.
+std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame &frame)
+{
+  auto copy          = std::make_shared<coupling::ReducedFrame>(frame);
+  copy->points       = {};
+  copy->triangles    = {};
+  copy->displacement = {};
+  copy->stress       = {};
+  return copy;
+}
+
+} // namespace
+
+SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
+                         PreparedMachine &machine, const PeriodicRequest &request,
+                         const coupling::PeriodicProblem &like)
+    : path_(path), key_(request.along), overrides_(overrides), scripts_(scripts), request_(request), like_(like)
+{
+  if (request.from.empty() || request.to.empty())
+    throw std::invalid_argument("--along " + key_ + ": give its ends, --from and --to");
+  std::string other;
+  from_ = split("--from", request.from, unit_);
+  to_   = split("--to", request.to, other);
+  if (unit_.empty())
+    unit_ = other;
+  if (!other.empty() && other != unit_)
+    throw std::invalid_argument("--from " + request.from + " and --to " + request.to + ": give both in one unit");
+  if (from_ == to_)
+    throw std::invalid_argument("--from and --to are both " + request.from + "; there is no way between them");
+  const Scene first = scene_at(from_), last = scene_at(to_);
+  if (frame_path(first) != FramePath::reduce && frame_path(first) != FramePath::from_file)
+    return;
+  if (frame_path(first) == FramePath::reduce &&
+      coupling::content_key(frame_origin(first).recipe) != coupling::content_key(frame_origin(last).recipe))
+    throw std::invalid_argument("--along " + key_ +
+                                ": this entry changes the frame itself, which would be meshed and "
+                                "reduced anew at each of some hundred values; follow an entry of the "
+                                "mechanism, or compute single values with --set " +
+                                key_ + "=...");
+  frame_ = plain(*machine.machine.model().reduced_frame());
+}
+
+Scene SceneFamily::scene_at(double value) const
+{
+  std::vector<std::string> overrides = overrides_;
+  std::string              text;
+  append_exact(text, value);
+  overrides.push_back(key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"'));
+  return read_scene(path_, overrides, scripts_);
+}
+
+std::shared_ptr<MachineMember> SceneFamily::member(double value) const
+{
+  auto member            = std::make_shared<MachineMember>();
+  member->scene          = std::make_unique<Scene>(scene_at(value));
+  member->prepared       = std::make_unique<PreparedMachine>(frame_ ? prepare_machine_on(*member->scene, *frame_)
+                                                                    : prepare_machine(*member->scene));
+  member->problem        = like_;
+  member->problem.system = &member->prepared->machine;
+  if (!like_.period_is_unknown() && request_.period.empty())
+    member->problem.period = like_.ratio * load_period(*member->scene, member->prepared->machine);
+  return member;
+}
+
+coupling::ProblemFamily SceneFamily::problems() const
+{
+  return [this](double value)
+  {
+    std::shared_ptr<MachineMember> found = member(value);
+    return coupling::FamilyMember{found->problem, found};
+  };
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "apps/scene/scene.h"
+#include "apps/session/periodic_request.h"
+#include "apps/session/prepared_machine.h"
+#include "coupling/periodic/branch_equations.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A machine at one value of an entry of its scene.
+struct MachineMember
+{
+  std::unique_ptr<Scene>           scene;
+  std::unique_ptr<PreparedMachine> prepared;
+  coupling::PeriodicProblem        problem;
+};
+
+/// A scene over the values of one entry, on the frame that was reduced once.
+class SceneFamily
+{
+public:
+  /// @throws std::invalid_argument where the ends are no numbers of one unit, the key is unknown, or the entry changes
+  /// the frame itself, with what that would cost
+  SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
+              PreparedMachine &machine, const PeriodicRequest &request, const coupling::PeriodicProblem &like);
+
+  double             from() const { return from_; }
+  double             to() const { return to_; }
+  const std::string &unit() const { return unit_; }
+
+  /// The machine at a value; what is to repeat is that of `like`, with the period of its own loads.
+  std::shared_ptr<MachineMember> member(double value) const;
+  coupling::ProblemFamily        problems() const;
+
+private:
+  Scene scene_at(double value) const;
+
+  std::string                                   path_, key_, unit_;
+  std::vector<std::string>                      overrides_;
+  fem::Scripts                                  scripts_;
+  PeriodicRequest                               request_;
+  double                                        from_ = 0., to_ = 0.;
+  std::shared_ptr<const coupling::ReducedFrame> frame_; ///< without pictures; null: the scene reduces none
+  coupling::PeriodicProblem                     like_;
+};
+
+} // namespace gestell::apps

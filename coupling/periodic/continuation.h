@@ -1,0 +1,66 @@
+#pragma once
+
+#include "coupling/periodic/branch_equations.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Where a branch is followed.
+struct ContinuationOptions
+{
+  double from = 0., to = 1.; ///< of the parameter
+  int    points    = 100;    ///< about so many from end to end
+  int    most      = 1000;   ///< points at most
+  double tolerance = 1e-9;   ///< of closing()
+  double located   = 1e-9;   ///< special points, of the range
+};
+
+/// A place where motions begin, end or change their stability.
+struct SpecialMotion
+{
+  std::string      kind; ///< "fold", "period doubling", "Neimark-Sacker", "branch", "grazing"
+  double           parameter = 0.;
+  PeriodicSolution solution;
+};
+
+struct BranchPoint
+{
+  double           parameter = 0.;
+  PeriodicSolution solution;
+};
+
+struct Branch
+{
+  std::vector<BranchPoint>   points;
+  std::vector<SpecialMotion> special;
+  std::string                ended; ///< why, in words; empty: at the other end of the parameter
+};
+
+/**
+ * Follows a branch of periodic motions by its arclength (Keller 1977): F(z, lambda) = 0 with
+ *
+ *     |dz|^2/size^2 + dlambda^2/range^2 = ds^2
+ *
+ * along the tangent, a step that grows with quick convergence and shrinks where the branch turns or Newton fails.
+ *
+ * Special points are zeros of test functions between two points, located by regula falsi in the arclength:
+ *
+ *     fold             dlambda/ds = 0
+ *     branch           det dF/dz = 0 without a fold
+ *     period doubling  prod (mu_i + 1) = 0
+ *     Neimark-Sacker   |mu| = 1 of a pair of complex multipliers
+ *     grazing          another number or kind of events, by bisection
+ *
+ * @param first     a solution at options.from
+ * @param progress  called with the parameter of each point
+ * @throws NoPeriodicMotion, ConvergenceFailure if not even the first point is found; later failures end the branch and
+ * are told in `ended`
+ */
+Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
+                     const std::function<bool(const BranchPoint &)> &progress = {});
+
+} // namespace gestell::coupling
