@@ -186,14 +186,71 @@ void BaseResponse::gather_free_motions()
     free_columns_.col(k) = read_.row(free_[k].unknown).transpose();
 }
 
+/// The first products of all blocks, then the second ones.  Those of modes that no damping couples have no first ones.
 void BaseResponse::fill_products()
 {
-  products_.resize(Eigen::Index(n_rows_) * n_u_, 2 * modes_.n_modal);
-  for (int b = 0; b < modes_.n_modal; ++b)
+  const int n_b = modes_.n_modal;
+  products_.resize(Eigen::Index(n_rows_) * n_u_, 2 * n_b);
+  for (int b = 0; b < n_b; ++b)
     for (int j = 0; j < n_u_; ++j)
       for (int i = 0; i < n_rows_; ++i)
         products_of(modes_.blocks[b], read_(2 * b, i), read_(2 * b + 1, i), put_(2 * b, j), put_(2 * b + 1, j),
-                    products_(i + n_rows_ * j, 2 * b), products_(i + n_rows_ * j, 2 * b + 1));
+                    products_(i + n_rows_ * j, b), products_(i + n_rows_ * j, n_b + b));
+  if (products_.leftCols(n_b).isZero(0.))
+    products_ = MatrixXd(products_.rightCols(n_b));
+  s_.resize(n_b);
+  w_.resize(n_b);
+  for (int b = 0; b < n_b; ++b)
+  {
+    const ModalBlock &block = modes_.blocks[b];
+    s_[b]                   = block.s;
+    w_[b]                   = block.w;
+    if (block.kind != ModalBlock::oscillating)
+      others_.push_back(b);
+  }
+}
+
+/// Of all blocks at s = i h omega, real and imaginary parts; at once where they oscillate.
+void BaseResponse::fill_shares(int h)
+{
+  const Eigen::Index   n_b = w_.size(), rest = products_.cols() - n_b;
+  const double         Omega = h * omega_;
+  const Eigen::ArrayXd x = s_ * s_ + (w_ - Omega) * (w_ + Omega), y = -2. * Omega * s_;
+  const Eigen::ArrayXd inverse = (x * x + y * y).inverse(); // 1/det = (x - i y) inverse
+  auto                 real = shares_.col(h), imaginary = shares_.col(harmonics_ + 1 + h);
+  if (rest > 0)
+  {
+    real.head(rest)      = ((Omega * y - s_ * x) * inverse).matrix();
+    imaginary.head(rest) = ((Omega * x + s_ * y) * inverse).matrix();
+  }
+  real.tail(n_b)      = (w_ * x * inverse).matrix();
+  imaginary.tail(n_b) = (-w_ * y * inverse).matrix();
+  for (const int b : others_)
+  {
+    const BlockShares shares = shares_at(modes_.blocks[b], Complex(0., Omega));
+    for (int k = rest > 0 ? 0 : 1; k < 2; ++k)
+    {
+      real[k == 0 ? b : rest + b]      = shares.c[k].real();
+      imaginary[k == 0 ? b : rest + b] = shares.c[k].imag();
+    }
+  }
+}
+
+/// d/domega of the shares.
+void BaseResponse::fill_share_slopes(int h)
+{
+  const Eigen::Index n_b = w_.size(), rest = products_.cols() - n_b;
+  for (Eigen::Index b = 0; b < n_b; ++b)
+  {
+    const BlockShares shares = shares_at(modes_.blocks[b], Complex(0., h * omega_));
+    for (int k = rest > 0 ? 0 : 1; k < 2; ++k)
+    {
+      const Complex      slope               = Complex(0., h) * shares.slope[k];
+      const Eigen::Index row                 = k == 0 ? b : rest + b;
+      shares_(row, 2 * (harmonics_ + 1) + h) = slope.real();
+      shares_(row, 3 * (harmonics_ + 1) + h) = slope.imag();
+    }
+  }
 }
 
 int BaseResponse::largest_load() const
@@ -210,22 +267,13 @@ void BaseResponse::form(double omega, int harmonics, Slopes slopes)
   harmonics_ = harmonics;
   check_resonance();
   const int n_h = harmonics + 1;
-  shares_.resize(2 * modes_.n_modal, (slopes == Slopes::with ? 4 : 2) * n_h);
+  shares_.resize(products_.cols(), (slopes == Slopes::with ? 4 : 2) * n_h);
   for (int h = 0; h < n_h; ++h)
-    for (int b = 0; b < modes_.n_modal; ++b)
-    {
-      const BlockShares shares = shares_at(modes_.blocks[b], Complex(0., h * omega));
-      for (int k = 0; k < 2; ++k)
-      {
-        shares_(2 * b + k, h)       = shares.c[k].real();
-        shares_(2 * b + k, n_h + h) = shares.c[k].imag();
-        if (slopes == Slopes::none)
-          continue;
-        const Complex slope             = Complex(0., h) * shares.slope[k];
-        shares_(2 * b + k, 2 * n_h + h) = slope.real();
-        shares_(2 * b + k, 3 * n_h + h) = slope.imag();
-      }
-    }
+  {
+    fill_shares(h);
+    if (slopes == Slopes::with)
+      fill_share_slopes(h);
+  }
   table_.noalias() = products_ * shares_.leftCols(2 * n_h);
   if (slopes == Slopes::with)
     slope_.noalias() = products_ * shares_.rightCols(2 * n_h);

@@ -80,6 +80,8 @@ private:
   void             gather_free_motions();
   void             check_turn(const PeriodicProblem &problem) const;
   void             fill_products();
+  void             fill_shares(int h);
+  void             fill_share_slopes(int h);
   void             check_resonance() const;
   Eigen::VectorXcd load_at(int h) const;
   Eigen::VectorXcd solve(std::complex<double> s, const Eigen::VectorXcd &g) const;
@@ -95,8 +97,10 @@ private:
   std::vector<Load>             loads_;
   std::vector<FreeMotion>       free_;
   Eigen::MatrixXd               free_columns_;
-  Eigen::MatrixXd               products_;      ///< of read and put, two for each block [n_rows n_u x 2 n_modal]
+  Eigen::MatrixXd               products_;      ///< of read and put, two for each block [n_rows n_u x (1 or 2) n_modal]
   Eigen::MatrixXd               shares_;        ///< of the blocks at the harmonics [2 n_modal x 2 (H + 1)]
+  Eigen::ArrayXd                s_, w_;         ///< of the blocks [n_modal]
+  std::vector<int>              others_;        ///< blocks that do not oscillate
   Eigen::MatrixXd               table_, slope_; ///< R_h and their slopes, real parts and imaginary ones beside them
   std::vector<Eigen::VectorXcd> forced_, forced_slope_;
 };
