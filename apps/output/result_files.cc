@@ -1,5 +1,6 @@
 #include "apps/output/result_files.h"
 
+#include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
@@ -49,6 +50,11 @@ std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
 }
 
+std::string response(const Result &result)
+{
+  return result.frf ? frequency_response_csv(*result.frf) : "";
+}
+
 } // namespace
 
 bool ResultFile::has_name(const std::string &file) const
@@ -72,6 +78,7 @@ const std::vector<ResultFile> &result_files()
       {"multipliers.csv", "their Floquet multipliers", multipliers},
       {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
+      {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},
       {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
       {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},

@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/scene.h"
+#include "apps/session/frequency_response.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
@@ -164,6 +165,17 @@ Result Session::modes(const ModesOptions &options)
     for (const std::string &warning : along_warnings(*result.along))
       result.warnings.push_back(warning);
   }
+  return finished(std::move(result));
+}
+
+Result Session::frequency_response(const FrfOptions &options)
+{
+  check_frf_options(options);
+  PreparedMachine &prepared = machine();
+  progress()("modes", -1.);
+  Result result = begin_result(scene_, "frf", prepared);
+  result.asked  = {path_, overrides_, std::nullopt};
+  result.frf    = frequency_response_of(scene_, prepared, options, result.coupled_modes, progress(), result.warnings);
   return finished(std::move(result));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/phase_times.h"
@@ -59,6 +60,8 @@ public:
   FrameAnswer reduced_frame();
   /// Modes of the frame and of the coupled machine, and along a coordinate where options say so.
   Result modes(const ModesOptions &options = {});
+  /// Frequency responses of the machine linearised at an operating point.
+  Result frequency_response(const FrfOptions &options);
   /// The scene simulated in time, with modes, stresses and warnings.
   Result run();
 

@@ -4,6 +4,7 @@
 #include "apps/output/charts/signal_charts.h"
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/frame_text.h"
+#include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
@@ -315,6 +316,7 @@ std::string contents(const std::string &body)
                                  {"stress", "Stress"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
+                                 {"frf", "Frequency response"},
                                  {"along", "Frequencies along"},
                                  {"modes", "Modes"},
                                  {"numerics", "Model and work"}})
@@ -340,8 +342,8 @@ Report make_report(const Result &full)
                            chart_section(charts, ChartTopic::motion, "motion", "Motion") +
                            chart_section(charts, ChartTopic::other, "signals", "Other signals") +
                            events_section(result) + energy_section(result, charts) +
-                           along_section(result, report.charts) + modes_section(result, report) +
-                           numerics_section(result);
+                           frequency_response_section(result, report.charts) + along_section(result, report.charts) +
+                           modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
       {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,

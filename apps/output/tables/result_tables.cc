@@ -216,6 +216,41 @@ Json along_json(const AlongResult &along)
           {"order_meetings", array_of(along.meetings, meeting_json)}};
 }
 
+/// Infinite amplitudes, of undamped modes, are null.
+Json peak_json(const coupling::ResponsePeak &peak)
+{
+  return {{"frequency_hz", peak.frequency_hz},
+          {"amplitude", std::isfinite(peak.amplitude) ? Json(peak.amplitude) : Json()},
+          {"damping_ratio", std::isfinite(peak.damping_ratio) ? Json(peak.damping_ratio) : Json()}};
+}
+
+Json frf_json(const FrequencyResponse &response)
+{
+  const auto pair_json = [](const ResponsePair &pair)
+  {
+    return Json{{"name", pair.name()},
+                {"from", pair.from},
+                {"to", pair.to},
+                {"unit", pair.unit},
+                {"peaks", array_of(pair.peaks, peak_json)}};
+  };
+  const auto measured_json = [&](const MeasuredResponse &curve)
+  {
+    return Json{{"file", curve.file},
+                {"name", curve.name},
+                {"pair", response.pairs[curve.pair].name()},
+                {"points", curve.values.size()}};
+  };
+  return {{"kind", response.kind},
+          {"at", response.at},
+          {"t", response.t},
+          {"moves", response.moves},
+          {"closed_contacts", response.closed_contacts},
+          {"points", response.frequencies_hz.size()},
+          {"pairs", array_of(response.pairs, pair_json)},
+          {"measured", array_of(response.measured, measured_json)}};
+}
+
 Json stress_place_json(const StressPlace &place)
 {
   return {{"von_mises", place.von_mises},
@@ -304,6 +339,8 @@ std::string summary_json(const Result &result)
     json["modes_along"] = along_json(*result.along);
   if (result.periodic)
     json["periodic"] = periodic_json(*result.periodic);
+  if (result.frf)
+    json["frf"] = frf_json(*result.frf);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

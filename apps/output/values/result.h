@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/values/frequency_response.h"
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/stress_result.h"
@@ -68,7 +69,7 @@ struct Result
   std::string description; ///< what the scene says about itself, may be empty
   std::string version;     ///< of the program
   std::string commit;      ///< that it was built from; empty: unknown
-  std::string command;     ///< "run", "modes"
+  std::string command;     ///< "run", "modes", "frf"
   std::string settings;    ///< how it was computed, plain text for the report, may be empty
 
   Request                                     asked;
@@ -81,6 +82,7 @@ struct Result
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
+  std::optional<FrequencyResponse>            frf;              ///< of `frf`
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run

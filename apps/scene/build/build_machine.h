@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/scene.h"
+#include "coupling/machine/configuration/assembly.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/simulation.h"
 
@@ -37,6 +38,9 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
 
 /// q [n] of the configuration that modes are asked for.
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);
+
+/// The same with what is given of it, which an equilibrium there holds.
+coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machine);
 
 /// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
 /// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.  Joints are

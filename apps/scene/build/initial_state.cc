@@ -182,6 +182,14 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
   }
 }
 
+coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machine)
+{
+  coupling::KnownStart known = known_start(scene, machine, scene.modes.at, {});
+  known.state.q              = modes_configuration(scene, machine);
+  known.state.t              = scene.run.options.begin;
+  return known;
+}
+
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
 {
   // With joints a position has to be closed: that of the start, or the one nearest to it with the given values.

@@ -60,13 +60,14 @@ struct RealModes
   VectorXd omega;  // [n], zero for the first n_free
 };
 
-RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, const SecondOrderSystem &system)
+RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C,
+                     const std::function<std::string(int)> &coordinate_name)
 {
   const Eigen::LLT<MatrixXd> cholesky(M);
   const VectorXd             pivots = cholesky.matrixLLT().diagonal();
   for (Eigen::Index i = 0; i < M.rows(); ++i)
     if (!(M(i, i) > 0.) || !(pivots[i] * pivots[i] > 1e-14 * M(i, i)))
-      refuse("the mass matrix is singular at " + system.linear().coordinate_name(int(i)) +
+      refuse("the mass matrix is singular at " + coordinate_name(int(i)) +
              "; give it mass, or take the method bdf");
   if (cholesky.info() != Eigen::Success)
     refuse("the mass matrix is not positive definite; take the method bdf");
@@ -339,18 +340,11 @@ void ModalBlocks::turn_harmonics(double t, Eigen::VectorXd &x) const
   }
 }
 
-ModalBlocks modal_blocks(const SecondOrderSystem &system)
+ModalBlocks modal_blocks(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C,
+                         const std::function<std::string(int)> &coordinate_name)
 {
-  MatrixXd M, B, C;
-  if (!system.linear().dense_matrices(M, B, C))
-    refuse("it works in the modes of the whole base system, and an unreduced frame has too many; reduce the frame, or "
-           "take the method bdf");
-  if (system.linear().excitation().has_rest())
-    refuse("the load is no sum of harmonics; take the method bdf");
-  if (system.joints().n_rows() > 0)
-    refuse("ideal joints are not integrated by it; use compliant ones");
   const auto      n     = M.rows();
-  const RealModes modes = real_modes(M, B, C, system);
+  const RealModes modes = real_modes(M, B, C, coordinate_name);
   const MatrixXd  M_Phi = M * modes.Phi, D = modes.Phi.transpose() * B * modes.Phi;
 
   // Modes whose damping couples them to none are kept real.
@@ -377,18 +371,32 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system)
   }
 
   ModalBlocks result;
-  const auto &harmonics    = system.linear().excitation().harmonics();
-  const auto  n_x          = 2 * (n + Eigen::Index(harmonics.size()));
-  result.blocks            = assembly.blocks;
-  result.n_modal           = int(n);
-  result.Q                 = MatrixXd::Zero(n, n_x);
-  result.V                 = MatrixXd::Zero(n, n_x);
-  result.Q.leftCols(2 * n) = assembly.Q;
-  result.V.leftCols(2 * n) = assembly.V;
-  result.from_q            = assembly.from_q;
-  result.from_v            = assembly.from_v;
+  result.blocks  = assembly.blocks;
+  result.n_modal = int(n);
+  result.Q       = assembly.Q;
+  result.V       = assembly.V;
+  result.from_q  = assembly.from_q;
+  result.from_v  = assembly.from_v;
   // G = from_v M^-1
   result.G = M.llt().solve(assembly.from_v.transpose()).transpose();
+  return result;
+}
+
+ModalBlocks modal_blocks(const SecondOrderSystem &system)
+{
+  MatrixXd M, B, C;
+  if (!system.linear().dense_matrices(M, B, C))
+    refuse("it works in the modes of the whole base system, and an unreduced frame has too many; reduce the frame, or "
+           "take the method bdf");
+  if (system.linear().excitation().has_rest())
+    refuse("the load is no sum of harmonics; take the method bdf");
+  if (system.joints().n_rows() > 0)
+    refuse("ideal joints are not integrated by it; use compliant ones");
+  ModalBlocks result    = modal_blocks(M, B, C, [&](int i) { return system.linear().coordinate_name(i); });
+  const auto &harmonics = system.linear().excitation().harmonics();
+  const auto  n = M.rows(), n_x = 2 * (n + Eigen::Index(harmonics.size()));
+  result.Q.conservativeResize(n, n_x);
+  result.V.conservativeResize(n, n_x);
   for (std::size_t j = 0; j < harmonics.size(); ++j)
   {
     add_harmonic(harmonics[j], result, 2 * (n + Eigen::Index(j)));

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
@@ -55,6 +57,12 @@ struct ModalBlocks
 /// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is no sum of
 ///         harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
 ModalBlocks modal_blocks(const SecondOrderSystem &system);
+
+/// Those of the matrices alone [n x n], symmetric, without loads.
+/// @param coordinate_name  of coordinate i, for messages
+/// @throws std::invalid_argument as above: M is singular, or eigenvectors coincide
+ModalBlocks modal_blocks(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                         const std::function<std::string(int)> &coordinate_name);
 
 /// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] by columns a, b as the block's kind has it.
 struct Block2

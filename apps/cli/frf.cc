@@ -1,0 +1,87 @@
+#include "apps/cli/command.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/result_folder.h"
+#include "apps/session/session.h"
+#include "fem/values/number_text.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+void print_pair(const ResponsePair &pair)
+{
+  std::cout << pair.name() << " [" << pair.unit << "]\n";
+  if (pair.peaks.empty())
+    std::cout << "  no peak in this band\n";
+  else
+    std::cout << "   peak at [Hz]        amplitude   damping ratio by half-power width\n";
+  for (const coupling::ResponsePeak &peak : pair.peaks)
+    std::cout << std::setw(15) << short_text(peak.frequency_hz, 7) << std::setw(17)
+              << (std::isfinite(peak.amplitude) ? short_text(peak.amplitude, 5) : "infinite") << std::setw(16)
+              << (std::isfinite(peak.damping_ratio) ? short_text(peak.damping_ratio) : "-") << '\n';
+}
+
+void print_response(const FrequencyResponse &response)
+{
+  std::cout << response.kind << " of the machine linearised at " << response.at
+            << (response.moves ? ", in motion" : ", at rest") << '\n';
+  for (const std::string &contact : response.closed_contacts)
+    std::cout << "closed contact: " << contact << '\n';
+  for (const ResponsePair &pair : response.pairs)
+    print_pair(pair);
+}
+
+int find_response(const CommonOptions &options, const FrfOptions &asked)
+{
+  ProgressLine progress(options.quiet);
+  Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
+  session.check();
+  const std::filesystem::path folder = results_path(options, session.scene());
+  require_writable(folder);
+  const Result result = session.frequency_response(asked);
+  progress.done();
+  prepare_folder(folder);
+  write_results(folder, result);
+  print_response(*result.frf);
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  return exit_done;
+}
+
+} // namespace
+
+Command frf_command()
+{
+  const auto own = std::make_shared<FrfOptions>();
+  return {
+      "frf",
+      "frequency responses of the machine linearised at an operating point",
+      {"gestell frf apps/scenes/press_minimal.toml --from frame.crown.uz --to frame.crown.uz,F_P"},
+      CommandInput::scene,
+      {{"--from", &own->from, "where unit forces act: displacements or angles, such as frame.crown.uz, slide, tip.ux"},
+       {"--to", &own->to, "what answers: signals of the scene or paths, such as frame.table.uz, rod.force"},
+       CommandOption{"--kind", &own->kind, "of displacements: receptance (default), mobility or accelerance"}.one_of(
+           {"receptance", "mobility", "accelerance"}),
+       CommandOption{"--at", &own->at,
+                     "operating point: start (default) of the scene, equilibrium or undeformed at [modes]"}
+           .one_of({"start", "equilibrium", "undeformed"}),
+       {"--lowest", &own->lowest, "frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
+       {"--highest", &own->highest, "frequency (default: 1.5 times the highest mode that is listed)"},
+       CommandOption{"--points", &own->points, "frequencies, beside those that peaks ask for (default 400)"}
+           .above_zero(),
+       CommandOption{"--spacing", &own->spacing, "of the frequencies: log (default) or linear"}.one_of(
+           {"log", "linear"}),
+       {"--measured", &own->measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"}},
+      [own](const CommonOptions &options) { return find_response(options, *own); }};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,201 @@
+#include "apps/session/frequency_response.h"
+
+#include "apps/session/measured_response.h"
+#include "apps/session/option_value.h"
+#include "apps/session/response_sweep.h"
+#include "coupling/equilibrium/static_equilibrium.h"
+#include "coupling/modes/operating_point.h"
+#include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr int    most_points = 1000000;
+constexpr double slow        = 1e-3; ///< beside the fastest mode: a drive that weights hold, or a foundation
+
+void require_choice(const std::string &option, const std::string &value, const std::vector<std::string> &choices)
+{
+  if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    throw std::invalid_argument(option + " is \"" + value + "\"" + suggestion(value, choices));
+}
+
+/// The state about which the machine is linearised.
+coupling::InitialState operating_state(const Scene &scene, coupling::Machine &machine, const std::string &at)
+{
+  if (at == "start")
+    return initial_state(scene, machine);
+  coupling::KnownStart known = modes_position(scene, machine);
+  known.state.v.setZero();
+  if (at == "equilibrium")
+    try
+    {
+      known.state.q = coupling::held_equilibrium(machine, known).q;
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument("--at equilibrium: " + std::string(error.what()) +
+                                  "; [modes] at = {...} gives what is held there, or take --at start");
+    }
+  return known.state;
+}
+
+/// A signal by its path, by its name in the scene, or of a body or measure that has one.
+coupling::Signal named_signal(const std::string &option, const std::string &name, const coupling::Machine &machine,
+                              const std::vector<coupling::Signal> &of_scene)
+{
+  for (const coupling::Signal &signal : of_scene)
+    if (signal.name == name)
+      return signal;
+  const std::vector<std::string> paths = machine.model().signal_paths();
+  for (const std::string ending : {"", ".displacement", ".angle", ".value"})
+    if (const auto begin = name.find_first_not_of("- ");
+        begin != std::string::npos && std::find(paths.begin(), paths.end(), name.substr(begin) + ending) != paths.end())
+      return machine.signal(name, name + ending);
+  try
+  {
+    return machine.signal(name, name);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+}
+
+/// How often an answer is differentiated: displacements and angles only.
+int derivatives(const std::string &kind, const std::string &unit)
+{
+  if (unit != "m" && unit != "rad")
+    return 0;
+  return kind == "receptance" ? 0 : kind == "mobility" ? 1 : 2;
+}
+
+/// Unit of an answer per force along a displacement.
+std::string response_unit(const std::string &answer, int derivatives, const std::string &displacement)
+{
+  const std::string per[] = {"", "/s", "/s^2"};
+  return answer + per[derivatives] + (displacement == "m" ? "/N" : "/(N m)");
+}
+
+/// Vibrating modes lie within a band of this factor about them.
+std::pair<double, double> default_band(const std::vector<coupling::Mode> &modes, double limit)
+{
+  double lowest = 0., highest = 0., fastest = 0.;
+  for (const coupling::Mode &mode : modes)
+    fastest = std::max(fastest, mode.frequency_hz);
+  for (const coupling::Mode &mode : modes)
+    if (mode.frequency_hz > slow * fastest)
+    {
+      lowest  = lowest == 0. ? mode.frequency_hz : std::min(lowest, mode.frequency_hz);
+      highest = std::max(highest, mode.frequency_hz);
+    }
+  if (highest == 0.)
+    return {1., 1000.};
+  highest *= 1.5;
+  if (limit > 2. * lowest)
+    highest = std::min(highest, limit);
+  return {0.25 * lowest, highest};
+}
+
+std::vector<double> grid(double lowest, double highest, int points, bool logarithmic)
+{
+  std::vector<double> frequencies;
+  for (int i = 0; i < points; ++i)
+  {
+    const double share = double(i) / (points - 1);
+    frequencies.push_back(i == 0            ? lowest
+                          : i == points - 1 ? highest
+                          : logarithmic     ? lowest * std::pow(highest / lowest, share)
+                                            : lowest + share * (highest - lowest));
+  }
+  return frequencies;
+}
+
+std::vector<double> asked_frequencies(const FrfOptions &options, const std::vector<coupling::Mode> &modes, double limit)
+{
+  auto [lowest, highest] = default_band(modes, limit);
+  if (!options.lowest.empty())
+    lowest = option_value("--lowest", options.lowest, kind::frequency);
+  if (!options.highest.empty())
+    highest = option_value("--highest", options.highest, kind::frequency);
+  if (!(lowest > 0.) || !(highest > lowest) || !std::isfinite(highest))
+    throw std::invalid_argument("--lowest is " + short_text(lowest) + " Hz, --highest " + short_text(highest) +
+                                " Hz; both must be above zero and the highest above the lowest, such as --lowest "
+                                "\"1 Hz\" --highest \"200 Hz\"");
+  return grid(lowest, highest, options.points, options.spacing == "log");
+}
+
+} // namespace
+
+void check_frf_options(const FrfOptions &options)
+{
+  require_choice("--kind", options.kind, {"receptance", "mobility", "accelerance"});
+  require_choice("--at", options.at, {"start", "equilibrium", "undeformed"});
+  require_choice("--spacing", options.spacing, {"log", "linear"});
+  if (options.points < 2 || options.points > most_points)
+    throw std::invalid_argument("--points is " + std::to_string(options.points) + "; it needs 2 to " +
+                                std::to_string(most_points));
+  for (const auto &[option, names] : {std::pair("--from", &options.from), {"--to", &options.to}})
+    if (names->empty())
+      throw std::invalid_argument(std::string(option) + " is missing; name a displacement or an angle, such as " +
+                                  option + " frame.crown.uz");
+}
+
+FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options,
+                                        const std::vector<coupling::Mode> &modes, const coupling::Progress &progress,
+                                        std::vector<std::string> &warnings)
+{
+  tell(progress, "frequency response");
+  coupling::Machine            &machine = prepared.small();
+  const coupling::MachinePoint  point   = coupling::machine_point(machine, operating_state(scene, machine, options.at));
+  const auto                    of_scene = scene_signals(scene, machine);
+  const coupling::ReducedFrame *frame    = machine.model().reduced_frame();
+  FrequencyResponse             response;
+  response.kind            = options.kind;
+  response.at              = options.at;
+  response.t               = point.state.t;
+  response.moves           = !point.state.v.isZero(0.);
+  response.closed_contacts = point.closed;
+  response.logarithmic     = options.spacing == "log";
+  ResponseSweep                 sweep{coupling::LinearResponse(machine, point.point)};
+  std::vector<coupling::Signal> answers;
+  for (const std::string &to : options.to)
+  {
+    answers.push_back(named_signal("--to", to, machine, of_scene));
+    sweep.add_answer(coupling::linear_signal(machine, answers.back(), point),
+                     derivatives(options.kind, answers.back().unit));
+  }
+  for (const std::string &from : options.from)
+  {
+    const coupling::Signal force = named_signal("--from", from, machine, of_scene);
+    sweep.add_force(coupling::force_along(machine, force, point));
+    for (std::size_t i = 0; i < answers.size(); ++i)
+    {
+      const int d = derivatives(options.kind, answers[i].unit);
+      response.pairs.push_back({from, options.to[i], response_unit(answers[i].unit, d, force.unit), d, {}, {}});
+    }
+  }
+  const double limit = frame && frame->frequency_limit_hz > 0. ? frame->frequency_limit_hz : std::nan("");
+  sweep.run(asked_frequencies(options, modes, limit), modes, response, warnings);
+  response.not_condensed = sweep.not_condensed();
+  response.measured      = measured_responses(options.measured, response);
+  if (prepared.companion)
+    warnings.push_back("the frequency response is that of the machine on its reduced frame, with " +
+                       std::to_string(machine.size()) + " coordinates; the unreduced frame has " +
+                       std::to_string(prepared.machine.size()));
+  if (!std::isnan(limit) && response.frequencies_hz.back() > limit)
+    warnings.push_back("frequencies above " + short_text(limit) +
+                       " Hz are beyond what the reduced frame is meant for; raise reduction.frequency_limit or keep "
+                       "more modes");
+  return response;
+}
+
+} // namespace gestell::apps

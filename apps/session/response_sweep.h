@@ -1,0 +1,60 @@
+#pragma once
+
+#include "apps/output/values/frequency_response.h"
+#include "coupling/modes/modes.h"
+#include "coupling/periodic/linear_response.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Answers to forces over frequencies, with so many frequencies that peaks show.
+class ResponseSweep
+{
+public:
+  explicit ResponseSweep(coupling::LinearResponse machine) : machine_(std::move(machine)) {}
+
+  void add_force(const Eigen::VectorXd &force); ///< [n]
+  /// @param derivatives  how often it is differentiated by time
+  void add_answer(const coupling::LinearAnswer &answer, int derivatives);
+
+  /**
+   * Fills frequencies, values and peaks of response.pairs, which are ordered by forces, then answers.  Frequencies are
+   * `asked` and
+   *
+   *   - those of the damped modes between them, with their half-power points,
+   *   - midpoints, until from one to the next no phase turns by more than a sixth of a turn,
+   *   - tops of peaks.
+   */
+  void run(const std::vector<double> &asked, const std::vector<coupling::Mode> &modes, FrequencyResponse &response,
+           std::vector<std::string> &warnings);
+
+  const std::string &not_condensed() const { return machine_.not_condensed(); }
+
+private:
+  /// Amplitudes of all pairs at one frequency [Hz]; nan where an undamped mode is driven.
+  struct Sample
+  {
+    double                            f;
+    std::vector<std::complex<double>> values;
+  };
+  struct Answer
+  {
+    coupling::LinearAnswer signal;
+    int                    derivatives;
+  };
+
+  Sample              at(double f) const;
+  double              amplitude(std::size_t pair, double f) const;
+  std::vector<Sample> sampled(std::vector<double> frequencies) const;
+  void                add_between(std::vector<Sample> &samples) const;
+  void                find_peaks(std::vector<Sample> &samples, FrequencyResponse &response) const;
+
+  coupling::LinearResponse machine_;
+  Eigen::MatrixXd          forces_; // [n x n_from]
+  std::vector<Answer>      answers_;
+};
+
+} // namespace gestell::apps

@@ -1,0 +1,245 @@
+#include "coupling/modes/operating_point.h"
+
+#include "coupling/integration/step/consistent_start.h"
+#include "coupling/machine/configuration/dense_matrices.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Only the blocks of the joints: elements tell their stiffness by the derivatives of their forces.
+Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &local)
+{
+  if (machine.joints().n_rows() == 0)
+    return {};
+  Eigen::MatrixXd all, K;
+  machine.geometric(local, all);
+  K.setZero(all.rows(), all.cols());
+  for (const ConstraintBlock &block : machine.joints().blocks())
+  {
+    const int first = block.first_measure, n = block.n_measures;
+    K.block(first, first, n, n) = all.block(first, first, n, n);
+  }
+  return K;
+}
+
+/// A derivative, with an estimate of its error.
+struct Slope
+{
+  double value, error;
+};
+
+/**
+ * f'(0) by central quotients with falling steps, extrapolated: the entry of Neville's table that differs least from
+ * those it is made of.
+ *
+ * Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x)F''(x), Advances in Engineering Software 4 (1982),
+ * 75-76.
+ */
+Slope extrapolated_slope(const std::function<double(double)> &f, double first_step)
+{
+  constexpr int                                  levels = 9;
+  constexpr double                               ratio  = 2.;
+  std::array<std::array<double, levels>, levels> table{};
+  Slope                                          best{0., std::numeric_limits<double>::infinity()};
+  double                                         h = first_step;
+  for (int k = 0; k < levels; ++k, h /= ratio)
+  {
+    table[k][0]   = (f(h) - f(-h)) / (2. * h);
+    double factor = 1.;
+    for (int m = 1; m <= k; ++m)
+    {
+      factor *= ratio * ratio;
+      table[k][m] = table[k][m - 1] + (table[k][m - 1] - table[k - 1][m - 1]) / (factor - 1.);
+      const double error =
+          std::max(std::abs(table[k][m] - table[k][m - 1]), std::abs(table[k][m] - table[k - 1][m - 1]));
+      if (error < best.error)
+        best = {table[k][m], error};
+    }
+  }
+  return best;
+}
+
+constexpr double step_of_measure = 1e-4;  ///< [m, rad] first step; of rates and accelerations ten and a hundred times
+constexpr double smooth          = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
+constexpr double rounding        = 1e-12; ///< what it leaves of a value in quotients with the smallest step
+
+/// Slopes of a signal in the numbers of a vector.
+class SignalSlopes
+{
+public:
+  SignalSlopes(const Machine &machine, const Signal &signal, const MachinePoint &at)
+      : machine_(machine), signal_(signal), q_(at.state.q), v_(at.state.v), a_(at.a), local_(at.point.local)
+  {
+  }
+
+  Eigen::VectorXd &q() { return q_; }
+  Eigen::VectorXd &v() { return v_; }
+  LocalState      &local() { return local_; }
+
+  /// d signal / d x_i at indices first .. first + count - 1 of x, a vector of this motion; zero elsewhere.
+  Eigen::VectorXd find(Eigen::VectorXd &x, Eigen::Index first, Eigen::Index count, double step)
+  {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
+    double          largest = 0., worst = 0.;
+    for (Eigen::Index i = first; i < first + count; ++i)
+    {
+      const double there = x[i], first_step = step * std::max(1., std::abs(there));
+      const Slope  slope = extrapolated_slope(
+          [&](double d)
+          {
+            x[i] = there + d;
+            return value();
+          },
+          first_step);
+      x[i]       = there;
+      weights[i] = slope.value;
+      largest    = std::max(largest, std::abs(slope.value));
+      worst      = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
+    }
+    if (worst > smooth * largest)
+      throw std::invalid_argument("\"" + signal_.name +
+                                  "\" has a kink at the operating point, so that it has no response "
+                                  "in first order; take another operating point or another signal");
+    return weights;
+  }
+
+private:
+  double value() const { return machine_.evaluate(signal_, q_, v_, a_, local_); }
+
+  const Machine  &machine_;
+  const Signal   &signal_;
+  Eigen::VectorXd q_, v_, a_;
+  LocalState      local_;
+};
+
+void add_quantity(const Machine &machine, const Signal &signal, const MachinePoint &at, LinearAnswer &answer)
+{
+  const auto  &elements = machine.model().elements();
+  Eigen::Index first    = 0;
+  for (int e = 0; e < signal.element; ++e)
+    first += elements[e].element->n_measures();
+  const Eigen::Index k = elements[signal.element].element->n_measures();
+  const auto        &W = machine.forces().directions();
+  Signal             quantity;
+  quantity.name     = signal.name;
+  quantity.element  = signal.element;
+  quantity.quantity = signal.quantity;
+  quantity.scale    = signal.scale;
+  SignalSlopes slopes(machine, quantity, at);
+  LocalState  &local = slopes.local();
+  answer.q += W * slopes.find(local.u, first, k, step_of_measure);
+  answer.v += W * slopes.find(local.v, first, k, 10. * step_of_measure);
+  answer.a += W * slopes.find(local.a, first, k, 100. * step_of_measure);
+  answer.p      = slopes.find(local.p, first, k, step_of_measure);
+  answer.lambda = slopes.find(local.lambda, 0, local.lambda.size(), step_of_measure);
+}
+
+/// ds/dq [n] of a measure: its rate g . q' at unit velocities.
+Eigen::VectorXd gradient(const Machine &machine, const Signal &signal, const MachinePoint &at)
+{
+  Signal rate   = signal;
+  rate.quantity = 1;
+  rate.on_q.clear();
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(at.state.q.size()), unit = g;
+  for (const auto &[i, weight] : signal.on_q) // the coordinates it depends on
+  {
+    unit[i] = 1.;
+    g[i]    = machine.evaluate(rate, at.state.q, unit, at.point.local);
+    unit[i] = 0.;
+  }
+  return g;
+}
+
+/// s = s(q),  s' = g . q',  s'' = g . q'' + q' . g' q',  g = ds/dq.
+void add_measure(const Machine &machine, const Signal &signal, const MachinePoint &at, LinearAnswer &answer)
+{
+  Eigen::VectorXd *const by_derivative[] = {&answer.q, &answer.v, &answer.a};
+  *by_derivative[signal.quantity] += gradient(machine, signal, at);
+  if (signal.quantity == 0 || (at.state.v.isZero(0.) && (signal.quantity == 1 || at.a.isZero(0.))))
+    return;
+  SignalSlopes       slopes(machine, signal, at);
+  const Eigen::Index n = at.state.q.size();
+  answer.q += slopes.find(slopes.q(), 0, n, step_of_measure);
+  if (signal.quantity == 2)
+    answer.v += slopes.find(slopes.v(), 0, n, 10. * step_of_measure);
+}
+
+void add(const Measure &weights, double scale, Eigen::VectorXd &to)
+{
+  for (const auto &[i, weight] : weights)
+    to[i] += scale * weight;
+}
+
+} // namespace
+
+MachinePoint machine_point(Machine &machine, const InitialState &state)
+{
+  MachinePoint at;
+  at.state          = state;
+  at.a              = Eigen::VectorXd::Zero(machine.size());
+  LocalState &local = at.point.local;
+  local.resize(machine);
+  machine.gather(state.t, state.q, state.v, at.a, local);
+  machine.events().follow_history(true);
+  machine.events().start(local);
+  std::optional<ConsistentStart> start;
+  try
+  {
+    start.emplace(machine, "frequency response");
+  }
+  catch (const std::invalid_argument &)
+  {
+    // something has no mass: nothing is known of its acceleration
+  }
+  if (start)
+  {
+    IntegrationWork work;
+    start->solve(state.q, state.v, at.a, local, work);
+  }
+  else if (machine.joints().n_rows() == 0)
+    machine.forces().force(local, local.p);
+  at.point.joint_stiffness = stiffness_of_joints(machine, local);
+  at.closed                = machine.closed_contacts(local);
+  return at;
+}
+
+LinearAnswer linear_signal(const Machine &machine, const Signal &signal, const MachinePoint &at)
+{
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
+  LinearAnswer          answer{zero, zero, zero, {}, {}};
+  add(signal.on_q, signal.scale, answer.q);
+  add(signal.on_v, signal.scale, answer.v);
+  add(signal.on_a, signal.scale, answer.a);
+  if (signal.measure >= 0)
+    add_measure(machine, signal, at, answer);
+  if (signal.element >= 0)
+    add_quantity(machine, signal, at, answer);
+  return answer;
+}
+
+Eigen::VectorXd force_along(const Machine &machine, const Signal &signal, const MachinePoint &at)
+{
+  const LinearAnswer answer = linear_signal(machine, signal, at);
+  const bool only_q = answer.v.isZero(0.) && answer.a.isZero(0.) && answer.p.isZero(0.) && answer.lambda.isZero(0.);
+  if ((signal.unit != "m" && signal.unit != "rad") || !only_q)
+    throw std::invalid_argument("\"" + signal.name + "\" tells [" + signal.unit +
+                                "], no displacement or angle that a force "
+                                "could act along; take a displacement [m] or an angle [rad]");
+  if (answer.q.isZero(0.))
+    throw std::invalid_argument("\"" + signal.name +
+                                "\" does not move with any coordinate of the machine, so that no "
+                                "force can act along it; take another one");
+  return answer.q;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
+#include "coupling/periodic/linear_response.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A machine at an instant of its motion, about which it is linear for small vibrations.
+struct MachinePoint
+{
+  InitialState             state;
+  Eigen::VectorXd          a; ///< q'' [n] with which the motion goes on; zero where something has no mass
+  OperatingPoint           point;
+  std::vector<std::string> closed; ///< contacts that are closed, in words
+};
+
+/// The motion `state` with its forces, multipliers and accelerations; branches of the laws are those a run begins with
+/// there, and stay so in the machine.
+/// @throws ConvergenceFailure if joints depend on each other there
+MachinePoint machine_point(Machine &machine, const InitialState &state);
+
+/**
+ * A signal in first order about a point.  Weights of coordinates and of linear elements are exact; quantities of
+ * nonlinear elements are differentiated in their own measures, forces and multipliers by quotients that are
+ * extrapolated to step zero, measures of position functions by their gradient.
+ *
+ * @throws std::invalid_argument if a quantity is not smooth there
+ */
+LinearAnswer linear_signal(const Machine &machine, const Signal &signal, const MachinePoint &at);
+
+/// Generalised force [n] of a unit force (or torque) along a signal that tells a displacement or an angle: its
+/// gradient.
+/// @throws std::invalid_argument if the signal depends on anything but the position
+Eigen::VectorXd force_along(const Machine &machine, const Signal &signal, const MachinePoint &at);
+
+} // namespace gestell::coupling
