@@ -3,6 +3,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/session/session.h"
+#include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -33,8 +34,9 @@ void print_response(const FrequencyResponse &response)
 {
   std::cout << response.kind << " of the machine linearised at " << response.at
             << (response.moves ? ", in motion" : ", at rest") << '\n';
-  for (const std::string &contact : response.closed_contacts)
-    std::cout << "closed contact: " << contact << '\n';
+  for (const auto &[state, names] : {std::pair("closed", &response.closed_contacts), {"open", &response.open_contacts}})
+    if (!names->empty())
+      std::cout << state << ": " << listed(*names) << '\n';
   for (const ResponsePair &pair : response.pairs)
     print_pair(pair);
 }

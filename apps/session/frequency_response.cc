@@ -164,6 +164,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.t               = point.state.t;
   response.moves           = !point.state.v.isZero(0.);
   response.closed_contacts = point.closed;
+  response.open_contacts   = point.open;
   response.logarithmic     = options.spacing == "log";
   ResponseSweep                 sweep{coupling::LinearResponse(machine, point.point)};
   std::vector<coupling::Signal> answers;

@@ -32,6 +32,35 @@ Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &lo
   return K;
 }
 
+constexpr double least_contact = 1e-6; ///< share of the stiffness of a closed element that tells it from an open one
+
+/// Names of the elements that may be open, by whether they are: between what acts always and what acts when they are
+/// closed, dp/du lies at the one end or nearer to the other.
+void tell_contacts(const Machine &machine, MachinePoint &at)
+{
+  const LocalState &local = at.point.local;
+  const auto        n_u   = local.u.size();
+  Eigen::VectorXd   p     = Eigen::VectorXd::Zero(n_u);
+  Eigen::MatrixXd   dp    = Eigen::MatrixXd::Zero(n_u, n_u);
+  machine.forces().tangent(local, 1., 0., 0., p, dp);
+  int first = 0;
+  for (const ElementPlacement &placement : machine.model().elements())
+  {
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K, open = K, open_D = K;
+    engaged(*placement.element, local.u.data() + first, K.data(), D.data());
+    open_branch(*placement.element, local.u.data() + first, open.data(), open_D.data());
+    K -= open;
+    if (!K.isZero(0.))
+    {
+      const Eigen::MatrixXd own       = -dp.block(first, first, k, k) - open;
+      const bool            is_closed = own.cwiseProduct(K).sum() > least_contact * K.squaredNorm();
+      (is_closed ? at.closed : at.open).push_back(placement.name);
+    }
+    first += k;
+  }
+}
+
 /// A derivative, with an estimate of its error.
 struct Slope
 {
@@ -209,7 +238,7 @@ MachinePoint machine_point(Machine &machine, const InitialState &state)
   else if (machine.joints().n_rows() == 0)
     machine.forces().force(local, local.p);
   at.point.joint_stiffness = stiffness_of_joints(machine, local);
-  at.closed                = machine.closed_contacts(local);
+  tell_contacts(machine, at);
   return at;
 }
 

@@ -16,7 +16,7 @@ struct MachinePoint
   InitialState             state;
   Eigen::VectorXd          a; ///< q'' [n] with which the motion goes on; zero where something has no mass
   OperatingPoint           point;
-  std::vector<std::string> closed; ///< contacts that are closed, in words
+  std::vector<std::string> closed, open; ///< elements with play that are in contact, and those that are not: names
 };
 
 /// The motion `state` with its forces, multipliers and accelerations; branches of the laws are those a run begins with

@@ -3,6 +3,7 @@
 #include "apps/output/charts/chart.h"
 #include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/text/html.h"
+#include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -118,7 +119,7 @@ void set_heights(Chart &chart)
 Chart amplitude_chart(const FrequencyResponse &response, const std::vector<std::size_t> &group)
 {
   Chart chart   = frequency_chart(response);
-  chart.title   = "Amplitude of " + response.kind;
+  chart.title   = "Amplitude";
   chart.height  = 300.;
   chart.y.label = "amplitude [" + response.pairs[group[0]].unit + "]";
   chart.y.scale = Scale::logarithmic;
@@ -168,15 +169,10 @@ std::string about(const FrequencyResponse &response)
                       : response.at == "equilibrium" ? "its static equilibrium"
                                                      : "its undeformed position") +
                      (response.moves ? ", in the motion of that instant" : ", at rest") + ". ";
-  if (response.closed_contacts.empty())
-    text += "No contact lies inside another body there.";
-  else
-  {
-    text += "Closed contacts: ";
-    for (std::size_t i = 0; i < response.closed_contacts.size(); ++i)
-      text += (i > 0 ? ", " : "") + escape_xml(response.closed_contacts[i]);
-    text += '.';
-  }
+  for (const auto &[state, names] : {std::pair("closed", &response.closed_contacts), {"open", &response.open_contacts}})
+    if (!names->empty())
+      text +=
+          "There " + std::string(names->size() > 1 ? "are " : "is ") + state + ": " + escape_xml(listed(*names)) + ". ";
   text += "</p>\n";
   if (!response.not_condensed.empty())
     text +=

@@ -246,6 +246,7 @@ Json frf_json(const FrequencyResponse &response)
           {"t", response.t},
           {"moves", response.moves},
           {"closed_contacts", response.closed_contacts},
+          {"open_contacts", response.open_contacts},
           {"points", response.frequencies_hz.size()},
           {"pairs", array_of(response.pairs, pair_json)},
           {"measured", array_of(response.measured, measured_json)}};

@@ -34,11 +34,11 @@ struct ResponsePair
 /// Vibration of the machine, linearised at an operating point, per harmonic force.
 struct FrequencyResponse
 {
-  std::string                   kind;               ///< "receptance", "mobility", "accelerance"
-  std::string                   at;                 ///< "start", "equilibrium", "undeformed"
-  double                        t     = 0.;         ///< [s] of the operating point
-  bool                          moves = false;      ///< it is a motion, not rest
-  std::vector<std::string>      closed_contacts;    ///< in words
+  std::string                   kind;                           ///< "receptance", "mobility", "accelerance"
+  std::string                   at;                             ///< "start", "equilibrium", "undeformed"
+  double                        t     = 0.;                     ///< [s] of the operating point
+  bool                          moves = false;                  ///< it is a motion, not rest
+  std::vector<std::string>      closed_contacts, open_contacts; ///< names of elements with play
   std::string                   not_condensed;      ///< why the whole equations were solved; empty: they were condensed
   bool                          logarithmic = true; ///< axis of the frequencies
   std::vector<double>           frequencies_hz;     ///< ascending

@@ -217,6 +217,57 @@ TEST(FrequencyResponse, OfAnUndampedMachineIsInfiniteAtItsFrequencies)
   EXPECT_EQ(response.pairs[0].peaks[0].damping_ratio, 0.);
 }
 
+// --- as the time integration has it
+
+/// Complex amplitude of a column over the last n rows, one period of omega.
+Complex amplitude_of(const SceneRun &run, const std::string &column, double omega, std::size_t n)
+{
+  Complex           sum    = 0.;
+  const std::size_t signal = run.column(column), end = run.n_rows() - 1; // the last row begins the next period
+  for (std::size_t row = end - n; row < end; ++row)
+    sum += run.at(row, signal) * std::exp(Complex(0., -omega * run.at(row, 0)));
+  return 2. / double(n) * sum;
+}
+
+TEST(FrequencyResponse, IsTheSteadyVibrationOfTheTimeIntegration)
+{
+  // One mass on a spring to the ground, another one lying on it: their contact stays closed under its weight of 20 N,
+  // where it is linear.  After 10 s what the start leaves has faded to exp(-37).
+  const std::string text =
+      "gravity = [0, 0, -10]\n" + slider_body("lower", "2", "[0, 0, 1]") + slider_body("upper", "2", "[0, 0, 1]") +
+      element("spring", "spring-damper", {{"from", "lower"}, {"stiffness", "2000"}, {"damping", "30"}}) +
+      element("film", "spring-damper",
+              {{"from", "upper"}, {"to", "lower"}, {"direction", "[0, 0, 1]"}, {"damping", "40"}}) +
+      element("contact", "stop",
+              {{"from", "upper"},
+               {"to", "lower"},
+               {"direction", "[0, 0, 1]"},
+               {"gap", "0"},
+               {"side", "below"},
+               {"stiffness", "8000"}}) +
+      element("shaker", "force",
+              {{"from", "lower"},
+               {"direction", "[0, 0, 1]"},
+               {"harmonics", "[{ amplitude = '1 N', frequency = '4 Hz' }]"}}) +
+      "[start]\nrule = 'static'\n" + table("run", {{"method", "exact"}, {"step", "0.000244140625"}, {"end", "10"}}) +
+      table("output", {{"step", "0.00390625"},
+                       {"signals", "{ x_1 = 'lower.displacement', x_2 = 'upper.displacement', F = 'contact.force' }"}});
+  const test::SceneFolder folder;
+  const std::string       path     = folder.write("scene.toml", test::quoted(text));
+  FrfOptions              options  = options_of({"lower"}, {"x_1", "x_2", "F"}, 4., 8.);
+  const auto              response = response_of(path, options);
+  ASSERT_EQ(response.frequencies_hz[0], 4.);
+  EXPECT_EQ(response.closed_contacts.size(), 1u);
+  const SceneRun run(path);
+  const double   omega = two_pi * 4.;
+  const Complex  force(0., -1.); // 1 N sin(omega t)
+  for (std::size_t pair = 0; pair < 3; ++pair)
+  {
+    const Complex H = amplitude_of(run, response.pairs[pair].to, omega, 64) / force;
+    EXPECT_LT(std::abs(H - response.pairs[pair].values[0]), 1e-8 * std::abs(H)) << response.pairs[pair].to;
+  }
+}
+
 // --- what cannot be answered is told
 
 TEST(FrequencyResponse, RefusesWhatItCannotAnswer)
