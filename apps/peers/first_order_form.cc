@@ -1,5 +1,7 @@
 #include "apps/peers/first_order_form.h"
 
+#include "coupling/integration/system/acceleration_forces.h"
+
 namespace gestell::peers
 {
 namespace
@@ -35,6 +37,7 @@ FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
     throw std::invalid_argument("peers: " + system.linear().coordinate_name(massless.front()) +
                                 " is a state without mass; they are compared where every coordinate has one.");
   local_.resize(system);
+  coupling::refuse_acceleration_forces(system, local_, "the first-order form of the peers");
   small_.resize(n_u_);
   condense(*mass_, system_.forces().directions(), column_, a_, Y_M_, S_M_);
 }

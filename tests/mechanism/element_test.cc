@@ -17,6 +17,7 @@
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/speed_drive.h"
 #include "mechanism/elements/table_force.h"
+#include "mechanism/elements/unbalance.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/refusal.h"
 
@@ -151,6 +152,9 @@ std::vector<Case> cases()
       {"dynamic_motor",
        std::make_shared<DynamicMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}),
        {0., Eigen::Vector2d(0.1, 900.), Eigen::Vector2d(3.1, 3.), Eigen::Vector2d::Zero()}},
+      {"unbalance",
+       std::make_shared<Unbalance>(Unbalance::Parameters{0.02, 0.3, {9.81, -1.}}),
+       {0., Eigen::Vector3d(2., 1e-3, -2e-3), Eigen::Vector3d(60., 0.3, -0.2), Eigen::Vector3d(-40., 20., 30.)}},
       {"motor", std::make_shared<KlossMotor>(KlossMotor::Parameters{240., 0.15, 157., 49.}), probe1(0., 3.1)}};
 }
 
@@ -223,10 +227,8 @@ TEST_P(Element, StoredPowerIsTheGrowthOfTheStoredEnergy)
     return;
   const Eigen::VectorXd history = arrived(c);
   const double          dt      = 1e-9;
-  Probe                 before = c.probe, after = c.probe;
-  before.u -= 0.5 * dt * c.probe.v;
-  after.u += 0.5 * dt * c.probe.v;
-  const double growth = (c.element->stored_energy(after.motion(), history.data()) -
+  const Probe           before = c.probe.moved(-0.5 * dt), after = c.probe.moved(0.5 * dt);
+  const double          growth = (c.element->stored_energy(after.motion(), history.data()) -
                          c.element->stored_energy(before.motion(), history.data())) /
                         dt;
   const double stored = c.element->stored_power(c.probe.motion(), history.data());

@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/build_joints.h"
 #include "apps/scene/build/build_measures.h"
+#include "apps/scene/build/build_unbalance.h"
 #include "apps/scene/build/carried_bodies.h"
 #include "coupling/reduction/dense_frame.h"
 
@@ -98,6 +99,9 @@ void fill(coupling::MachineModel &machine, const Scene &scene)
                measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
              machine.attach(element.name, element.element, measures, element.kind);
            });
+  for (const auto &body : scene.bodies)
+    if (body.unbalance)
+      placed(body.place, [&] { attach_unbalance(machine, body, scene.gravity); });
   for (const auto &own : scene.switches)
     placed(own.place, [&] { add_switch(machine, own); });
   for (const auto &rod : scene.rods)

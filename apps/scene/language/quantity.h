@@ -48,6 +48,7 @@ inline const Kind area{"area", "120 mm^2", {2, 0, 0}};
 inline const Kind volume{"volume", "50 cm^3", {3, 0, 0}};
 inline const Kind mass{"mass", "3 t", {0, 1, 0}};
 inline const Kind inertia{"moment of inertia", "250 kg m^2", {2, 1, 0}};
+inline const Kind unbalance{"unbalance", "2.4 g m", {1, 1, 0}};
 inline const Kind time{"time", "10 us", {0, 0, 1}};
 inline const Kind frequency{"frequency", "200 Hz", {0, 0, -1}, Counts::radians};
 inline const Kind speed{"speed", "0.2 m/s", {1, 0, -1}};

@@ -2,6 +2,7 @@
 
 #include "apps/scene/read/read_part.h"
 #include "apps/scene/read/read_tensor.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 
@@ -62,6 +63,49 @@ Key normal_key()
   return key::direction("normal", "across its plane; the angle is positive about it");
 }
 
+std::vector<Key> unbalance_keys()
+{
+  return {
+      key::number("unbalance", kind::unbalance, "mass times eccentricity of its centre of mass")
+          .from_zero()
+          .by_default("none"),
+      key::number("unbalance_phase", kind::angle,
+                  "where the centre of mass lies at zero angle, in the positive sense of turning from the first global "
+                  "axis across `axis`")
+          .by_default(0.),
+      key::vector("unbalance_position", kind::length, "the point of its axis that the unbalance is at")
+          .by_default("`position`, or where its carrier is if there is none")};
+}
+
+/// @throws the error of the table for keys without an unbalance, and an eccentric mass that turns harder than the rotor
+std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
+{
+  if (!table.has("unbalance"))
+  {
+    for (const char *key : {"unbalance_phase", "unbalance_position"})
+      if (table.has(key))
+        throw table.error(std::string("has '") + key +
+                          "' but no 'unbalance'; give it, such as unbalance = \"2.4 g m\"");
+    return std::nullopt;
+  }
+  UnbalanceRequest unbalance;
+  unbalance.amount = table.value("unbalance");
+  unbalance.phase  = table.value("unbalance_phase");
+  for (const char *key : {"position", "unbalance_position"})
+    if (table.has(key))
+      unbalance.position = table.vector(key);
+  return unbalance;
+}
+
+/// J about the axis is that of the mass at its eccentricity and what lies about it: J >= m e^2 = U^2/m.
+void check_unbalance(const SceneTable &table, const BodyRequest &body)
+{
+  if (const double U = body.unbalance ? body.unbalance->amount : 0.; U * U > body.mass * body.inertia && body.mass > 0.)
+    throw table.error("its unbalance of " + short_text(U) + " kg m puts its " + short_text(body.mass) + " kg " +
+                      short_text(U / body.mass) + " m off its axis, about which it would have at least " +
+                      short_text(U * U / body.mass) + " kg m^2; inertia is " + short_text(body.inertia) + " kg m^2");
+}
+
 std::vector<BodyType> make_types()
 {
   const std::vector<Key> type = {type_key()};
@@ -78,6 +122,7 @@ std::vector<BodyType> make_types()
                             "where it is drawn, at zero displacement; on the ground it turns about it")
                     .by_default("[0, 0, 0]; with `cad` the centre of mass"),
                 drawn_radius("a disc")},
+               unbalance_keys(),
                part_keys()})},
       {"slider", "One displacement along an axis.",
        joined(
@@ -144,6 +189,8 @@ BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scrip
   const bool rotor = type == "rotor";
   body.kind        = rotor ? coupling::BodyKind::rotor : coupling::BodyKind::slider;
   body.axis        = table.direction("axis");
+  if (rotor)
+    body.unbalance = read_unbalance(table);
   if (table.has("cad"))
   {
     read_part(any, scene, body, scripts);
@@ -155,6 +202,7 @@ BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scrip
     body.inertia = table.value("inertia");
     body.mass    = table.value("mass");
     body.radius  = table.value("radius");
+    check_unbalance(table, body);
   }
   else
   {

@@ -148,13 +148,13 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
   body.position             = table.vector_or("position", body.position);
   const double eccentricity = axis.cross(centre - vector(body.position)).norm();
   body.inertia += body.mass * eccentricity * eccentricity;
-  if (eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))
+  if (body.unbalance || eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))
     return;
   std::ostringstream text;
   text.precision(3);
   text << "the centre of mass lies " << 1e3 * eccentricity
-       << " mm beside the axis; a rotor is balanced all the same. Make it a planar or rigid body if its unbalance "
-          "matters";
+       << " mm beside the axis; a rotor is balanced all the same. If that matters give it unbalance = \""
+       << 1e3 * body.mass * eccentricity << " g m\", or make it a planar or rigid body";
   table.warn("cad", text.str());
 }
 

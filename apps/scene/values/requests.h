@@ -55,6 +55,14 @@ struct CadBodyRequest
   std::string  found;        ///< for people: file, mass, centre of mass, inertia
 };
 
+/// Of a rotor, whose centre of mass lies off its axis.
+struct UnbalanceRequest
+{
+  double                 amount = 0.; ///< mass times eccentricity [kg m]
+  double                 phase  = 0.; ///< [rad] of the centre of mass at zero angle, see attach_unbalance()
+  std::optional<Vector3> position{};  ///< [m] on its axis; none: where its carrier is
+};
+
 struct BodyRequest
 {
   std::string        name;
@@ -68,6 +76,7 @@ struct BodyRequest
   std::string        place;
 
   std::shared_ptr<const CadBodyRequest> part; ///< inertia, mass and position come from it; null if they are given
+  std::optional<UnbalanceRequest>       unbalance{};
 };
 
 /// A point of a body, an interface or the ground, in the position the scene describes.

@@ -1,0 +1,176 @@
+// Rotors with an unbalance: against closed solutions, energy, and the Sommerfeld effect.
+
+#include "apps/session/session.h"
+#include "fem/values/two_pi.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using Complex = std::complex<double>;
+
+/// A carrier of mass m on a spring k and a damper b, on it a rotor of inertia J with U.
+constexpr double m = 20., k = 8e4, b = 60., U = 0.02;
+
+std::string carrier(const std::string &damping = "60")
+{
+  return slider_body("carrier", "20", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "carrier"}, {"stiffness", "8e4"}, {"damping", damping}});
+}
+
+std::string rotor(double inertia, const Keys &more = {}, const std::string &unbalance = "20 g m")
+{
+  Keys keys = {{"on", "carrier"}, {"unbalance", unbalance}};
+  keys.insert(keys.end(), more.begin(), more.end());
+  return rotor_body("rotor", number(inertia), "[0, 1, 0]", keys);
+}
+
+std::string run_of(const std::string &method, const std::string &end, const std::string &step)
+{
+  return "[run]\n" + method + "\nend = \"" + end + "\"\n[output]\nstep = \"" + step +
+         "\"\nsignals = { x = \"carrier.displacement\", omega = \"rotor.speed\", F = \"rotor unbalance.force\" }\n";
+}
+
+SceneRun run_text(const std::string &text)
+{
+  const test::SceneFolder folder;
+  return SceneRun(folder.write("scene.toml", text));
+}
+
+/// U w^2/(k - m w^2 + i w b)
+Complex orbit(double omega)
+{
+  return U * omega * omega / Complex(k - m * omega * omega, b * omega);
+}
+
+/// Largest |x - exact| over a run of a rotor so heavy that its speed is constant, begun on its orbit, beside its
+/// amplitude.
+double orbit_error(double omega, double phase, const std::string &method)
+{
+  const Complex  X   = orbit(omega) * std::polar(1., phase);
+  const SceneRun run = run_text(
+      carrier() + rotor(1e12, {{"unbalance_phase", number(phase)}}) +
+      table("start", {{"q", "{ carrier = " + number(X.real()) + " }"},
+                      {"v", "{ rotor = " + number(omega) + ", carrier = " + number(-omega * X.imag()) + " }"}}) +
+      run_of(method, number(5. * two_pi / omega) + " s", number(0.01 * two_pi / omega) + " s"));
+  double worst = 0.;
+  for (std::size_t row = 0; row < run.n_rows(); ++row)
+    worst = std::max(
+        worst, std::abs(run.at(row, run.column("x")) - (X * std::exp(Complex(0., omega * run.at(row, 0)))).real()));
+  EXPECT_NEAR(run.signal("omega").final / omega, 1., 1e-9);
+  EXPECT_NEAR(run.signal("F").max / (U * omega * omega), 1., 1e-9);
+  return worst / std::abs(X);
+}
+
+} // namespace
+
+TEST(Unbalance, AtConstantSpeedShakesItsCarrierAsTheClosedSolution)
+{
+  // Below, at and above the resonance of 63 rad/s.
+  for (const double omega : {30., 63., 150.})
+    EXPECT_LT(orbit_error(omega, 0.7, "method = \"bdf\"\ntolerance = 1e-9"), 1e-6) << omega;
+}
+
+TEST(Unbalance, IsIntegratedToSecondOrderByTheNewmarkFamily)
+{
+  const auto error = [](const std::string &step)
+  { return orbit_error(63., 0., "method = \"newmark\"\nstep = " + step); };
+  EXPECT_NEAR(std::log2(error("1e-3") / error("5e-4")), 2., 0.1);
+}
+
+TEST(Unbalance, OnAPointOfAFrameActsInBothDirectionsAcrossTheAxis)
+{
+  // A point mass in space: its orbit under the force U w^2 that turns is a circle of radius U/m about its mean, in the
+  // sense of the rotor: about -y, x leads z.
+  const double      omega = 50.;
+  const std::string text  = point_body("block", "20", "[0, 0, 0]") +
+                           rotor_body("rotor", "1e12", "[0, -1, 0]", {{"on", "block"}, {"unbalance", "20 g m"}}) +
+                           // x = -U/m cos(w t), z = -U/m sin(w t): the centre of mass of both rests
+                           table("start", {{"q", "{ 'block.ux' = " + number(-U / m) + " }"},
+                                           {"v", "{ rotor = 50, 'block.uz' = " + number(-U / m * omega) + " }"}}) +
+                           "[run]\nmethod = \"bdf\"\ntolerance = 1e-10\nend = \"0.5 s\"\n[output]\nstep = \"1 ms\"\n"
+                           "signals = { x = \"block.ux\", z = \"block.uz\" }\n";
+  const SceneRun run = run_text(test::quoted(text));
+  for (std::size_t row = 0; row < run.n_rows(); ++row)
+  {
+    const double t = run.at(row, 0);
+    EXPECT_NEAR(run.at(row, run.column("x")), -U / m * std::cos(omega * t), 1e-6 * U / m);
+    EXPECT_NEAR(run.at(row, run.column("z")), -U / m * std::sin(omega * t), 1e-6 * U / m);
+  }
+}
+
+TEST(Unbalance, ExchangesEnergyWithoutLosingAny)
+{
+  // Rotor and carrier alone: what the one loses the other gains, and the sum with U phi' x'.t stays.
+  const SceneRun run = run_text("gravity = [0, 0, -9.81]\n" + carrier("0") + rotor(0.05) +
+                                table("start", {{"q", "{ carrier = '2 mm' }"}, {"v", "{ rotor = 60 }"}}) +
+                                run_of("method = \"bdf\"\ntolerance = 1e-10", "2 s", "1 ms"));
+  EXPECT_EQ(run.result.failure, "");
+  EXPECT_LT(run.result.energy.residual, 1e-6 * run.result.energy.exchanged);
+  EXPECT_NEAR(run.result.energy.dissipated, 0., 1e-6 * run.result.energy.exchanged);
+  // It does exchange: the speed swings by more than a per cent.
+  EXPECT_GT(run.signal("omega").max - run.signal("omega").min, 0.6);
+}
+
+TEST(Unbalance, HoldsAWeakMotorAtTheResonance)
+{
+  // 0.5 N m turn the rotor from 30 to 90 rad/s in 6 s without unbalance; with it the carrier takes b (U/b)^2 w^3/2 = 52
+  // W at its resonance of 63 rad/s, 0.8 N m, and the rotor stays there (Sommerfeld).
+  const auto final_speed = [](const std::string &torque, const std::string &unbalance)
+  {
+    return run_text(carrier() + rotor(0.05, {}, unbalance) +
+                    element("motor", "force", {{"about", "[0, 1, 0]"}, {"from", "rotor"}, {"constant", torque}}) +
+                    table("start", {{"v", "{ rotor = 30 }"}}) +
+                    run_of("method = \"bdf\"\ntolerance = 1e-7", "6 s", "10 ms"))
+        .signal("omega")
+        .final;
+  };
+  EXPECT_NEAR(final_speed("0.5 N m", "0 kg m"), 30. + 0.5 / 0.05 * 6., 1e-6);
+  const double weak = final_speed("0.5 N m", "20 g m"), strong = final_speed("20 N m", "20 g m");
+  EXPECT_GT(weak, 50.);
+  EXPECT_LT(weak, 64.);
+  EXPECT_GT(strong, 300.);
+}
+
+TEST(Unbalance, UnderGravityIsAPendulum)
+{
+  // J phi'' + U g phi = 0 about the position below the axis; e_1 = x, so that it hangs at 90 degrees about y.
+  const double      g = 9.81, J = 0.05;
+  const std::string text =
+      "gravity = [0, 0, -9.81]\n" +
+      rotor_body("rotor", "0.05", "[0, 1, 0]", {{"unbalance", "20 g m"}, {"unbalance_phase", "90 deg"}});
+  const test::SceneFolder folder;
+  apps::FrfOptions        options;
+  options.from = options.to = {"rotor"};
+  options.lowest            = "0.1 Hz";
+  options.highest           = "2 Hz";
+  const auto response       = *apps::Session(folder.write("scene.toml", text)).frequency_response(options).frf;
+  for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
+    EXPECT_NEAR((1. / response.pairs[0].values[i]).real(), U * g - J * std::pow(two_pi * response.frequencies_hz[i], 2),
+                1e-12 * J * 160.);
+}
+
+TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
+{
+  using ::testing::HasSubstr;
+  const std::string run = run_of("method = \"exact\"\nstep = 1e-4", "0.1 s", "1 ms");
+  EXPECT_THAT(refusal([&] { run_text(carrier() + rotor(0.05) + run); }),
+              HasSubstr("take the method bdf or one of the Newmark family"));
+  const auto complaint = [](const Keys &more)
+  { return test::complaint(test::quoted(carrier() + rotor_body("rotor", "0.001", "[0, 1, 0]", more))); };
+  EXPECT_THAT(complaint({{"unbalance_phase", "1"}}), HasSubstr("has 'unbalance_phase' but no 'unbalance'"));
+  EXPECT_THAT(complaint({{"unbalance", "-1 g m"}}), HasSubstr("unbalance"));
+  EXPECT_THAT(complaint({{"unbalance", "2 kg"}}), HasSubstr("2.4 g m"));
+  EXPECT_THAT(complaint({{"unbalance", "0.1"}, {"mass", "2"}}), HasSubstr("off its axis"));
+}
+
+} // namespace gestell::tests
