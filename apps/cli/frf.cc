@@ -32,7 +32,10 @@ void print_pair(const ResponsePair &pair)
 
 void print_response(const FrequencyResponse &response)
 {
-  std::cout << response.kind << " of the machine linearised at " << response.at
+  std::cout << response.kind << " of the machine linearised "
+            << (response.at == "start"         ? "at the start of the scene"
+                : response.at == "equilibrium" ? "in equilibrium"
+                                               : "in the position of its modes")
             << (response.moves ? ", in motion" : ", at rest") << '\n';
   for (const auto &[state, names] : {std::pair("closed", &response.closed_contacts), {"open", &response.open_contacts}})
     if (!names->empty())

@@ -4,6 +4,7 @@
 #include "apps/session/option_value.h"
 #include "apps/session/response_sweep.h"
 #include "coupling/equilibrium/static_equilibrium.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/modes/operating_point.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -166,7 +167,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.closed_contacts = point.closed;
   response.open_contacts   = point.open;
   response.logarithmic     = options.spacing == "log";
-  ResponseSweep                 sweep{coupling::LinearResponse(machine, point.point)};
+  ResponseSweep sweep(coupling::LinearResponse(machine, point.point), coupling::dense_mass(machine).diagonal());
   std::vector<coupling::Signal> answers;
   for (const std::string &to : options.to)
   {

@@ -19,6 +19,7 @@ using Complex = std::complex<double>;
 constexpr double widest_turn  = M_PI / 3.; ///< of a phase from one frequency to the next
 constexpr double least_damped = 1e-7;      ///< ratio of a mode whose frequency is asked for beside the given ones
 constexpr int    most_halves  = 8;
+constexpr double rounding     = 1e-12; ///< of a coordinate beside the motion of all, in the metric of mass
 
 const Complex unknown(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
 
@@ -55,6 +56,21 @@ void ResponseSweep::add_answer(const coupling::LinearAnswer &answer, int derivat
   answers_.push_back({answer, derivatives});
 }
 
+Complex ResponseSweep::value(const Answer &answer, const coupling::Vibration &vibration, Eigen::Index column) const
+{
+  const auto   q = vibration.q.col(column);
+  const double s = vibration.omega, size = std::sqrt(masses_.dot(q.cwiseAbs2()));
+  double       floor = 0.;
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+  {
+    const auto &[on_q, on_v, on_a, on_p, on_lambda] = answer.signal;
+    const double weight = std::abs(on_q[i]) + s * std::abs(on_v[i]) + s * s * std::abs(on_a[i]);
+    floor += masses_[i] > 0. ? rounding * weight * size / std::sqrt(masses_[i]) : 0.;
+  }
+  const Complex own = answer.signal.of(vibration, column);
+  return std::abs(own) <= floor ? 0. : own * std::pow(Complex(0., s), answer.derivatives);
+}
+
 ResponseSweep::Sample ResponseSweep::at(double f) const
 {
   Sample sample{f, std::vector<Complex>(std::size_t(forces_.cols()) * answers_.size(), unknown)};
@@ -64,8 +80,7 @@ ResponseSweep::Sample ResponseSweep::at(double f) const
     std::size_t               pair      = 0;
     for (Eigen::Index column = 0; column < forces_.cols(); ++column)
       for (const Answer &answer : answers_)
-        sample.values[pair++] =
-            answer.signal.of(vibration, column) * std::pow(Complex(0., vibration.omega), answer.derivatives);
+        sample.values[pair++] = value(answer, vibration, column);
   }
   catch (const coupling::ConvergenceFailure &)
   {
@@ -81,8 +96,7 @@ double ResponseSweep::amplitude(std::size_t pair, double f) const
   try
   {
     const coupling::Vibration vibration = machine_.at(two_pi * f, forces_.col(column));
-    const Answer             &answer    = answers_[pair % n];
-    return std::abs(answer.signal.of(vibration, 0)) * std::pow(vibration.omega, answer.derivatives);
+    return std::abs(value(answers_[pair % n], vibration, 0));
   }
   catch (const coupling::ConvergenceFailure &)
   {

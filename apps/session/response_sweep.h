@@ -14,7 +14,11 @@ namespace gestell::apps
 class ResponseSweep
 {
 public:
-  explicit ResponseSweep(coupling::LinearResponse machine) : machine_(std::move(machine)) {}
+  /// @param masses  diagonal of M [n]: what rounding leaves of a coordinate is judged by the kinetic energy of all
+  ResponseSweep(coupling::LinearResponse machine, Eigen::VectorXd masses)
+      : machine_(std::move(machine)), masses_(std::move(masses))
+  {
+  }
 
   void add_force(const Eigen::VectorXd &force); ///< [n]
   /// @param derivatives  how often it is differentiated by time
@@ -46,13 +50,16 @@ private:
     int                    derivatives;
   };
 
-  Sample              at(double f) const;
-  double              amplitude(std::size_t pair, double f) const;
-  std::vector<Sample> sampled(std::vector<double> frequencies) const;
-  void                add_between(std::vector<Sample> &samples) const;
-  void                find_peaks(std::vector<Sample> &samples, FrequencyResponse &response) const;
+  /// Amplitude of an answer; 0 if it is no more than rounding, as symmetry makes it.
+  std::complex<double> value(const Answer &answer, const coupling::Vibration &vibration, Eigen::Index column) const;
+  Sample               at(double f) const;
+  double               amplitude(std::size_t pair, double f) const;
+  std::vector<Sample>  sampled(std::vector<double> frequencies) const;
+  void                 add_between(std::vector<Sample> &samples) const;
+  void                 find_peaks(std::vector<Sample> &samples, FrequencyResponse &response) const;
 
   coupling::LinearResponse machine_;
+  Eigen::VectorXd          masses_;
   Eigen::MatrixXd          forces_; // [n x n_from]
   std::vector<Answer>      answers_;
 };

@@ -206,6 +206,29 @@ TEST(FrequencyResponse, SeesAContactWhereItIsClosed)
   EXPECT_LT(error(off, 0, [](double f) { return Complex(-1. / (m * std::pow(two_pi * f, 2))); }), 1e-13);
 }
 
+TEST(FrequencyResponse, ThatSymmetryForbidsIsZero)
+{
+  // A mass between two equal ones rests while these are pressed together.
+  const auto spring =
+      [](const std::string &name, const std::string &from, const std::string &to, const std::string &stiffness)
+  {
+    return element(
+        name, "spring-damper",
+        {{"from", from}, {"to", to}, {"direction", "[1, 0, 0]"}, {"stiffness", stiffness}, {"damping", "0.3"}});
+  };
+  std::string text;
+  for (const std::string name : {"left", "middle", "right"})
+    text +=
+        slider_body(name, name == "middle" ? "3.3" : "2", "[1, 0, 0]") + spring("foot_" + name, name, "ground", "700");
+  text += spring("one", "left", "middle", "1234") + spring("other", "middle", "right", "1234") +
+          spring("across", "left", "right", "567");
+  const auto response = response_of_text(test::quoted(text), options_of({"across.displacement"}, {"left", "middle"}));
+  EXPECT_EQ(response.pairs[0].peaks.size(), 1u);
+  EXPECT_TRUE(response.pairs[1].peaks.empty());
+  for (const Complex &value : response.pairs[1].values)
+    EXPECT_EQ(value, 0.);
+}
+
 TEST(FrequencyResponse, OfAnUndampedMachineIsInfiniteAtItsFrequencies)
 {
   const std::string text = slider_body("slide", "2", "[1, 0, 0]") +
