@@ -2,6 +2,7 @@
 
 #include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/tables/modes_along_table.h"
+#include "apps/output/tables/order_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 
@@ -55,6 +56,11 @@ std::string response(const Result &result)
   return result.frf ? frequency_response_csv(*result.frf) : "";
 }
 
+std::string orders(const Result &result)
+{
+  return result.orders ? orders_csv(*result.orders) : "";
+}
+
 } // namespace
 
 bool ResultFile::has_name(const std::string &file) const
@@ -79,6 +85,7 @@ const std::vector<ResultFile> &result_files()
       {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
+      {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},
       {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
       {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},

@@ -4,6 +4,7 @@
 #include "apps/scene/scene.h"
 #include "apps/session/frequency_response.h"
 #include "apps/session/modes_along.h"
+#include "apps/session/order_tracking.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/stress_answer.h"
@@ -194,6 +195,7 @@ Result Session::run()
   result.asked    = {path_, overrides_, scene_.run.options};
   result.run      = failure.empty() ? simulated(initial, signals) : not_started(scene_.run.options, failure);
   progress()("results", -1.);
+  result.orders = order_tracking(scene_, *result.run);
   states_for_pictures(prepared, *result.run);
   if (scene_.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);

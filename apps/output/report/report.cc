@@ -6,6 +6,7 @@
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
+#include "apps/output/report/order_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -314,6 +315,7 @@ std::string contents(const std::string &body)
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
+                                 {"orders", "Orders"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
@@ -337,13 +339,13 @@ Report make_report(const Result &full)
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body = answer_section(result, report) + stress_section(result, report.charts) +
-                           chart_section(charts, ChartTopic::force, "forces", "Forces") +
-                           chart_section(charts, ChartTopic::motion, "motion", "Motion") +
-                           chart_section(charts, ChartTopic::other, "signals", "Other signals") +
-                           events_section(result) + energy_section(result, charts) +
-                           frequency_response_section(result, report.charts) + along_section(result, report.charts) +
-                           modes_section(result, report) + numerics_section(result);
+  const std::string body =
+      answer_section(result, report) + stress_section(result, report.charts) +
+      chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      chart_section(charts, ChartTopic::motion, "motion", "Motion") +
+      chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
+      events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
+      along_section(result, report.charts) + modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
       {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/values/frequency_response.h"
+#include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/stress_result.h"
@@ -83,6 +84,7 @@ struct Result
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::optional<FrequencyResponse>            frf;              ///< of `frf`
+  std::optional<OrderTracking>                orders;           ///< of a run with a rotor that turns
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run

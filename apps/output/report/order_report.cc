@@ -1,0 +1,97 @@
+#include "apps/output/report/order_report.h"
+
+#include "apps/output/charts/chart.h"
+#include "apps/output/text/html.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr std::size_t most_signals = 8;    ///< that are drawn; the table has all
+constexpr double      seen         = 1e-3; ///< of the largest amplitude of a signal, that an order has to reach
+
+double largest(const std::vector<double> &amplitudes)
+{
+  return *std::max_element(amplitudes.begin(), amplitudes.end());
+}
+
+double largest(const OrderedSignal &signal)
+{
+  double most = 0.;
+  for (const std::vector<double> &order : signal.amplitudes)
+    most = std::max(most, largest(order));
+  return most;
+}
+
+/// A speed that hardly changes is drawn over the time.
+bool over_speed(const OrderTracking &tracking)
+{
+  const auto [low, high] = std::minmax_element(tracking.speed_rpm.begin(), tracking.speed_rpm.end());
+  return *high > 1.02 * *low;
+}
+
+Chart order_chart(const OrderTracking &tracking, const OrderedSignal &signal)
+{
+  const bool        speed = over_speed(tracking);
+  const DisplayUnit unit  = display_unit(signal.unit, largest(signal));
+  Chart             chart;
+  chart.width   = 880.;
+  chart.height  = 220.;
+  chart.title   = signal.name + ": orders of " + tracking.rotor;
+  chart.x.label = speed ? "speed [1/min]" : "t [s]";
+  chart.y.label = "amplitude [" + unit.unit + "]";
+  chart.y.begin = 0.;
+  for (std::size_t k = 0; k < tracking.orders.size(); ++k)
+  {
+    if (largest(signal.amplitudes[k]) < seen * largest(signal))
+      continue;
+    Curve curve;
+    curve.name = "order " + std::to_string(tracking.orders[k]);
+    curve.x    = speed ? tracking.speed_rpm : tracking.t;
+    for (const double amplitude : signal.amplitudes[k])
+      curve.y.push_back(amplitude * unit.factor);
+    chart.panels[0].add(curve);
+  }
+  return chart;
+}
+
+} // namespace
+
+std::string order_section(const Result &result, Pictures &pictures)
+{
+  if (!result.orders)
+    return "";
+  const OrderTracking &tracking = *result.orders;
+  std::string html = "<p>Signals sampled anew over the angle of " + escape_xml(tracking.rotor) + ", in windows of " +
+                     std::to_string(tracking.turns) + " turns: what shakes with its speed and its multiples.</p>\n";
+  HtmlTable   table({"signal", "#order", "#largest amplitude", "unit", "#at [1/min]", "#at t [s]"});
+  std::size_t drawn = 0;
+  for (const OrderedSignal &signal : tracking.signals)
+  {
+    if (!(largest(signal) > 0.))
+      continue;
+    if (++drawn <= most_signals)
+    {
+      pictures.emplace_back("orders-" + std::to_string(drawn), chart_svg(order_chart(tracking, signal)));
+      html += figure(pictures.back().second);
+    }
+    for (std::size_t k = 0; k < tracking.orders.size(); ++k)
+      if (const auto &order = signal.amplitudes[k]; largest(order) >= seen * largest(signal))
+      {
+        const auto        at   = std::size_t(std::max_element(order.begin(), order.end()) - order.begin());
+        const DisplayUnit unit = display_unit(signal.unit, order[at]);
+        table.add({signal.name, std::to_string(tracking.orders[k]), short_text(order[at] * unit.factor), unit.unit,
+                   short_text(tracking.speed_rpm[at], 5), short_text(tracking.t[at], 5)});
+      }
+  }
+  return drawn == 0
+             ? ""
+             : section("orders", "Orders of the speed of " + escape_xml(tracking.rotor), html + table.scrolled_html());
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,177 @@
+#include "apps/session/order_tracking.h"
+
+#include "coupling/integration/system/dense_solvers.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr int         window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
+constexpr double      samples_of_order = 3.;
+constexpr std::size_t most_windows     = 400;
+
+/// A table of values y over x ascending, by the cubic through four neighbours.
+double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)
+{
+  const auto        upper = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+  const std::size_t first = std::size_t(std::clamp<std::ptrdiff_t>(upper - 2, 0, std::ptrdiff_t(x.size()) - 4));
+  double            sum   = 0.;
+  for (std::size_t i = first; i < first + 4; ++i)
+  {
+    double basis = y[i];
+    for (std::size_t j = first; j < first + 4; ++j)
+      if (j != i)
+        basis *= (at - x[j]) / (x[i] - x[j]);
+    sum += basis;
+  }
+  return sum;
+}
+
+std::vector<double> column(const coupling::RunResult &run, std::size_t i)
+{
+  std::vector<double> values;
+  for (std::size_t at = i; at < run.rows.size(); at += run.columns.size())
+    values.push_back(run.rows[at]);
+  return values;
+}
+
+/// A rotor, and the column that tells its angle or its speed.
+struct Reference
+{
+  std::string rotor;
+  std::size_t column   = 0;
+  bool        is_angle = true;
+};
+
+std::optional<Reference> reference_of(const Scene &scene, const coupling::RunResult &run)
+{
+  for (const char *motion : {".angle", ".speed"})
+    for (const SignalRequest &signal : scene.signals)
+      for (const BodyRequest &body : scene.bodies)
+        if (body.kind == coupling::BodyKind::rotor && signal.path == body.name + motion)
+          if (const auto found = std::find(run.columns.begin(), run.columns.end(), signal.name);
+              found != run.columns.end())
+            return Reference{body.name, std::size_t(found - run.columns.begin()), std::string(motion) == ".angle"};
+  return std::nullopt;
+}
+
+/// The history of a rotor that turns in one direction: rows of equal time, as at events, are taken once.
+struct Turning
+{
+  std::vector<std::size_t> rows;
+  std::vector<double>      t, angle; ///< angle from 0 on [rad], ascending
+};
+
+Turning turning(const coupling::RunResult &run, const Reference &reference)
+{
+  const std::vector<double> t = column(run, 0), told = column(run, reference.column);
+  std::vector<double>       angle = told;
+  if (!reference.is_angle) // trapezoids: as good as the rows are close
+    for (std::size_t i = 0; i < t.size(); ++i)
+      angle[i] = i == 0 ? 0. : angle[i - 1] + 0.5 * (told[i] + told[i - 1]) * (t[i] - t[i - 1]);
+  const double sense = angle.empty() || angle.back() >= angle.front() ? 1. : -1.;
+  Turning      result;
+  for (std::size_t i = 0; i < t.size(); ++i)
+  {
+    const double phi = sense * (angle[i] - angle[0]);
+    if (!result.t.empty() && t[i] <= result.t.back())
+      continue;
+    if (!result.t.empty() && phi <= result.angle.back())
+      return {}; // it stands still or turns back
+    result.rows.push_back(i);
+    result.t.push_back(t[i]);
+    result.angle.push_back(phi);
+  }
+  return result;
+}
+
+/// Fewest rows of any turn.
+double rows_of_turn(const Turning &history)
+{
+  double longest = 0.;
+  for (std::size_t i = 1; i < history.angle.size(); ++i)
+    longest = std::max(longest, history.angle[i] - history.angle[i - 1]);
+  return two_pi / longest;
+}
+
+/// Rows that give the coefficients of cos and sin of each order from the samples of a window: weighted least squares of
+/// them and of a parabola, which a run-up makes of most signals.
+Eigen::MatrixXd order_fit(int n_orders)
+{
+  const int       n = window_turns * samples_of_turn;
+  Eigen::MatrixXd A(n, 3 + 2 * n_orders);
+  Eigen::VectorXd weights(n);
+  for (int i = 0; i < n; ++i)
+  {
+    const double share = (i + 0.5) / n, s = 2. * share - 1., phi = two_pi * i / samples_of_turn;
+    weights[i] = 0.5 - 0.5 * std::cos(two_pi * share);
+    A.row(i).head<3>() << 1., s, s * s;
+    for (int k = 1; k <= n_orders; ++k)
+      A.row(i).segment<2>(1 + 2 * k) << std::cos(k * phi), std::sin(k * phi);
+  }
+  const Eigen::MatrixXd weighted = A.transpose() * weights.asDiagonal();
+  return coupling::lu_solution(weighted * A, weighted).bottomRows(2 * n_orders);
+}
+
+} // namespace
+
+std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::RunResult &run)
+{
+  const auto reference = reference_of(scene, run);
+  if (!reference)
+    return std::nullopt;
+  const Turning history = turning(run, *reference);
+  const int     turns   = history.angle.empty() ? 0 : int(history.angle.back() / two_pi);
+  if (turns < least_turns || history.t.size() < 4)
+    return std::nullopt;
+  const int n_orders = std::min(most_orders, int(rows_of_turn(history) / samples_of_order));
+  if (n_orders < 1)
+    return std::nullopt;
+
+  OrderTracking result;
+  result.rotor = reference->rotor;
+  result.turns = window_turns;
+  for (int order = 1; order <= n_orders; ++order)
+    result.orders.push_back(order);
+  std::vector<double> times; // at equal angles
+  for (int i = 0; i <= turns * samples_of_turn; ++i)
+    times.push_back(interpolated(history.angle, history.t, two_pi * i / samples_of_turn));
+  const std::size_t hop = samples_of_turn * std::max<std::size_t>(1, std::size_t(turns) / most_windows),
+                    n   = std::size_t(window_turns) * samples_of_turn;
+  for (std::size_t first = 0; first + n < times.size(); first += hop)
+  {
+    result.t.push_back(times[first + n / 2]);
+    result.speed_rpm.push_back(60. * window_turns / (times[first + n] - times[first]));
+  }
+  const Eigen::MatrixXd fit = order_fit(n_orders);
+  for (const SignalRequest &request : scene.signals)
+  {
+    const std::size_t i =
+        std::size_t(std::find(run.columns.begin(), run.columns.end(), request.name) - run.columns.begin());
+    if (i >= run.columns.size() || i == reference->column)
+      continue;
+    const std::vector<double> all = column(run, i);
+    std::vector<double>       own, samples;
+    for (const std::size_t row : history.rows)
+      own.push_back(all[row]);
+    for (const double t : times)
+      samples.push_back(interpolated(history.t, own, t));
+    OrderedSignal signal{request.name, run.units[i], std::vector<std::vector<double>>(std::size_t(n_orders))};
+    for (std::size_t first = 0; first + n < times.size(); first += hop)
+    {
+      const Eigen::VectorXd found = fit * Eigen::Map<const Eigen::VectorXd>(samples.data() + first, fit.cols());
+      for (int k = 0; k < n_orders; ++k)
+        signal.amplitudes[std::size_t(k)].push_back(found.segment<2>(2 * k).norm());
+    }
+    result.signals.push_back(signal);
+  }
+  return result;
+}
+
+} // namespace gestell::apps
