@@ -1,5 +1,6 @@
 #include "apps/session/order_tracking.h"
 
+#include "apps/session/waterfall.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "fem/values/two_pi.h"
 
@@ -12,9 +13,10 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int         window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
-constexpr double      samples_of_order = 3.;
-constexpr std::size_t most_windows     = 400;
+constexpr int    window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
+constexpr double samples_of_order = 3.;
+constexpr int    most_windows     = 400;
+constexpr double most_turns       = 1e9; ///< that whole numbers count
 
 /// A table of values y over x ascending, by the cubic through four neighbours.
 double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)
@@ -91,6 +93,20 @@ Turning turning(const coupling::RunResult &run, const Reference &reference)
   return result;
 }
 
+/// [1/min] at the rows, by differences of the angle over a quarter of a turn.
+std::vector<double> speeds_of(const Turning &history)
+{
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < history.t.size(); ++i)
+  {
+    const double begin = std::max(history.angle[i] - 0.125 * two_pi, 0.),
+                 end   = std::min(history.angle[i] + 0.125 * two_pi, history.angle.back());
+    speeds.push_back(60. / two_pi * (end - begin) /
+                     (interpolated(history.angle, history.t, end) - interpolated(history.angle, history.t, begin)));
+  }
+  return speeds;
+}
+
 /// Fewest rows of any turn.
 double rows_of_turn(const Turning &history)
 {
@@ -119,6 +135,61 @@ Eigen::MatrixXd order_fit(int n_orders)
   return coupling::lu_solution(weighted * A, weighted).bottomRows(2 * n_orders);
 }
 
+/// Instants at equal angles, by windows.
+std::vector<std::vector<double>> windows_of(const Turning &history, int turns)
+{
+  const int                        hop = std::max(1, turns / most_windows);
+  std::vector<std::vector<double>> windows;
+  for (int first = 0; first + window_turns <= turns; first += hop)
+  {
+    windows.emplace_back();
+    for (int i = 0; i <= window_turns * samples_of_turn; ++i)
+      windows.back().push_back(interpolated(history.angle, history.t, two_pi * (first + double(i) / samples_of_turn)));
+  }
+  return windows;
+}
+
+OrderedSignal ordered(const std::string &name, const std::string &unit, const Turning &history,
+                      const std::vector<double> &y, const std::vector<std::vector<double>> &windows,
+                      const Eigen::MatrixXd &fit)
+{
+  OrderedSignal   signal{name, unit, std::vector<std::vector<double>>(std::size_t(fit.rows() / 2))};
+  Eigen::VectorXd samples(fit.cols());
+  for (const std::vector<double> &times : windows)
+  {
+    for (Eigen::Index i = 0; i < samples.size(); ++i)
+      samples[i] = interpolated(history.t, y, times[std::size_t(i)]);
+    const Eigen::VectorXd found = fit * samples;
+    for (std::size_t k = 0; k < signal.amplitudes.size(); ++k)
+      signal.amplitudes[k].push_back(found.segment<2>(2 * Eigen::Index(k)).norm());
+  }
+  return signal;
+}
+
+/// Orders and spectra of every signal but the rotor's own.
+void add_signals(const Scene &scene, const coupling::RunResult &run, const Reference &reference, const Turning &history,
+                 const std::vector<std::vector<double>> &windows, OrderTracking &result)
+{
+  const Eigen::MatrixXd     fit     = order_fit(int(result.orders.size()));
+  const std::vector<double> speeds  = speeds_of(history);
+  const double              highest = most_orders / 60. * *std::max_element(speeds.begin(), speeds.end());
+  for (const SignalRequest &request : scene.signals)
+  {
+    const std::size_t i =
+        std::size_t(std::find(run.columns.begin(), run.columns.end(), request.name) - run.columns.begin());
+    if (i >= run.columns.size() || i == reference.column)
+      continue;
+    const std::vector<double> all = column(run, i);
+    std::vector<double>       own;
+    for (const std::size_t row : history.rows)
+      own.push_back(all[row]);
+    result.signals.push_back(ordered(request.name, run.units[i], history, own, windows, fit));
+    Waterfall spectra = waterfall(request.name, run.units[i], {history.t, speeds}, own, highest);
+    if (!spectra.amplitudes.empty())
+      result.waterfalls.push_back(std::move(spectra));
+  }
+}
+
 } // namespace
 
 std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::RunResult &run)
@@ -127,8 +198,8 @@ std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::
   if (!reference)
     return std::nullopt;
   const Turning history = turning(run, *reference);
-  const int     turns   = history.angle.empty() ? 0 : int(history.angle.back() / two_pi);
-  if (turns < least_turns || history.t.size() < 4)
+  const double  turns   = history.angle.empty() ? 0. : history.angle.back() / two_pi;
+  if (!(turns >= least_turns) || turns > most_turns || history.t.size() < 4)
     return std::nullopt;
   const int n_orders = std::min(most_orders, int(rows_of_turn(history) / samples_of_order));
   if (n_orders < 1)
@@ -139,38 +210,13 @@ std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::
   result.turns = window_turns;
   for (int order = 1; order <= n_orders; ++order)
     result.orders.push_back(order);
-  std::vector<double> times; // at equal angles
-  for (int i = 0; i <= turns * samples_of_turn; ++i)
-    times.push_back(interpolated(history.angle, history.t, two_pi * i / samples_of_turn));
-  const std::size_t hop = samples_of_turn * std::max<std::size_t>(1, std::size_t(turns) / most_windows),
-                    n   = std::size_t(window_turns) * samples_of_turn;
-  for (std::size_t first = 0; first + n < times.size(); first += hop)
+  const std::vector<std::vector<double>> windows = windows_of(history, int(turns));
+  for (const std::vector<double> &times : windows)
   {
-    result.t.push_back(times[first + n / 2]);
-    result.speed_rpm.push_back(60. * window_turns / (times[first + n] - times[first]));
+    result.t.push_back(times[times.size() / 2]);
+    result.speed_rpm.push_back(60. * window_turns / (times.back() - times.front()));
   }
-  const Eigen::MatrixXd fit = order_fit(n_orders);
-  for (const SignalRequest &request : scene.signals)
-  {
-    const std::size_t i =
-        std::size_t(std::find(run.columns.begin(), run.columns.end(), request.name) - run.columns.begin());
-    if (i >= run.columns.size() || i == reference->column)
-      continue;
-    const std::vector<double> all = column(run, i);
-    std::vector<double>       own, samples;
-    for (const std::size_t row : history.rows)
-      own.push_back(all[row]);
-    for (const double t : times)
-      samples.push_back(interpolated(history.t, own, t));
-    OrderedSignal signal{request.name, run.units[i], std::vector<std::vector<double>>(std::size_t(n_orders))};
-    for (std::size_t first = 0; first + n < times.size(); first += hop)
-    {
-      const Eigen::VectorXd found = fit * Eigen::Map<const Eigen::VectorXd>(samples.data() + first, fit.cols());
-      for (int k = 0; k < n_orders; ++k)
-        signal.amplitudes[std::size_t(k)].push_back(found.segment<2>(2 * k).norm());
-    }
-    result.signals.push_back(signal);
-  }
+  add_signals(scene, run, *reference, history, windows, result);
   return result;
 }
 

@@ -13,7 +13,8 @@ namespace
 {
 
 constexpr std::size_t most_signals = 8;    ///< that are drawn; the table has all
-constexpr double      seen         = 1e-3; ///< of the largest amplitude of a signal, that an order has to reach
+constexpr double      tallest      = 0.25; ///< spectrum, beside the range of the speeds
+constexpr double      seen         = 1e-2; ///< of the largest amplitude of a signal, that an order has to reach
 
 double largest(const std::vector<double> &amplitudes)
 {
@@ -60,6 +61,62 @@ Chart order_chart(const OrderTracking &tracking, const OrderedSignal &signal)
   return chart;
 }
 
+/// [Hz] to where there is something to see, with some room.
+double highest_seen(const Waterfall &spectra, double most)
+{
+  std::size_t last = 0;
+  for (const std::vector<double> &row : spectra.amplitudes)
+    for (std::size_t i = last; i < row.size(); ++i)
+      if (row[i] > seen * most)
+        last = i;
+  return std::min(spectra.frequencies_hz.back(), 1.5 * spectra.frequencies_hz[last]);
+}
+
+/// Spectra one above the other at the height of their speed, with the lines of the orders and of natural frequencies.
+Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode> &modes)
+{
+  Chart        chart;
+  const double span = spectra.speed_rpm.back() - spectra.speed_rpm.front(), fastest = spectra.speed_rpm.back();
+  double       most = 0.;
+  for (const std::vector<double> &row : spectra.amplitudes)
+    most = std::max(most, largest(row));
+  const DisplayUnit unit = display_unit(spectra.unit, most);
+  chart.width            = 880.;
+  chart.height           = 420.;
+  chart.title            = spectra.name + ": spectra over the speed";
+  chart.note = "the highest is " + short_text(most * unit.factor) + " " + unit.unit + "; dashed: orders of the speed";
+  chart.x.label = "frequency [Hz]";
+  chart.y.label = "speed [1/min]";
+  chart.x.begin = 0.;
+  chart.x.end   = highest_seen(spectra, most);
+  chart.y.begin = spectra.speed_rpm.front() - 0.05 * span;
+  chart.y.end   = fastest + tallest * span;
+  for (std::size_t i = spectra.amplitudes.size(); i-- > 0;) // the lowest in front
+  {
+    Curve curve;
+    curve.x = spectra.frequencies_hz;
+    for (const double amplitude : spectra.amplitudes[i])
+      curve.y.push_back(spectra.speed_rpm[i] + tallest * span * amplitude / most);
+    chart.panels[0].curves.push_back(curve);
+  }
+  for (const int order : {1, 2, 3, 4, 5, 6, 7, 8})
+  {
+    Curve line;
+    line.colour = 1;
+    line.line   = LineStyle::dashed;
+    line.add(order * chart.y.begin / 60., chart.y.begin);
+    line.add(order * chart.y.end / 60., chart.y.end);
+    chart.panels[0].curves.push_back(line);
+  }
+  int number = 0;
+  for (const coupling::Mode &mode : modes)
+    if (++number; mode.frequency_hz > 0. && mode.frequency_hz < chart.x.end)
+      chart.marks.push_back({mode.frequency_hz,
+                             "mode " + std::to_string(number) + ": " + short_text(mode.frequency_hz) + " Hz", number,
+                             0});
+  return chart;
+}
+
 } // namespace
 
 std::string order_section(const Result &result, Pictures &pictures)
@@ -80,6 +137,13 @@ std::string order_section(const Result &result, Pictures &pictures)
       pictures.emplace_back("orders-" + std::to_string(drawn), chart_svg(order_chart(tracking, signal)));
       html += figure(pictures.back().second);
     }
+    for (const Waterfall &spectra : tracking.waterfalls)
+      if (spectra.name == signal.name && spectra.amplitudes.size() > 1 && drawn <= most_signals)
+      {
+        pictures.emplace_back("waterfall-" + std::to_string(drawn),
+                              chart_svg(waterfall_chart(spectra, result.coupled_modes)));
+        html += figure(pictures.back().second);
+      }
     for (std::size_t k = 0; k < tracking.orders.size(); ++k)
       if (const auto &order = signal.amplitudes[k]; largest(order) >= seen * largest(signal))
       {

@@ -1,6 +1,7 @@
 // Orders of a rotor that runs up, of signals whose orders are known.
 
 #include "apps/session/order_tracking.h"
+#include "apps/session/waterfall.h"
 #include "fem/values/two_pi.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +83,35 @@ TEST(OrderTracking, TellsNoMoreOrdersThanTheRowsResolve)
   ASSERT_TRUE(tracking);
   EXPECT_EQ(tracking->orders.size(), 1u);
   EXPECT_FALSE(apps::order_tracking(scene_with("shaft.angle"), run_up(true, 0.02)));
+}
+
+TEST(Waterfall, KeepsAVibrationOfItsOwnInPlaceWhileOrdersMove)
+{
+  // From 10 to 40 turns a second in 4 s: 2 mm at 90 Hz whatever the speed, and 1 mm of order 1.
+  apps::TurningHistory history;
+  std::vector<double>  y;
+  for (double t = 0.; t <= 4.; t += 1e-4)
+  {
+    const double phi = two_pi * (10. * t + 0.5 * 7.5 * t * t);
+    history.t.push_back(t);
+    history.speed_rpm.push_back(60. * (10. + 7.5 * t));
+    y.push_back(2e-3 * std::sin(two_pi * 90. * t) + 1e-3 * std::cos(phi));
+  }
+  const apps::Waterfall spectra = apps::waterfall("y", "m", history, y, 120.);
+  ASSERT_GT(spectra.speed_rpm.size(), 20u);
+  const auto &f  = spectra.frequencies_hz;
+  const auto  at = [&](double hz) { return std::size_t(std::lower_bound(f.begin(), f.end(), hz) - f.begin()); };
+  for (std::size_t row = 0; row < spectra.speed_rpm.size(); ++row)
+  {
+    const auto  &amplitudes = spectra.amplitudes[row];
+    const double own = *std::max_element(amplitudes.begin() + long(at(80.)), amplitudes.begin() + long(at(100.)));
+    // Bins of 0.5 Hz, a window of 1/3 s: half a bin beside its middle Hann's window has lost 1 - (pi^2/6 - 1)(T/4)^2 =
+    // 0.5 %.
+    EXPECT_NEAR(own, 2e-3, 2e-5) << spectra.speed_rpm[row];
+    const auto top = std::max_element(amplitudes.begin(), amplitudes.begin() + long(at(70.)));
+    // The speed changes by 2.5 turns a second within a window.
+    EXPECT_NEAR(f[std::size_t(top - amplitudes.begin())], spectra.speed_rpm[row] / 60., 1.) << row;
+  }
 }
 
 TEST(OrderTracking, NeedsARotorThatTurns)
