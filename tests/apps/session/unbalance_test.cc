@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <complex>
 
@@ -157,6 +159,54 @@ TEST(Unbalance, UnderGravityIsAPendulum)
   for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
     EXPECT_NEAR((1. / response.pairs[0].values[i]).real(), U * g - J * std::pow(two_pi * response.frequencies_hz[i], 2),
                 1e-12 * J * 160.);
+}
+
+TEST(Unbalance, CouplesRotorAndCarrierInTheFrequencyResponse)
+{
+  // At rest with the centre of mass across x: M = [m  -U; -U  J], since dn/dphi = -e_1 there.
+  const double            J = 0.05;
+  const test::SceneFolder folder;
+  apps::FrfOptions        options;
+  options.from = options.to  = {"carrier", "rotor"};
+  const std::string path     = folder.write("scene.toml", carrier() + rotor(J, {{"unbalance_phase", "90 deg"}}));
+  const auto        response = *apps::Session(path).frequency_response(options).frf;
+  for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
+  {
+    const double  w = two_pi * response.frequencies_hz[i], w2 = w * w;
+    const Complex a(k - m * w2, b * w), d = -J * w2, c = w2 * U, det = a * d - c * c;
+    const Complex H[] = {d / det, -c / det, -c / det, a / det};
+    for (std::size_t pair = 0; pair < 4; ++pair)
+      EXPECT_LT(std::abs(response.pairs[pair].values[i] - H[pair]), 1e-11 * std::abs(H[pair])) << pair << ' ' << w;
+  }
+}
+
+TEST(Unbalance, ActsAtItsPlaceOnACarrierThatTilts)
+{
+  // 0.3 m above an interface that moves along x and tilts about y: x of the place is u_x + 0.3 r_y.
+  const double      J = 0.05, lever = 0.3;
+  const std::string text = "[frame]\nmass = [[20, 0], [0, 2]]\nstiffness = [[8e4, 0], [0, 5e4]]\n"
+                           "damping = [[60, 0], [0, 10]]\n" +
+                           table("frame.interface.top", {{"rows", "{ ux = 1, ry = 2 }"}, {"position", "[0, 0, 1]"}}) +
+                           rotor_body("rotor", number(J), "[0, 1, 0]",
+                                      {{"on", "frame.top"},
+                                       {"unbalance", "20 g m"},
+                                       {"unbalance_phase", "90 deg"},
+                                       {"unbalance_position", "[0, 0.2, 1.3]"}});
+  const test::SceneFolder folder;
+  apps::FrfOptions        options;
+  options.from = options.to = {"frame.top.ux", "frame.top.ry", "rotor"};
+  const auto response       = *apps::Session(folder.write("scene.toml", text)).frequency_response(options).frf;
+  for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
+  {
+    const double    w = two_pi * response.frequencies_hz[i];
+    Eigen::Matrix3d M, B = Eigen::Vector3d(60., 10., 0.).asDiagonal(), C = Eigen::Vector3d(8e4, 5e4, 0.).asDiagonal();
+    M << 20., 0., -U, 0., 2., -lever * U, -U, -lever * U, J;
+    const Eigen::Matrix3cd H = ((C - w * w * M).cast<Complex>() + Complex(0., w) * B.cast<Complex>()).eval().inverse();
+    for (int from = 0; from < 3; ++from)
+      for (int to = 0; to < 3; ++to)
+        EXPECT_LT(std::abs(response.pairs[std::size_t(3 * from + to)].values[i] - H(to, from)),
+                  1e-10 * std::abs(H(to, from)));
+  }
 }
 
 TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
