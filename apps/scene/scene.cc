@@ -120,11 +120,14 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
   start.place = scene.place();
   if (!scene.has("start"))
     return start;
-  const SceneTable table = scene.table("start").declared(start_keys());
-  start.place            = table.place();
-  const std::string rule = table.choice("rule");
-  start.rule             = rule == "given" ? StartRule::given : rule == "static" ? StartRule::rest : StartRule::steady;
-  const bool rotors      = table.has("angles") || table.has("speeds") || table.has("driver");
+  const SceneTable table   = scene.table("start").declared(start_keys());
+  start.place              = table.place();
+  const std::string rule   = table.choice("rule");
+  const bool        rotors = table.has("angles") || table.has("speeds") || table.has("driver");
+  start.periodic           = rule == "periodic";
+  start.rule               = rule == "static"                                 ? StartRule::rest
+                             : rule == "steady" || (start.periodic && rotors) ? StartRule::steady
+                                                                              : StartRule::given;
   if (start.rule != StartRule::steady || !rotors)
   {
     if (start.rule == StartRule::rest)

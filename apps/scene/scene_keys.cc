@@ -110,8 +110,9 @@ const std::vector<Key> &start_keys()
 {
   const std::string             rotors = "steady, without joints: of rotors, ";
   static const std::vector<Key> keys   = {
-        key::choice("rule", {"given", "static", "steady"}, true,
-                    "a state as given, static equilibrium, or steady motion"),
+        key::choice("rule", {"given", "static", "steady", "periodic"}, true,
+                    "a state as given, static equilibrium, steady motion, or on the periodic motion that `gestell "
+                      "periodic` finds from the state that the other keys tell, as given or steady"),
         coordinates(
             "q", kind::length, kind::angle,
             "given and steady, of a static start first guesses: values of coordinates and measures, `{ crank = \"120 "

@@ -46,14 +46,39 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
     state = prepared.project(state);
 }
 
+/// On the periodic motion that the state leads to.
+void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
+                 coupling::InitialState &state)
+{
+  RepeatingMachine repeating  = repeating_machine(scene, prepared.machine, state, {});
+  repeating.problem.stop      = stop;
+  const ChosenMethod chosen   = chosen_method(repeating, "");
+  const auto         options  = periodic_options(scene, {}, repeating.problem);
+  const auto         found    = chosen.method->solve(repeating.problem, {state.q, state.v, 0.}, options);
+  const auto         solution = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
+  if (solution == found.end())
+    throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic motions found are unstable");
+  state.q       = solution->q;
+  state.v       = solution->v;
+  state.settled = true;
+}
+
 /// The state at the begin of the run, or why there is none.
-coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, std::string &failure)
+coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
+                                   std::string &failure)
 {
   try
   {
     coupling::InitialState initial = prepare_start(scene, prepared);
     require_free_motion(scene, prepared.machine, initial);
+    if (scene.start.periodic)
+      go_on_orbit(scene, prepared, stop, initial);
     return initial;
+  }
+  catch (const coupling::NoPeriodicMotion &none)
+  {
+    failure = std::string("start.rule = \"periodic\": ") + none.what();
+    return {};
   }
   catch (const coupling::ConvergenceFailure &none)
   {
@@ -188,7 +213,7 @@ Result Session::run()
   const auto signals = scene_signals(scene_, prepared.machine);
   progress()("start", -1.);
   std::string                  failure;
-  const coupling::InitialState initial = found_start(scene_, prepared, failure);
+  const coupling::InitialState initial = found_start(scene_, prepared, watch_.interruption, failure);
   progress()("modes", -1.);
   Result result   = begin_result(scene_, "run", prepared);
   result.settings = settings_text(scene_.run.options);

@@ -7,6 +7,7 @@
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
+#include "apps/output/report/periodic_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -340,7 +341,7 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      answer_section(result, report) + stress_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) + stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +

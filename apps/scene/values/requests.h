@@ -272,6 +272,7 @@ struct StartRequest
   StartRule               rule = StartRule::given;
   std::vector<NamedValue> q, v; ///< given
   coupling::SteadyStart   steady;
+  bool                    periodic       = false; ///< from there to the periodic motion
   bool                    drift          = false; ///< rest: with the quasi-static velocity
   bool                    inertia_relief = false; ///< rest: inertia takes loads along motions that nothing holds
   std::string             place;

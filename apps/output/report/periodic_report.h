@@ -1,0 +1,15 @@
+#pragma once
+
+#include "apps/output/text/svg.h"
+#include "apps/output/values/result.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// Section of the periodic motions: solutions with their stability, multipliers beside the unit circle, harmonics, and
+/// the branches along a parameter with their special points.  Empty: there are none.
+std::string periodic_section(const Result &result, Pictures &pictures);
+
+} // namespace gestell::apps

@@ -1,0 +1,283 @@
+// Periodic motions of scenes: against the reference, other methods, and what must hold of any of them.
+
+#include "apps/session/session.h"
+#include "tests/support/reference_table.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::PeriodicEntry;
+using apps::PeriodicRequest;
+using apps::PeriodicResult;
+using apps::Session;
+
+PeriodicResult periodic_of(const std::string &text, const PeriodicRequest &request = {},
+                           const std::vector<std::string> &overrides = {})
+{
+  const test::SceneFolder folder;
+  const std::string       path = folder.write("scene.toml", text);
+  return *Session(path, overrides).periodic(request).periodic;
+}
+
+/// A load F cos(Omega t) on a marker along x.
+std::string cosine_load(const std::string &marker, double F, double Omega, double constant = 0.)
+{
+  return element("load", "force",
+                 {{"from", marker},
+                  {"to", "ground"},
+                  {"direction", "[1, 0, 0]"},
+                  {"constant", number(constant)},
+                  {"harmonics", "[{ amplitude = '" + number(F) + " N', frequency = '" + number(Omega / (2. * M_PI)) +
+                                    " Hz', phase = '90 deg' }]"}});
+}
+
+const std::string output_x = "[output.signals]\nx = 'slide.displacement'\n";
+
+std::string duffing(double zeta, double beta, double F, double Omega)
+{
+  return slider_body("slide", "1", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}, {"damping", number(2. * zeta)}}) +
+         element("cubic", "cubic spring", {{"from", "slide"}, {"cubic", number(beta)}}) +
+         cosine_load("slide", F, Omega) + test::quoted(output_x);
+}
+
+/// x'' + 2 zeta x' + g(x) = F0 + F cos(Omega t), g with a dead zone of half width 1 and unit slope.
+std::string play(double zeta, double F0, double F, double Omega)
+{
+  return slider_body("slide", "1", "[1, 0, 0]") +
+         element("damper", "spring-damper", {{"from", "slide"}, {"damping", number(2. * zeta)}}) +
+         element("play", "clearance", {{"from", "slide"}, {"stiffness", "1"}, {"gap", "1"}}) +
+         cosine_load("slide", F, Omega, F0) + test::quoted(output_x);
+}
+
+/// M q'' + B q' + C q + sum beta w (w^T q)^3 = F cos(Omega t) of the reference.
+std::string two_masses(const std::string &name, double Omega)
+{
+  const bool        first = name == "two_dof1";
+  const std::string frame = first ? "mass = [[1.0, 0.0], [0.0, 0.05]]\ndamping = [[0.015, -0.013], [-0.013, 0.013]]\n"
+                                    "stiffness = [[1.0453, -0.0453], [-0.0453, 0.0453]]\n"
+                                  : "mass = [[2.0, 0.0], [0.0, 1.0]]\ndamping = [[0.06, -0.02], [-0.02, 0.04]]\n"
+                                    "stiffness = [[3.0, -1.0], [-1.0, 2.0]]\n";
+  std::string       text =
+      "[frame]\n" + frame + table("frame.interface.one", {{"rows", "{ ux = 1 }"}, {"position", "[0, 0, 0]"}}) +
+      table("frame.interface.two", {{"rows", "{ ux = 2 }"}, {"position", "[1, 0, 0]"}}) +
+      element("cubic", "cubic spring",
+              {{"from", "frame.one"}, {"to", "ground"}, {"direction", "[1, 0, 0]"}, {"cubic", first ? "1.0" : "0.5"}});
+  if (first)
+    text += element("between", "cubic spring",
+                    {{"from", "frame.one"}, {"to", "frame.two"}, {"direction", "[1, 0, 0]"}, {"cubic", "0.0042"}});
+  return text + cosine_load("frame.one", first ? 0.11 : 0.8, Omega) +
+         test::quoted("[output.signals]\nq1 = 'frame.one.ux'\nq2 = 'frame.two.ux'\n");
+}
+
+/// The entry whose start, at any period of the load, is nearest to q, v of the slide; and how near.
+double nearest(const PeriodicResult &result, int ratio, double x, double v, const PeriodicEntry **found)
+{
+  double least = 1e300;
+  for (const PeriodicEntry &entry : result.entries)
+    if (entry.solution.ratio == ratio)
+      // Rows tell x on a grid of 512: only for ratios that divide it, else the start alone.
+      for (int k = 0; k < ratio; ++k)
+      {
+        const std::size_t row = std::size_t(512 * k / ratio), width = entry.signals.size() + 1;
+        const double      apart = k == 0 ? std::hypot(entry.solution.q[0] - x, entry.solution.v[0] - v)
+                                         : std::abs(entry.rows[row * width + 1] - x);
+        if (apart < least)
+        {
+          least  = apart;
+          *found = &entry;
+        }
+      }
+  return least;
+}
+
+} // namespace
+
+/// The three coexisting motions of Duffing's oscillator, with the harmonics of the reference.
+TEST(PeriodicScene, ThreeMotionsOfDuffingsOscillatorAreFoundWithoutBeingTold)
+{
+  const PeriodicResult result = periodic_of(duffing(0.05, 0.5, 0.3, 1.4));
+
+  EXPECT_EQ(result.method, "minimise");
+  int rows = 0;
+  for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
+    if (row["case"] == "duffing1")
+    {
+      const PeriodicEntry *entry = nullptr;
+      EXPECT_LT(nearest(result, 1, row.number("x(0)"), row.number("v(0)"), &entry), 1e-9);
+      ASSERT_NE(entry, nullptr);
+      EXPECT_NEAR(entry->signals[0].max, row.number("max|x|"), 1e-9);
+      EXPECT_NEAR(entry->signals[0].amplitude[0], row.number("harmonic1"), 1e-9);
+      EXPECT_NEAR(entry->signals[0].amplitude[2], row.number("harmonic3"), 1e-9);
+      EXPECT_EQ(entry->solution.stable(), row["stability"] == "stable");
+      ++rows;
+    }
+  EXPECT_EQ(rows, 3);
+}
+
+/// Events cut the orbit: multipliers are right only with the derivative of their times.
+TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
+{
+  const double zeta[] = {0.05, 0.05, 0.05, 0.1}, F0[] = {0.3, 0.3, 0.1, 0.3}, F[] = {1., 0.5, 2., 1.},
+               Omega[] = {0.7, 1.8, 1.8, 1.8};
+  PeriodicRequest request;
+  request.method = "minimise";
+  request.starts = 40;
+  for (int i = 0; i < 4; ++i)
+  {
+    const PeriodicResult result = periodic_of(play(zeta[i], F0[i], F[i], Omega[i]), request);
+    for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
+      if (row["case"] == "clearance" + std::to_string(i + 1))
+      {
+        const int            ratio = int(row.number("period_in_forcing_periods"));
+        const PeriodicEntry *entry = nullptr;
+        EXPECT_LT(nearest(result, ratio, row.number("x(0)"), row.number("v(0)"), &entry), ratio == 3 ? 0.05 : 1e-9)
+            << row["case"] << " ratio " << ratio;
+        ASSERT_NE(entry, nullptr);
+        EXPECT_NEAR(std::abs(entry->solution.multipliers[0]), row.number("|mu1|"), 1e-8) << row["case"];
+        EXPECT_NEAR(std::abs(entry->solution.multipliers[1]), row.number("|mu2|"), 1e-8) << row["case"];
+      }
+  }
+}
+
+/// Two masses with cubic springs: every motion of the table, its start and multipliers.
+TEST(PeriodicScene, TwoMassesMeetTheReference)
+{
+  for (const ReferenceRow &row : read_reference("periodic/two_dof_shooting.csv"))
+  {
+    PeriodicRequest request;
+    request.method  = "shooting";
+    request.lead_in = 0;
+    const std::string start =
+        test::quoted("[start]\nq = { 'frame.one.ux' = " + row["q1(0)"] + ", 'frame.two.ux' = " + row["q2(0)"] +
+                     " }\nv = { 'frame.one.ux' = " + row["v1(0)"] + ", 'frame.two.ux' = " + row["v2(0)"] + " }\n");
+    const PeriodicResult result = periodic_of(two_masses(row["case"], row.number("Omega")) + start, request);
+    ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+    const auto &solution = result.entries[0].solution;
+    // The table has 14 digits of a start that is of order one, and residuals of 1e-18.
+    EXPECT_NEAR(solution.q[0], row.number("q1(0)"), 1e-10);
+    EXPECT_NEAR(solution.q[1], row.number("q2(0)"), 1e-10);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(std::abs(solution.multipliers[k]), row.number("|mu" + std::to_string(k + 1) + "|"), 1e-8);
+    EXPECT_NEAR(result.entries[0].signals[0].amplitude[0], row.number("harmonic1_q1"), 1e-9);
+    EXPECT_EQ(solution.stable(), row["stability"] == "stable");
+  }
+}
+
+/// The product of all multipliers is exp(-int tr(M^-1 B) dt), whatever the springs do (Liouville).
+TEST(PeriodicScene, MultipliersHaveTheProductThatDampingGives)
+{
+  const PeriodicResult result = periodic_of(play(0.05, 0.3, 1., 0.7));
+  ASSERT_FALSE(result.entries.empty());
+  for (const PeriodicEntry &entry : result.entries)
+    EXPECT_NEAR(std::abs(entry.solution.multipliers.prod()), std::exp(-0.1 * entry.solution.period), 1e-9);
+}
+
+/// Two unrelated methods.
+TEST(PeriodicScene, HarmonicBalanceAndShootingAgree)
+{
+  PeriodicRequest request;
+  request.method              = "harmonic-balance";
+  request.check               = "shooting";
+  const PeriodicResult result = periodic_of(duffing(0.05, 1., 0.8, 0.45), request);
+  ASSERT_EQ(result.entries.size(), 1u);
+  ASSERT_EQ(result.checks.size(), 1u);
+  EXPECT_EQ(result.checks[0].failure, "");
+  EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
+}
+
+/// Folds of the one-harmonic equations are those of the closed formula, six digits in the table.
+TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
+{
+  PeriodicRequest request;
+  request.method              = "harmonic-balance";
+  request.harmonics           = 1;
+  request.along               = "parameters.Omega";
+  request.from                = "1.0";
+  request.to                  = "1.7";
+  std::string       text      = duffing(0.05, 0.5, 0.3, 1.);
+  const std::string frequency = number(1. / (2. * M_PI)) + " Hz";
+  text.replace(text.find(frequency), frequency.size(), "Omega/(2*pi) * 1 Hz");
+  const PeriodicResult result = periodic_of("[parameters]\nOmega = 1.0\n" + text, request);
+  std::vector<double>  folds;
+  for (const apps::SpecialPoint &point : result.special_points)
+    if (point.kind == "fold")
+      folds.push_back(point.parameter);
+  ASSERT_EQ(folds.size(), 2u) << result.failure;
+  EXPECT_NEAR(folds[0], 1.551342, 1e-6);
+  EXPECT_NEAR(folds[1], 1.261164, 1e-6);
+}
+
+/// A press with motor, play and a sheet for every stroke: the period that shooting finds is that to which it settles.
+TEST(PeriodicScene, ThePressComesRoundInThePeriodToWhichItSettles)
+{
+  const std::string press = std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml";
+  PeriodicRequest   request;
+  const auto        shot = *Session(press).periodic(request).periodic;
+  request.method         = "settling";
+  const auto settled     = *Session(press).periodic(request).periodic;
+  ASSERT_EQ(shot.entries.size(), 1u) << shot.failure;
+  ASSERT_EQ(settled.entries.size(), 1u) << settled.failure;
+  EXPECT_NEAR(shot.entries[0].solution.period, settled.entries[0].solution.period,
+              1e-9 * settled.entries[0].solution.period);
+  EXPECT_TRUE(shot.entries[0].solution.stable());
+}
+
+TEST(PeriodicScene, ARunThatStartsOnTheOrbitRepeatsAtOnce)
+{
+  const std::string  press = std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml";
+  const double       T     = Session(press).periodic().periodic->entries.at(0).solution.period;
+  const apps::Result run =
+      Session(press, {"start.rule=periodic", "run.method=exact", "run.order=6", "run.tolerance=1e-8", "run.step=1 ms",
+                      "run.end=" + number(T) + " s", "output.step=" + number(T) + " s"})
+          .run();
+  const coupling::RunResult &history = *run.run;
+  ASSERT_EQ(history.failure, "");
+  const std::size_t width = history.columns.size(), last = history.rows.size() - width;
+  for (std::size_t j = 1; j + 3 < width; ++j)
+    if (history.columns[j] == "x3" || history.columns[j] == "x1")
+      EXPECT_NEAR(history.rows[last + j], history.rows[j], 1e-6 * std::abs(history.rows[j])) << history.columns[j];
+}
+
+TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
+{
+  const std::string slide = slider_body("slide", "1", "[1, 0, 0]") +
+                            element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}});
+  const auto refusal = [&](const std::string &text, const PeriodicRequest &request = {})
+  { return refusal_of([&] { periodic_of(text, request); }); };
+
+  EXPECT_THAT(refusal(slide), testing::HasSubstr("--period"));
+  const std::string two = slide + cosine_load("slide", 1., 1.) +
+                          element("other", "force",
+                                  {{"from", "slide"},
+                                   {"to", "ground"},
+                                   {"direction", "[1, 0, 0]"},
+                                   {"harmonics", "[{ amplitude = '1 N', frequency = '0.2250790790392765 Hz' }]"}});
+  EXPECT_THAT(refusal(two), testing::HasSubstr("no common period"));
+  EXPECT_THAT(refusal(two), testing::HasSubstr("0.22507908 Hz"));
+  const std::string course =
+      slide + element("course", "formula force", {{"from", "slide"}, {"force", "sin(3*t / (1 s)) * 1 N"}});
+  EXPECT_THAT(refusal(course), testing::AllOf(testing::HasSubstr("'course'"), testing::HasSubstr("--period")));
+  PeriodicRequest wrong;
+  wrong.period = "2 s";
+  EXPECT_THAT(refusal(course, wrong), testing::HasSubstr("does not repeat"));
+  wrong.period = "-2 s";
+  EXPECT_THAT(refusal(course, wrong), testing::HasSubstr("above zero"));
+  PeriodicRequest along;
+  along.along = "parameters.x";
+  along.from  = "1 m";
+  along.to    = "2 s";
+  EXPECT_THAT(refusal("[parameters]\nx = '1 m'\n" + test::quoted(slide) + cosine_load("slide", 1., 1.), along),
+              testing::HasSubstr("one unit"));
+}
+
+} // namespace gestell::tests
