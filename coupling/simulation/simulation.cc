@@ -1,7 +1,6 @@
 #include "coupling/simulation/simulation.h"
 
 #include "coupling/integration/events/event_driver.h"
-#include "coupling/integration/system/acceleration_forces.h"
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
@@ -259,16 +258,6 @@ void warn_of_fast_loads(const Machine &machine, RunResult &result)
   result.warnings.push_back(text.str());
 }
 
-/// Accelerations are no state of methods that carry the base system.
-void check_carried_forces(const Machine &machine, const InitialState &initial, const MethodOptions &method)
-{
-  if (!method_of(method).carries_base())
-    return;
-  LocalState local;
-  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
-  refuse_acceleration_forces(machine, local, method_name(method));
-}
-
 } // namespace
 
 void check_run(const Machine &machine, const RunOptions &options, std::size_t n_signals)
@@ -284,7 +273,6 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
 
 void try_start(Machine &machine, const InitialState &initial, const RunOptions &options)
 {
-  check_carried_forces(machine, initial, options.method);
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, with_largest_step(machine, options));
   event_driver(machine, *integrator, options).begin(options.begin, initial.q, initial.v);
 }
@@ -404,7 +392,6 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
 {
   const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
-  check_carried_forces(machine, initial, options.method);
   machine.will_read(signals);
   const MethodOptions method = with_largest_step(machine, options);
   RunResult           result;

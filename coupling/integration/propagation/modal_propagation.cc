@@ -1,6 +1,7 @@
 #include "coupling/integration/propagation/modal_propagation.h"
 
 #include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/system/acceleration_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +64,22 @@ void ModalPropagation::begin(double t, const Eigen::VectorXd &q, const Eigen::Ve
   local_.u.noalias() = system_.forces().directions().transpose() * q;
   local_.v.noalias() = system_.forces().directions().transpose() * v;
   local_.p.setZero();
+  refuse_accelerations();
   context_.begin(x_, local_.u);
   t_origin_ = t;
   tick_     = 0;
   on_grid_  = true;
   rung_     = 0;
   start_piece();
+}
+
+/// Once: whether a law depends on u'' does not change with the motion.
+void ModalPropagation::refuse_accelerations()
+{
+  if (context_.work.steps > 0 || local_.u.size() == 0)
+    return;
+  refuse_acceleration_forces(system_, local_, "exact propagation");
+  ++context_.work.evaluations;
 }
 
 void ModalPropagation::expect(double way, double)

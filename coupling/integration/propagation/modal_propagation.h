@@ -93,6 +93,7 @@ private:
   void                   start_piece();
   LocalTangents          local_tangents_of(const Eigen::MatrixXd &X);
   void                   turn_harmonics();
+  void                   refuse_accelerations();
   void                   forget_inside();
   bool                   is_smooth(double h) const;
   void                   hold_rates(double t, Eigen::VectorXd &x) const;
