@@ -53,12 +53,22 @@ int find_response(const CommonOptions &options, const FrfOptions &asked)
   require_writable(folder);
   const Result result = session.frequency_response(asked);
   progress.done();
-  prepare_folder(folder);
-  write_results(folder, result);
+  const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  if (beside_a_run)
+    write_modes(folder, result);
+  else
+  {
+    prepare_folder(folder);
+    write_results(folder, result);
+  }
   print_response(*result.frf);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
-  std::cout << "report: " << (folder / "report.html").string() << '\n';
+  if (beside_a_run)
+    std::cout << folder.string() << " holds a run, which is kept: only frf.csv, tables of modes, their charts and "
+              << "frame_modes.pvd were written\n";
+  else
+    std::cout << "report: " << (folder / "report.html").string() << '\n';
   return exit_done;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/output/result_folder.h"
 
 #include "apps/output/paraview/paraview.h"
+#include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
 #include "apps/output/result_files.h"
@@ -167,10 +168,15 @@ void write_modes(const fs::path &folder, const Result &result)
   write_paraview(folder, result, names);
   write_tables([&](const std::string &name, const std::string &content) { write_file(folder / name, content); },
                result); // without a run no history
-  if (!result.along)
-    return;
-  for (const auto &[name, svg] : along_pictures(*result.along))
-    write_file(folder / "charts" / (name + ".svg"), svg);
+  const auto write_pictures = [&](const Pictures &pictures)
+  {
+    for (const auto &[name, svg] : pictures)
+      write_file(folder / "charts" / (name + ".svg"), svg);
+  };
+  if (result.along)
+    write_pictures(along_pictures(*result.along));
+  if (result.frf)
+    write_pictures(frequency_response_pictures(*result.frf));
 }
 
 } // namespace gestell::apps

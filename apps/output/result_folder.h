@@ -30,7 +30,8 @@ void prepare_folder(const std::filesystem::path &folder);
  */
 std::vector<std::string> write_results(const std::filesystem::path &folder, const Result &result);
 
-/// Writes modes.csv and frame_modes.pvd alone, into a folder whose other results stay.
+/// Writes tables, charts and frame_modes.pvd of modes and frequency responses alone, into a folder whose other results
+/// stay.
 /// @throws std::runtime_error as write_results().
 void write_modes(const std::filesystem::path &folder, const Result &result);
 

@@ -195,7 +195,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
                        std::to_string(prepared.machine.size()));
   if (!std::isnan(limit) && response.frequencies_hz.back() > limit)
     warnings.push_back("frequencies above " + short_text(limit) +
-                       " Hz are beyond what the reduced frame is meant for; raise reduction.frequency_limit or keep "
+                       " Hz are beyond what the reduced frame is meant for; raise reduction.frequency or keep "
                        "more modes");
   return response;
 }

@@ -18,8 +18,8 @@ TEST(FrfCommand, WritesTableSummaryAndReport)
   const Folder folder("frf");
   const auto   answer = gestell(press + "--from frame.crown.uz --to frame.table.uz,F_P --points 50" + folder.option());
   expect_answer(answer, 0,
-                {"receptance of the machine linearised at the start of the scene, in motion", "frame.table.uz/frame.crown.uz [m/N]",
-                 "F_P/frame.crown.uz [N/N]", "closed: 'rod'"});
+                {"receptance of the machine linearised at the start of the scene, in motion",
+                 "frame.table.uz/frame.crown.uz [m/N]", "F_P/frame.crown.uz [N/N]", "closed: 'rod'"});
   const std::string csv = read(folder.results() / "frf.csv");
   EXPECT_EQ(csv.substr(0, csv.find("F_P")),
             "frequency [Hz],frame.table.uz/frame.crown.uz re [m/N],frame.table.uz/frame.crown.uz im [m/N],"
@@ -39,6 +39,18 @@ TEST(FrfCommand, DrawsItsOwnTableAsMeasured)
   std::filesystem::copy(folder.results() / "frf.csv", folder / "mine.csv");
   expect_answer(gestell(ask + " --measured '" + (folder / "mine.csv").string() + "'" + folder.option()), 0, {});
   EXPECT_NE(read(folder.results() / "report.html").find("measured: slide/slide"), std::string::npos);
+}
+
+TEST(FrfCommand, KeepsARunBesideIt)
+{
+  const Folder folder("frf_beside");
+  expect_answer(gestell("run " + scene("press_minimal.toml") + " --set run.end='\"10 ms\"'" + folder.option()), 0, {});
+  const std::string report = read(folder.results() / "report.html");
+  expect_answer(gestell(press + "--from slide --to slide --points 20" + folder.option()), 0,
+                {"holds a run, which is kept"});
+  EXPECT_EQ(read(folder.results() / "report.html"), report);
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "frf.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "charts" / "frf-amplitude.svg"));
 }
 
 TEST(FrfCommand, RefusesOddInputWithTheWayOut)
