@@ -76,7 +76,7 @@ struct Slope
  */
 Slope extrapolated_slope(const std::function<double(double)> &f, double first_step)
 {
-  constexpr int                                  levels = 9;
+  constexpr int                                  levels = 9; // finest = 2^8
   constexpr double                               ratio  = 2.;
   std::array<std::array<double, levels>, levels> table{};
   Slope                                          best{0., std::numeric_limits<double>::infinity()};
@@ -100,7 +100,17 @@ Slope extrapolated_slope(const std::function<double(double)> &f, double first_st
 
 constexpr double step_of_measure = 1e-4;  ///< [m, rad] first step; of rates and accelerations ten and a hundred times
 constexpr double smooth          = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
+constexpr double finest          = 256.;  ///< first step beside the last one
+constexpr double no_jump         = 1e-9;  ///< second difference beside the values that rounding leaves
 constexpr double rounding        = 1e-12; ///< what it leaves of a value in quotients with the smallest step
+
+/// Whether the slope of f jumps at 0: second differences over h fall with the step where f is smooth.
+bool has_kink(const std::function<double(double)> &f, double first_step)
+{
+  const auto   jump  = [&](double h) { return std::abs(f(h) - 2. * f(0.) + f(-h)) / h; };
+  const double small = first_step / finest, last = jump(small);
+  return last > 0.3 * jump(first_step) && last > no_jump * (std::abs(f(small)) + std::abs(f(-small))) / small;
+}
 
 /// Slopes of a signal in the numbers of a vector.
 class SignalSlopes
@@ -120,22 +130,23 @@ public:
   {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
     double          largest = 0., worst = 0.;
+    bool            kink = false;
     for (Eigen::Index i = first; i < first + count; ++i)
     {
       const double there = x[i], first_step = step * std::max(1., std::abs(there));
-      const Slope  slope = extrapolated_slope(
-          [&](double d)
-          {
-            x[i] = there + d;
-            return value();
-          },
-          first_step);
-      x[i]       = there;
-      weights[i] = slope.value;
-      largest    = std::max(largest, std::abs(slope.value));
-      worst      = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
+      const auto   moved = [&](double d)
+      {
+        x[i] = there + d;
+        return value();
+      };
+      const Slope slope = extrapolated_slope(moved, first_step);
+      kink              = kink || has_kink(moved, first_step);
+      x[i]              = there;
+      weights[i]        = slope.value;
+      largest           = std::max(largest, std::abs(slope.value));
+      worst             = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
     }
-    if (worst > smooth * largest)
+    if (kink || worst > smooth * largest)
       throw std::invalid_argument("\"" + signal_.name +
                                   "\" has a kink at the operating point, so that it has no response "
                                   "in first order; take another operating point or another signal");

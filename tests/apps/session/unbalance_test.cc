@@ -209,6 +209,19 @@ TEST(Unbalance, ActsAtItsPlaceOnACarrierThatTilts)
   }
 }
 
+TEST(Unbalance, AtRestHasAForceWithoutAResponseInFirstOrder)
+{
+  // The magnitude of U (phi'^2 n - phi'' t) has a kink where both are zero, and none while the rotor turns.
+  const test::SceneFolder folder;
+  apps::FrfOptions        options;
+  options.from         = {"carrier"};
+  options.to           = {"rotor unbalance.force"};
+  const auto answer_of = [&](const std::string &start)
+  { return apps::Session(folder.write("scene.toml", carrier() + rotor(0.05) + start)).frequency_response(options); };
+  expect_refusal([&] { answer_of(""); }, "has a kink at the operating point");
+  EXPECT_FALSE(answer_of(table("start", {{"v", "{ rotor = 60 }"}})).frf->pairs.empty());
+}
+
 TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
 {
   using ::testing::HasSubstr;
