@@ -187,6 +187,20 @@ TEST(FrequencyResponse, OfAPendulumHasTheGeometricStiffnessOfItsJoint)
     EXPECT_NEAR(std::abs(H[1].values[k]) / std::abs(H[0].values[k]), s, 1e-12);
 }
 
+TEST(FrequencyResponse, TellsTheForceOfAnIdealJoint)
+{
+  // A rod without mass carries 3 kg along with the oscillator: its force is what these 3 kg need.
+  const std::string text =
+      oscillator.substr(0, oscillator.find("[output]")) +
+      slider_body("mass", "3", "[1, 0, 0]", {{"position", "[1, 0, 0]"}}) +
+      joint("rod", "distance", {{"from", "slide"}, {"at_from", "[0, 0, 0]"}, {"to", "mass"}, {"at_to", "[1, 0, 0]"}});
+  const auto response = response_of_text(text, options_of({"slide"}, {"mass", "rod.force"}));
+  const auto both     = [](double f) { return 1. / Complex(dynamic_stiffness(c, m + 3., f), b * two_pi * f); };
+  EXPECT_LT(error(response, 0, both), 1e-13);
+  const double sign = response.pairs[1].values[0].real() * -both(response.frequencies_hz[0]).real() > 0. ? 1. : -1.;
+  EXPECT_LT(error(response, 1, [&](double f) { return sign * -3. * std::pow(two_pi * f, 2) * both(f); }), 1e-9);
+}
+
 TEST(FrequencyResponse, SeesAContactWhereItIsClosed)
 {
   // 2 kg held on a stop of 800 N/m by their weight: closed; 1 mm above it: free.
