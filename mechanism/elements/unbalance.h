@@ -19,7 +19,7 @@ namespace gestell::mechanism
  * the centrifugal force on the carrier, and the torque by which a shaking carrier brakes the rotor (Sommerfeld).  The
  * forces do no work but that of T and the weight.
  *
- * Source: docs/theory/elements.md, Unbalance; Dresig, Holzweissig, Maschinendynamik, section 1.5 (motor on a
+ * Source: docs/theory/elements.md, Unbalance.
  * foundation).
  */
 class Unbalance : public DifferentiableElement<Unbalance, 3>
