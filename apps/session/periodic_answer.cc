@@ -119,10 +119,11 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
     options.lead_in = request.lead_in;
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;
-  if (coupling::why_not_propagated(*problem.system, "settling").empty())
+  const std::string why = coupling::why_not_propagated(*problem.system, "settling");
+  if (why.empty())
     return options;
   if (!scene.run.given)
-    throw std::invalid_argument(scene.file + ": such a machine is integrated as [run] says, but there is no [run]");
+    throw std::invalid_argument(scene.file + ": " + why + ", integrated as [run] says, but there is no [run]");
   options.integration = scene.run.options.method;
   if (!(request.tolerance > 0.))
     options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);

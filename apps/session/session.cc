@@ -263,6 +263,9 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)
     found.coordinates.push_back(machine.coordinate_name(i));
+  std::optional<SceneFamily> family;
+  if (!request.along.empty())
+    family.emplace(path_, overrides_, scripts_, *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
   std::vector<coupling::PeriodicSolution> solutions;
   try
@@ -275,14 +278,13 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   }
   for (const auto &solution : solutions)
     found.work.add(solution.work);
-  if (!request.along.empty())
+  if (family)
   {
-    const SceneFamily family(path_, overrides_, scripts_, *machine_, request, repeating.problem);
     found.parameter      = request.along;
-    found.parameter_unit = family.unit();
+    found.parameter_unit = family->unit();
     const auto now       = progress();
     follow_branches(
-        family, solutions, options, request, [&](double share) { now("branches", share); }, found);
+        *family, solutions, options, request, [&](double share) { now("branches", share); }, found);
   }
   else
     for (const auto &solution : solutions)

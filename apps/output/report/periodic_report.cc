@@ -59,7 +59,7 @@ Chart multiplier_chart(const PeriodicResult &result)
   Chart chart;
   chart.title   = "Floquet multipliers";
   chart.note    = "inside the circle a disturbance dies away";
-  chart.width   = 340.;
+  chart.width   = 372.;
   chart.height  = 320.;
   chart.x.label = "real part";
   chart.y.label = "imaginary part";
@@ -97,6 +97,8 @@ Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
   chart.height  = 320.;
   chart.x.label = "multiple of the drive's frequency";
   chart.y.label = "share";
+  chart.x.begin = 0.5;
+  chart.x.end   = 10.8;
   for (const SignalOrbit &signal : entry.signals)
   {
     const double largest =

@@ -312,7 +312,8 @@ std::string numerics_section(const Result &result)
 std::string contents(const std::string &body)
 {
   std::string html = "<nav>";
-  for (const auto &[id, name] : {std::pair("peaks", "Answer"),
+  for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
+                                 {"peaks", "Answer"},
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},

@@ -252,31 +252,31 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
 {
   const std::string slide = slider_body("slide", "1", "[1, 0, 0]") +
                             element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}});
-  const auto refusal = [&](const std::string &text, const PeriodicRequest &request = {})
-  { return refusal_of([&] { periodic_of(text, request); }); };
+  const auto words = [&](const std::string &text, const PeriodicRequest &request = {})
+  { return refusal([&] { periodic_of(text, request); }); };
 
-  EXPECT_THAT(refusal(slide), testing::HasSubstr("--period"));
+  EXPECT_THAT(words(slide), testing::HasSubstr("--period"));
   const std::string two = slide + cosine_load("slide", 1., 1.) +
                           element("other", "force",
                                   {{"from", "slide"},
                                    {"to", "ground"},
                                    {"direction", "[1, 0, 0]"},
                                    {"harmonics", "[{ amplitude = '1 N', frequency = '0.2250790790392765 Hz' }]"}});
-  EXPECT_THAT(refusal(two), testing::HasSubstr("no common period"));
-  EXPECT_THAT(refusal(two), testing::HasSubstr("0.22507908 Hz"));
+  EXPECT_THAT(words(two), testing::HasSubstr("no common period"));
+  EXPECT_THAT(words(two), testing::HasSubstr("0.22507908 Hz"));
   const std::string course =
       slide + element("course", "formula force", {{"from", "slide"}, {"force", "sin(3*t / (1 s)) * 1 N"}});
-  EXPECT_THAT(refusal(course), testing::AllOf(testing::HasSubstr("'course'"), testing::HasSubstr("--period")));
+  EXPECT_THAT(words(course), testing::AllOf(testing::HasSubstr("'course'"), testing::HasSubstr("--period")));
   PeriodicRequest wrong;
   wrong.period = "2 s";
-  EXPECT_THAT(refusal(course, wrong), testing::HasSubstr("does not repeat"));
+  EXPECT_THAT(words(course, wrong), testing::HasSubstr("does not repeat"));
   wrong.period = "-2 s";
-  EXPECT_THAT(refusal(course, wrong), testing::HasSubstr("above zero"));
+  EXPECT_THAT(words(course, wrong), testing::HasSubstr("above zero"));
   PeriodicRequest along;
   along.along = "parameters.x";
   along.from  = "1 m";
   along.to    = "2 s";
-  EXPECT_THAT(refusal("[parameters]\nx = '1 m'\n" + test::quoted(slide) + cosine_load("slide", 1., 1.), along),
+  EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("one unit"));
 }
 
