@@ -293,6 +293,9 @@ double HarmonicBalance::left_out(const VectorXd &z)
   VectorXd sum = VectorXd::Zero(n_u_);
   for (int h = harmonics_ + 1; h <= above; ++h)
     sum += 4. * (base_.R(h) * forces_->forces().col(h) + base_.u0(h)).head(n_u_).cwiseAbs2();
+  const MatrixXcd errors = forces_->sampling_errors();
+  for (int h = 0; h <= harmonics_; ++h)
+    sum += (h == 0 ? 1. : 4.) * (base_.R(h) * errors.col(h)).head(n_u_).cwiseAbs2();
   return n_u_ > 0 ? sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff() : 0.;
 }
 

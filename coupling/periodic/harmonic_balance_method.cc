@@ -3,7 +3,8 @@
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/periodic/hill.h"
-#include "coupling/periodic/period_flow.h"
+#include "coupling/periodic/orbit_series.h"
+#include "coupling/periodic/settling.h"
 
 #include <cmath>
 #include <sstream>
@@ -20,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double shortest_share  = 1. / 256.; ///< of a Newton step
 constexpr double floor_of_steps  = 1e-13;     ///< a Newton step that is rounding, relative
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
-constexpr int    first_harmonics = 8, most_harmonics = 128, most_unknowns = 2500;
+constexpr int    first_harmonics = 8, more_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
@@ -157,11 +158,6 @@ public:
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
-
-private:
-  static HarmonicNewton first_solution(HarmonicBalance &balance, const PeriodicGuess &guess,
-                                       const PeriodicOptions &options, VectorXd &z);
-  static int            next_harmonics(const HarmonicBalance &balance, int n_measures);
 };
 
 std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
@@ -181,27 +177,155 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
   return "";
 }
 
-HarmonicNewton HarmonicBalanceMethod::first_solution(HarmonicBalance &balance, const PeriodicGuess &guess,
-                                                     const PeriodicOptions &options, VectorXd &z)
+/// From starts that cost more and more to a solution, and from few harmonics to enough.
+class BalanceSearch
+{
+public:
+  BalanceSearch(const PeriodicProblem &problem, const PeriodicOptions &options)
+      : problem_(problem), options_(options),
+        balance_(problem, options.harmonics > 0 ? options.harmonics : first_harmonics)
+  {
+    if (options.harmonics == 0 && balance_.largest_load() > first_harmonics)
+      balance_.set_harmonics(balance_.largest_load());
+  }
+
+  void             begin(const PeriodicGuess &guess);
+  void             grow();
+  PeriodicSolution solution();
+
+private:
+  bool solve_from(const VectorXd &start);
+  bool solve_from_orbit(PeriodicGuess guess, int periods);
+  int  next_harmonics() const;
+  void check_memory();
+
+  const PeriodicProblem &problem_;
+  const PeriodicOptions &options_;
+  HarmonicBalance        balance_;
+  VectorXd               z_;
+  HarmonicNewton         newton_;
+  int                    iterations_ = 0;
+  double                 left_out_   = 0.;
+};
+
+bool BalanceSearch::solve_from(const VectorXd &start)
+{
+  z_      = start;
+  newton_ = solve_balance(balance_, options_, z_);
+  iterations_ += newton_.iterations;
+  return newton_.converged;
+}
+
+/// Of the motion after so many periods that are integrated; false too if that fails.
+bool BalanceSearch::solve_from_orbit(PeriodicGuess guess, int periods)
+{
+  const auto n = problem_.system->linear().size();
+  if (guess.q.size() != n || guess.v.size() != n)
+    guess.q = guess.v = VectorXd::Zero(n);
+  if (!(guess.period > 0.))
+    guess.period = problem_.period;
+  try
+  {
+    PeriodFlow      flow(problem_, options_.integration);
+    PeriodicOptions few = options_;
+    few.lead_in         = periods;
+    if (periods > 0)
+      lead_in(flow, problem_, few, guess);
+    return solve_from(
+        balance_.pack(orbit_series(problem_, flow, guess.q, guess.v, guess.period, balance_.harmonics())));
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const std::exception &) // of the integration: the other starts remain
+  {
+    return false;
+  }
+}
+
+void BalanceSearch::begin(const PeriodicGuess &guess)
 {
   const bool moves =
       guess.q.size() > 0 && guess.v.size() == guess.q.size() && !(guess.q.isZero(0.) && guess.v.isZero(0.));
-  z                     = moves ? balance.start_through(guess.q, guess.v) : balance.linear_start();
-  HarmonicNewton newton = solve_balance(balance, options, z);
-  if (newton.converged || !moves)
-    return newton;
-  const int before = newton.iterations;
-  z                = balance.linear_start();
-  newton           = solve_balance(balance, options, z);
-  newton.iterations += before;
-  return newton;
+  for (const bool more : {false, true})
+  {
+    if (more && options_.harmonics > 0)
+      break;
+    if (more)
+      balance_.set_harmonics(more_harmonics * balance_.harmonics());
+    if ((moves && solve_from_orbit(guess, 0)) || (moves && solve_from(balance_.start_through(guess.q, guess.v))) ||
+        solve_from(balance_.linear_start()) || solve_from_orbit(guess, options_.lead_in))
+    {
+      left_out_ = balance_.left_out(z_);
+      return;
+    }
+  }
+  check_memory();
+  std::ostringstream message;
+  message.precision(2);
+  message << "harmonic balance: Newton's method with " << balance_.harmonics()
+          << " harmonics has come to a residual of " << newton_.residual << " of the motion after " << iterations_
+          << " iterations; begin nearer to the motion, or take shooting or settling";
+  throw ConvergenceFailure(message.str());
 }
 
 /// 0: there are enough.
-int HarmonicBalanceMethod::next_harmonics(const HarmonicBalance &balance, int n_measures)
+int BalanceSearch::next_harmonics() const
 {
-  const int next = 2 * balance.harmonics();
-  return next > most_harmonics || n_measures * (2 * next + 1) > most_unknowns ? 0 : next;
+  const int next = 2 * balance_.harmonics(), n_u = int(problem_.system->forces().directions().cols());
+  return next > most_harmonics || n_u * (2 * next + 1) > most_unknowns ? 0 : next;
+}
+
+/// Ends with the last number of harmonics that has a solution.
+void BalanceSearch::grow()
+{
+  while (options_.harmonics == 0 && left_out_ > options_.tolerance && !problem_.interrupted())
+  {
+    const int next = next_harmonics();
+    if (next == 0)
+      return;
+    const int            before = balance_.harmonics();
+    const VectorXd       z      = z_;
+    const HarmonicNewton newton = newton_;
+    const FourierSeries  motion = balance_.series(z_);
+    balance_.set_harmonics(next);
+    if (!solve_from(balance_.pack(motion)))
+    {
+      balance_.set_harmonics(before);
+      z_      = z;
+      newton_ = newton;
+      return;
+    }
+    left_out_ = balance_.left_out(z_);
+  }
+}
+
+void BalanceSearch::check_memory()
+{
+  const double memory = balance_.memory(z_);
+  if (!(memory > remembered))
+    return;
+  std::ostringstream message;
+  message.precision(2);
+  message << "harmonic balance: an element remembers the periods before, by " << memory
+          << " of its force, which a law of the motion alone does not; take shooting";
+  throw std::invalid_argument(message.str());
+}
+
+PeriodicSolution BalanceSearch::solution()
+{
+  check_memory();
+  PeriodicSolution solution = finished_balance(problem_, balance_, z_, newton_, options_);
+  solution.work.iterations  = iterations_;
+  std::ostringstream note;
+  note.precision(2);
+  note << balance_.harmonics() << " harmonics of " << balance_.samples() << " samples; what they leave out would add "
+       << left_out_ << " of the motion";
+  if (left_out_ > options_.tolerance)
+    note << (options_.harmonics > 0 ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
+  solution.notes.push_back(note.str());
+  return solution;
 }
 
 std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
@@ -212,51 +336,10 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   PeriodicProblem own = problem;
   if (problem.period_is_unknown() && guess.period > 0.)
     own.period = guess.period;
-  const int       n_u = int(own.system->forces().directions().cols());
-  HarmonicBalance balance(own, options.harmonics > 0 ? options.harmonics : first_harmonics);
-  if (options.harmonics == 0 && balance.largest_load() > first_harmonics)
-    balance.set_harmonics(balance.largest_load());
-  VectorXd       z;
-  HarmonicNewton newton     = first_solution(balance, guess, options, z);
-  int            iterations = newton.iterations;
-  double         left_out   = newton.converged ? balance.left_out(z) : 0.;
-  while (newton.converged && options.harmonics == 0 && left_out > options.tolerance && !problem.interrupted())
-  {
-    const int next = next_harmonics(balance, n_u);
-    if (next == 0)
-      break;
-    const FourierSeries motion = balance.series(z);
-    balance.set_harmonics(next);
-    z      = balance.pack(motion);
-    newton = solve_balance(balance, options, z);
-    iterations += newton.iterations;
-    left_out = balance.left_out(z);
-  }
-  std::ostringstream note;
-  note.precision(2);
-  if (!newton.converged)
-  {
-    note << "harmonic balance: Newton's method with " << balance.harmonics() << " harmonics has come to a residual of "
-         << newton.residual << " of the motion after " << iterations << " iterations; begin nearer to the motion, or "
-         << "take settling";
-    throw ConvergenceFailure(note.str());
-  }
-  if (const double memory = balance.memory(z); memory > remembered)
-  {
-    note << "harmonic balance: an element remembers the periods before, by " << memory
-         << " of its force, which a law of the motion alone does not; take shooting";
-    throw std::invalid_argument(note.str());
-  }
-  PeriodicSolution solution = balanced_solution(own, balance, z, newton);
-  solution.work.iterations  = iterations;
-  note << balance.harmonics() << " harmonics of " << balance.samples() << " samples; forces of higher ones would add "
-       << left_out << " of the motion";
-  if (left_out > options.tolerance)
-    note << (options.harmonics > 0 ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
-  solution.notes.push_back(note.str());
-  solution.integration = options.integration;
-  find_multipliers(own, balance, z, solution);
-  return {solution};
+  BalanceSearch search(own, options);
+  search.begin(guess);
+  search.grow();
+  return {search.solution()};
 }
 
 } // namespace

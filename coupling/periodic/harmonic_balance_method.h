@@ -25,9 +25,10 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
                                   const HarmonicNewton &newton, const PeriodicOptions &options);
 
-/// "harmonic-balance": one solution near the guess, or near the linear response if that is at rest.  The number of
-/// harmonics grows until what is left out is below the tolerance; a note tells what remains.  Multipliers are those of
-/// Hill's matrix where floquet_way() chooses it, else of a period that is integrated.
+/// "harmonic-balance": one solution, from one harmonic through the guess, from the motion that is integrated from
+/// there, or from the linear response, as the first of them leads to one.  The number of harmonics grows until what is
+/// left out is below the tolerance; a note tells what remains.  Multipliers are those of Hill's matrix where
+/// floquet_way() chooses it, else of a period that is integrated.
 const PeriodicMethod &harmonic_balance_method();
 
 } // namespace gestell::coupling

@@ -63,7 +63,6 @@ HarmonicForces::HarmonicForces(const PeriodicProblem &problem, int harmonics, in
   forces_.setZero(n_u_, N / 2 + 1);
   slope_ = forces_;
   gather_entries();
-  problem_.system->events().follow_history(false);
 }
 
 HarmonicForces::~HarmonicForces()
@@ -105,6 +104,7 @@ void HarmonicForces::sample_motion(const MatrixXcd &u, double omega)
 void HarmonicForces::start_elements()
 {
   set_state(0);
+  problem_.system->events().follow_history(false); // an integration in between may have changed it
   problem_.system->events().start(state_);
   if (!problem_.system->forces().held().empty())
     throw std::invalid_argument("harmonic balance: an element sticks at the begin of the period, and what holds has no "
@@ -187,6 +187,20 @@ void HarmonicForces::evaluate(const MatrixXcd &u, double omega, With with)
     transform_.coefficients(slope_samples_.col(i).data(), coefficients_);
     slope_.row(i) = coefficients_.transpose();
   }
+}
+
+MatrixXcd HarmonicForces::sampling_errors() const
+{
+  const FourierTransform coarse(samples() / 2);
+  MatrixXcd              errors(n_u_, harmonics_ + 1);
+  VectorXcd              c;
+  for (int i = 0; i < n_u_; ++i)
+  {
+    const VectorXd every_other = p_(Eigen::seq(0, Eigen::last, 2), i);
+    coarse.coefficients(every_other.data(), c);
+    errors.row(i) = (forces_.row(i).head(harmonics_ + 1) - c.transpose().head(harmonics_ + 1)) / 3.;
+  }
+  return errors;
 }
 
 double HarmonicForces::memory(const MatrixXcd &u, double omega)

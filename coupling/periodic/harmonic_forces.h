@@ -51,8 +51,11 @@ public:
   /// @param u coefficients u_0 ... u_H [n_u x (H + 1)]
   void evaluate(const Eigen::MatrixXcd &u, double omega, With with);
 
-  int                            samples() const { return transform_.samples(); }
-  const Eigen::MatrixXcd        &forces() const { return forces_; } ///< p_0 ... p_{N/2} [n_u x (N/2 + 1)]
+  int                     samples() const { return transform_.samples(); }
+  const Eigen::MatrixXcd &forces() const { return forces_; } ///< p_0 ... p_{N/2} [n_u x (N/2 + 1)]
+  /// What kinks make of p_0 ... p_H at these samples, the error of a rule of second order: a third of the difference to
+  /// every other sample [n_u x (H + 1)].
+  Eigen::MatrixXcd               sampling_errors() const;
   const std::vector<Derivative> &derivatives() const { return derivatives_; }
   const Eigen::MatrixXcd        &slope() const { return slope_; } ///< dp/domega at fixed u_h [n_u x (N/2 + 1)]
 

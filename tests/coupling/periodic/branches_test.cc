@@ -1,0 +1,124 @@
+// Harmonic balance of laws with branches, and of those that remember.
+
+#include "coupling/periodic/harmonic_balance_method.h"
+#include "tests/support/periodic_cases.h"
+#include "tests/support/reference_table.h"
+#include "tests/support/refusal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// x'' + 2 zeta x' + g(x) = F0 + F cos(Omega t), g a dead zone of half width 1 with unit slope: the base has no
+/// stiffness at all.
+struct Clearance
+{
+  double zeta, F0, F, Omega;
+};
+const std::map<std::string, Clearance> clearances = {{"clearance1", {0.05, 0.3, 1., 0.7}},
+                                                     {"clearance2", {0.05, 0.3, 0.5, 1.8}},
+                                                     {"clearance3", {0.05, 0.1, 2., 1.8}},
+                                                     {"clearance4", {0.1, 0.3, 1., 1.8}}};
+
+double beyond(double x)
+{
+  return std::abs(x) > 1. ? x - (x > 0. ? 1. : -1.) : 0.;
+}
+
+SmallSystem clearance_system(const Clearance &given)
+{
+  const MatrixXd one = MatrixXd::Identity(1, 1);
+  SmallSystem    system(one, 2. * given.zeta * one, 0. * one);
+  system.set_law(VectorXd::Ones(1),
+                 law_of([](double u) { return -beyond(u); }, [](double u) { return std::abs(u) > 1. ? -1. : 0.; }));
+  system.loads().add_constant(0, given.F0);
+  system.loads().add_harmonic(0, given.Omega, given.F, 0.);
+  return system;
+}
+
+/// p = -(u - u_max/2): what it has reached it keeps.
+class Ratchet final : public SmallSystem
+{
+public:
+  Ratchet() : SmallSystem(MatrixXd::Identity(1, 1), 0.1 * MatrixXd::Identity(1, 1), MatrixXd::Identity(1, 1))
+  {
+    set_law(VectorXd::Ones(1), [this](double u, double, double &p, double &dp_du, double &dp_dv)
+            { p = -(u - 0.5 * reached), dp_du = -1., dp_dv = 0.; });
+    loads().add_harmonic(0, 0.8, 1., 0.);
+  }
+  Vector save_history() const override { return Vector::Constant(1, reached); }
+  void   restore_history(const Vector &saved) override { reached = saved[0]; }
+  void   start(const LocalState &state) override { reached = std::max(0., state.u[0]); }
+  void   accept(const LocalState &state) override { reached = std::max(reached, state.u[0]); }
+
+  double reached = 0.;
+};
+
+class Sticking final : public SmallSystem
+{
+public:
+  using SmallSystem::SmallSystem;
+  const std::vector<HeldMeasure> &held() const override { return held_; }
+
+private:
+  std::vector<HeldMeasure> held_ = {{0, 0.}};
+};
+
+} // namespace
+
+/// Every motion of the table, subharmonic ones too, as near as the note says; the mean that nothing of the base holds
+/// is an unknown.
+TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsItTells)
+{
+  int rows = 0;
+  for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
+  {
+    const Clearance &given   = clearances.at(row["case"]);
+    SmallSystem      system  = clearance_system(given);
+    const int        ratio   = int(row.number("period_in_forcing_periods"));
+    PeriodicProblem  problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
+    problem.ratio            = ratio;
+    const VectorXd q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
+    const auto     found = harmonic_balance_method().solve(problem, {q, v, 0.}, {});
+    ASSERT_EQ(found.size(), 1u);
+    HarmonicBalance balance(problem, found[0].series->harmonics());
+    const VectorXd  z    = balance.pack(*found[0].series);
+    const double    told = balance.left_out(z) * balance.scales(z)[0];
+    // the motion answers to what is left out of its forces with 1/(1 - mu) at most, mu up to 0.85 here
+    EXPECT_LT(std::abs(found[0].q[0] - q[0]), 10. * told + 1e-10) << row["case"] << row["solution"];
+    EXPECT_LT(std::abs(found[0].q[0] - q[0]), 1e-6) << row["case"] << row["solution"];
+    EXPECT_THAT(found[0].notes.at(0), testing::HasSubstr(told > 1e-9 ? "as kinks of a law do" : "of the motion"));
+    ++rows;
+  }
+  EXPECT_EQ(rows, 6);
+}
+
+TEST(HarmonicBalance, RefusesLawsThatRemember)
+{
+  Ratchet         system;
+  PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 0.8);
+  system.reached          = 0.25;
+  expect_refusal([&] { harmonic_balance_method().solve(problem, {}, {}); }, "remembers");
+  EXPECT_EQ(system.reached, 0.25) << "what the system remembers is given back";
+}
+
+TEST(HarmonicBalance, RefusesWhatSticks)
+{
+  Sticking system(MatrixXd::Identity(1, 1), MatrixXd::Identity(1, 1), MatrixXd::Identity(1, 1));
+  system.set_law(VectorXd::Ones(1), law_of([](double) { return 0.; }, [](double) { return 0.; }));
+  system.loads().add_harmonic(0, 1.5, 1., 0.);
+  expect_refusal([&] { harmonic_balance_method().solve(problem_of_period(system, 2. * M_PI / 1.5), {}, {}); },
+                 "sticks");
+}
+
+} // namespace gestell::tests
