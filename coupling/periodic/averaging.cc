@@ -197,6 +197,25 @@ double SlowFlow::root(double below, double above)
   return 0.5 * (below + above);
 }
 
+/// Two roots between points of the grid: where |balance| dips, its extremum has the other sign.
+void SlowFlow::add_roots_of_dip(double from, double to, double side, std::vector<double> &found)
+{
+  double below = from, above = to;
+  for (int k = 0; k < 60 && above - below > 1e-12 * above; ++k)
+  {
+    const double one = below + (above - below) / 3., two = above - (above - below) / 3.;
+    if (side * balance(one) < side * balance(two))
+      above = two;
+    else
+      below = one;
+  }
+  const double extremum = 0.5 * (below + above);
+  if (side * balance(extremum) >= 0.)
+    return;
+  found.push_back(root(from, extremum));
+  found.push_back(root(extremum, to));
+}
+
 std::vector<double> SlowFlow::amplitudes(double from, double to)
 {
   if (!(to > from))
@@ -219,26 +238,10 @@ std::vector<double> SlowFlow::amplitudes(double from, double to)
   {
     if ((value[i - 1] > 0.) != (value[i] > 0.))
       found.push_back(root(a[i - 1], a[i]));
-    if (i + 1 == grid_points || (value[i - 1] > 0.) != (value[i] > 0.) || (value[i] > 0.) != (value[i + 1] > 0.))
-      continue;
-    // two roots between points of the grid: where |value| dips, its extremum has the other sign
-    if (std::abs(value[i]) < std::abs(value[i - 1]) && std::abs(value[i]) <= std::abs(value[i + 1]))
-    {
-      const double side  = value[i] > 0. ? 1. : -1.;
-      double       below = a[i - 1], above = a[i + 1];
-      for (int k = 0; k < 60 && above - below > 1e-12 * above; ++k)
-      {
-        const double one = below + (above - below) / 3., two = above - (above - below) / 3.;
-        (side * balance(one) < side * balance(two) ? above : below) =
-            side * balance(one) < side * balance(two) ? two : one;
-      }
-      const double extremum = 0.5 * (below + above);
-      if (side * balance(extremum) < 0.)
-      {
-        found.push_back(root(a[i - 1], extremum));
-        found.push_back(root(extremum, a[i + 1]));
-      }
-    }
+    const double side  = value[i] > 0. ? 1. : -1.;
+    const bool   alike = i + 1 < grid_points && side * value[i - 1] > 0. && side * value[i + 1] > 0.;
+    if (alike && side * value[i] < side * value[i - 1] && side * value[i] <= side * value[i + 1])
+      add_roots_of_dip(a[i - 1], a[i + 1], side, found);
   }
   return found;
 }

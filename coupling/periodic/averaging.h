@@ -64,6 +64,7 @@ private:
   void   settle_mean(double a);
   double balance(double a);
   double root(double below, double above);
+  void   add_roots_of_dip(double from, double to, double side, std::vector<double> &found);
 
   const PeriodicProblem &problem_;
   Eigen::MatrixXd        M_, B_, C_, W_, linear_C_, linear_B_, flexibility_;

@@ -40,6 +40,29 @@ TEST(Averaging, HasEveryAmplitudeOfTheDuffingTable)
   EXPECT_EQ(rows, 10);
 }
 
+/// Just inside a fold two amplitudes are nearer to each other than points of the search: (F/2)^2 a little below the
+/// largest [(alpha y - d)^2 + zeta^2] y over y = A^2, alpha = 3 beta/8, d = Omega - 1.
+TEST(Averaging, FindsAmplitudesThatAreAboutToMeet)
+{
+  const double beta = 0.5, zeta = 0.05, d = 0.4, alpha = 3. * beta / 8.;
+  const double y = (4. * d - std::sqrt(4. * d * d - 12. * zeta * zeta)) / (6. * alpha);
+  const double R = (std::pow(alpha * y - d, 2) + zeta * zeta) * y;
+
+  for (const double share : {-1e-7, 1e-7})
+  {
+    CubicSystem           system  = duffing_system({zeta, beta, 2. * std::sqrt(R * (1. + share)), 1. + d});
+    const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / (1. + d));
+    SlowFlow              flow(problem);
+    const auto            found = flow.amplitudes();
+    ASSERT_EQ(found.size(), share < 0. ? 3u : 1u);
+    if (share < 0.)
+    {
+      EXPECT_LT(found[1] - found[0], 2e-3 * found[0]);
+      EXPECT_NEAR(0.5 * (found[0] + found[1]), std::sqrt(y), 1e-6);
+    }
+  }
+}
+
 TEST(Averaging, HasTheBackboneOfDuffing)
 {
   CubicSystem           system  = duffing_system(duffing_cases.at("duffing1"));
