@@ -3,6 +3,7 @@
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/trace_orbit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "apps/scene/scene.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/prepared_machine.h"
-#include "coupling/periodic/branch_equations.h"
+#include "coupling/periodic/followed_equations.h"
 
 #include <memory>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting.h"
+#include "coupling/periodic/trace_orbit.h"
 
 #include <unsupported/Eigen/LevenbergMarquardt>
 

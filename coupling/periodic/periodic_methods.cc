@@ -4,7 +4,7 @@
 #include "coupling/periodic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting.h"
+#include "coupling/periodic/shooting_method.h"
 
 #include <stdexcept>
 

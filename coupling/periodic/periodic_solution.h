@@ -78,9 +78,4 @@ struct OrbitPoint
   const LocalState      &local; ///< the same in the measures, with the forces
 };
 
-/// Passes through one period of a solution: calls `look` at `samples` + 1 instants, equally spaced, both ends included.
-/// @throws ConvergenceFailure where a motion that is integrated cannot be
-void trace(const PeriodicProblem &problem, const PeriodicSolution &solution, int samples,
-           const std::function<void(const OrbitPoint &)> &look);
-
 } // namespace gestell::coupling

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/periodic/period_flow.h"
-#include "coupling/periodic/periodic_method.h"
 
 namespace gestell::coupling
 {
@@ -55,8 +54,5 @@ private:
  */
 PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, Eigen::VectorXd z,
                        const PeriodicOptions &options);
-
-/// Newton on the motion over one period (5.5.4/1), after some periods of lead-in.
-const PeriodicMethod &shooting_method();
 
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
-#include "coupling/periodic/branch_equations.h"
+#include "coupling/periodic/followed_equations.h"
 
 #include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/shooting.h"
 
 namespace gestell::coupling
 {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "coupling/periodic/branch_equations.h"
+
+#include <functional>
+#include <memory>
+
+namespace gestell::coupling
+{
+
+/// A problem at one value of a parameter, with what it lives on.
+struct FamilyMember
+{
+  PeriodicProblem       problem;
+  std::shared_ptr<void> owner; ///< of the system
+};
+
+/// The problem at each value of a parameter.  @throws std::invalid_argument where there is none
+using ProblemFamily = std::function<FamilyMember(double)>;
+
+/// Shooting over `ratio` times the period of the family.
+std::unique_ptr<BranchEquations> shooting_branch(const ProblemFamily &family, const PeriodicOptions &options,
+                                                 double omega, int ratio = 1);
+/// Harmonic balance with options.harmonics, which must be given.
+std::unique_ptr<BranchEquations> balance_branch(const ProblemFamily &family, const PeriodicOptions &options);
+
+} // namespace gestell::coupling
