@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 namespace gestell::apps
@@ -13,8 +14,9 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int    usual_points = 100, rows_of_branches = 128, most_doublings = 2;
-constexpr double same = 1e-5; ///< distance of two motions, of their size
+constexpr int    usual_points = 100, rows_of_branches = 128;
+constexpr int    generations = 2;    ///< of branches that leave branches
+constexpr double same        = 1e-5; ///< distance of two motions, of their size
 
 using coupling::PeriodicSolution;
 
@@ -27,6 +29,21 @@ std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &fami
     return coupling::balance_branch(family.problems(), options);
   }
   return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);
+}
+
+/// The branch that leaves at a special motion, of `repeats` periods; at a doubling after twice as many.
+coupling::Branch new_branch(const SceneFamily &family, coupling::SpecialMotion special,
+                            const coupling::PeriodicOptions &options, const coupling::ContinuationOptions &along,
+                            int repeats, const coupling::BranchProgress &progress)
+{
+  if (special.kind == "period doubling")
+  {
+    special.solution.period *= 2.;
+    special.solution.turn *= 2.;
+  }
+  const double omega     = 2. * M_PI / special.solution.period;
+  const auto   equations = coupling::shooting_branch(family.problems(), options, omega, repeats);
+  return follow_new_branch(*equations, special, along, progress);
 }
 
 /// Whether a solution lies on a branch that was followed already.
@@ -101,26 +118,47 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
   const auto  on_point = [&](const coupling::BranchPoint &point)
   {
     progress((point.parameter - along.from) / (along.to - along.from));
-    return !family.problems()(point.parameter).problem.interrupted();
+    return true;
+  };
+  const auto keep = [&](const coupling::Branch &branch)
+  {
+    if (branch.points.empty())
+      return;
+    table.add(branch);
+    if (!branch.ended.empty())
+      result.notes.push_back("branch " + std::to_string(result.entries.back().branch) + ": " + branch.ended);
+    if (branch.failed)
+      result.failure = result.notes.back();
+  };
+  // What leaves a branch, and what leaves that one.
+  const std::function<void(const coupling::Branch &, int, int)> shed =
+      [&](const coupling::Branch &branch, int repeats, int generation)
+  {
+    for (const coupling::SpecialMotion &special : branch.special)
+      if (special.kind == "period doubling" || special.kind == "branch")
+      {
+        const int  times = special.kind == "branch" ? repeats : 2 * repeats;
+        const auto other = new_branch(family, special, options, along, times, on_point);
+        keep(other);
+        if (generation < generations)
+          shed(other, times, generation + 1);
+      }
   };
   for (const PeriodicSolution &first : solutions)
-  {
-    if (known(result, first, along.from, std::abs(along.to - along.from)))
-      continue;
-    try
-    {
-      const int              doubling  = first.series ? 1 : std::max(1, first.ratio / std::max(1, request.ratio));
-      const auto             equations = equations_for(family, first, options, doubling);
-      const coupling::Branch branch    = follow_branch(*equations, first, along, on_point);
-      table.add(branch);
-      if (!branch.ended.empty())
-        result.notes.push_back("branch " + std::to_string(result.entries.back().branch) + ": " + branch.ended);
-    }
-    catch (const std::runtime_error &none)
-    {
-      result.failure = none.what();
-    }
-  }
+    if (!known(result, first, along.from, std::abs(along.to - along.from)))
+      try
+      {
+        const int  repeats   = std::max(1, first.ratio / std::max(1, request.ratio));
+        const auto equations = equations_for(family, first, options, first.series ? 1 : repeats);
+        const auto branch    = follow_branch(*equations, first, along, on_point);
+        keep(branch);
+        if (!first.series)
+          shed(branch, repeats, 1);
+      }
+      catch (const std::runtime_error &none)
+      {
+        result.failure = none.what();
+      }
 }
 
 } // namespace gestell::apps

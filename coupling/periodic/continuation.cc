@@ -1,5 +1,7 @@
 #include "coupling/periodic/continuation.h"
 
+#include "coupling/integration/system/dense_solvers.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -250,45 +252,143 @@ bool locate(Follower &follower, const Point &a, double ds, const Test &test, dou
   return true;
 }
 
-void note_special(Follower &follower, const Point &a, const Point &b, double ds, const ContinuationOptions &options,
-                  Branch &branch)
+/// A branch under way.
+class Tracker
 {
-  const double range = std::abs(options.to - options.from);
-  const auto   look  = [&](const std::string &kind, const Test &test)
+public:
+  Tracker(Follower &follower, const ContinuationOptions &options, const BranchProgress &progress, bool new_branch)
+      : follower_(follower), options_(options), progress_(progress), new_branch_(new_branch),
+        range_(options.to - options.from)
   {
-    const double t_a = test(a), t_b = test(b);
-    if (!((t_a < 0.) != (t_b < 0.)))
-      return false;
-    Point found;
-    if (locate(follower, a, ds, test, t_a, t_b, options.located * range, found))
-      branch.special.push_back({kind, found.lambda, found.solution});
-    return true;
-  };
-  const bool fold = look("fold", slope_of);
-  if (!fold)
-    look("branch", [](const Point &p) { return p.regular; });
+  }
+
+  /// From a point on, which is told if it is one of the branch; failures end it and are told.
+  Branch follow(Point here);
+
+private:
+  bool next_point(const Point &here, Point &next);
+  void end_at(const Point &here, const Point &beyond);
+  bool add(const Point &point)
+  {
+    branch_.points.push_back({point.lambda, point.solution});
+    return !progress_ || progress_(branch_.points.back());
+  }
+  bool look(const std::string &kind, const Point &a, const Point &b, double ds, const Test &test);
+  void note_special(const Point &a, const Point &b, double ds);
+
+  Follower                  &follower_;
+  const ContinuationOptions &options_;
+  const BranchProgress      &progress_;
+  bool                       new_branch_;
+  double                     range_, wanted_ = 1. / options_.points, ds_ = wanted_;
+  Branch                     branch_;
+};
+
+bool Tracker::look(const std::string &kind, const Point &a, const Point &b, double ds, const Test &test)
+{
+  const double t_a = test(a), t_b = test(b);
+  if (!((t_a < 0.) != (t_b < 0.)))
+    return false;
+  Point found;
+  if (locate(follower_, a, ds, test, t_a, t_b, options_.located * std::abs(range_), found))
+    branch_.special.push_back({kind, found.lambda, found.solution});
+  return true;
+}
+
+void Tracker::note_special(const Point &a, const Point &b, double ds)
+{
+  const bool fold = look("fold", a, b, ds, slope_of);
+  if (!fold && look("branch", a, b, ds, [](const Point &p) { return p.regular; }) && new_branch_)
+    branch_.ended = "it meets the branch that it left";
   if (a.solution.multipliers.size() == b.solution.multipliers.size() && a.solution.stability_is_known())
   {
-    look("period doubling", [](const Point &p) { return product(p.solution, -1.); });
+    look("period doubling", a, b, ds, [](const Point &p) { return product(p.solution, -1.); });
     if (largest_pair(a.solution) > -1. && largest_pair(b.solution) > -1.)
-      look("Neimark-Sacker", [](const Point &p) { return largest_pair(p.solution); });
+      look("Neimark-Sacker", a, b, ds, [](const Point &p) { return largest_pair(p.solution); });
   }
   if (const auto before = signature(a.solution); before != signature(b.solution))
-    look("grazing", [&](const Point &p) { return signature(p.solution) == before ? -1. : 1.; });
+    look("grazing", a, b, ds, [&](const Point &p) { return signature(p.solution) == before ? -1. : 1.; });
+}
+
+/// The next point; false: there is none however short the step.
+bool Tracker::next_point(const Point &here, Point &next)
+{
+  for (; ds_ >= least_part * wanted_; ds_ *= 0.5)
+    try
+    {
+      // Where an event begins, the branch has a corner: then its tangents differ however short the step.
+      if (follower_.beyond(here, ds_, next) && (next.tangent.dot(here.tangent) > straight || ds_ < corner * wanted_))
+        return true;
+    }
+    catch (const ConvergenceFailure &)
+    {
+    }
+  return false;
+}
+
+/// The point at the end of the parameter that lies before the one beyond.
+void Tracker::end_at(const Point &here, const Point &beyond)
+{
+  const bool   back = (beyond.lambda - options_.from) / range_ < 0.;
+  const double end  = back ? options_.from : options_.to;
+  const double part = (end - here.lambda) / (beyond.lambda - here.lambda);
+  Point        last;
+  if (follower_.at_parameter(here.z + part * (beyond.z - here.z), end, here.tangent, last))
+  {
+    note_special(here, last, part * ds_);
+    add(last);
+  }
+  if (back)
+    branch_.ended = "it came back to the first value of the parameter";
+}
+
+Branch Tracker::follow(Point here)
+{
+  bool goes_on = new_branch_ || add(here);
+  try
+  {
+    while (goes_on && branch_.ended.empty() && int(branch_.points.size()) < options_.most)
+    {
+      Point next;
+      if (!next_point(here, next))
+        throw NoPeriodicMotion("no next motion was found beyond " + std::to_string(here.lambda));
+      const double share = (next.lambda - options_.from) / range_;
+      if (share > 1. || share < 0.)
+      {
+        end_at(here, next);
+        return branch_;
+      }
+      if (!new_branch_ || !branch_.points.empty())
+        note_special(here, next, ds_);
+      here = next;
+      follower_.grow_size(here);
+      goes_on = add(here);
+      if (next.iterations <= few_iterations)
+        ds_ = std::min(1.3 * ds_, widest * wanted_);
+    }
+    if (branch_.ended.empty())
+      branch_.ended = goes_on ? "it has " + std::to_string(options_.most) + " points" : "interrupted";
+  }
+  catch (const std::exception &failure)
+  {
+    branch_.ended  = failure.what();
+    branch_.failed = true;
+  }
+  return branch_;
+}
+
+/// The motion that dF/dz leaves free [m].
+VectorXd null_vector(const MatrixXd &J)
+{
+  return SymmetricEigenSolver(J.transpose() * J).eigenvectors().col(0);
 }
 
 } // namespace
 
 Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
-                     const std::function<bool(const BranchPoint &)> &progress)
+                     const BranchProgress &progress)
 {
-  Follower   follower(equations, options);
-  Branch     branch;
-  const auto add = [&](const Point &point)
-  {
-    branch.points.push_back({point.lambda, point.solution});
-    return !progress || progress(branch.points.back());
-  };
+  Follower       follower(equations, options);
   const VectorXd z = equations.unknowns(first, options.from);
   Point          here;
   here.z       = z;
@@ -299,55 +399,22 @@ Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, 
   if (!follower.at_parameter(z, options.from, ahead, here))
     throw NoPeriodicMotion("the branch does not begin: Newton's method does not close the motion at the first value of "
                            "the parameter");
-  bool         goes_on = add(here);
-  const double wanted  = 1. / options.points;
-  double       ds      = wanted;
-  while (goes_on && int(branch.points.size()) < options.most)
-  {
-    Point next;
-    bool  found = false;
-    try
-    {
-      // Where an event begins, the branch has a corner: then its tangents differ however short the step.
-      found = follower.beyond(here, ds, next) && (next.tangent.dot(here.tangent) > straight || ds < corner * wanted);
-    }
-    catch (const ConvergenceFailure &)
-    {
-    }
-    if (!found)
-    {
-      ds *= 0.5;
-      if (ds < least_part * wanted)
-      {
-        branch.ended = "no next motion was found beyond " + std::to_string(here.lambda);
-        return branch;
-      }
-      continue;
-    }
-    const double share = (next.lambda - options.from) / (options.to - options.from);
-    if (share > 1. || share < 0.)
-    {
-      Point        last;
-      const double end  = share > 1. ? options.to : options.from;
-      const double part = (end - here.lambda) / (next.lambda - here.lambda);
-      if (follower.at_parameter(here.z + part * (next.z - here.z), end, here.tangent, last))
-      {
-        note_special(follower, here, last, part * ds, options, branch);
-        add(last);
-      }
-      if (share < 0.)
-        branch.ended = "it came back to the first value of the parameter";
-      return branch;
-    }
-    note_special(follower, here, next, ds, options, branch);
-    here = next;
-    follower.grow_size(here);
-    goes_on = add(here);
-    if (next.iterations <= few_iterations)
-      ds = std::min(1.3 * ds, widest * wanted);
-  }
-  branch.ended = goes_on ? "it has " + std::to_string(options.most) + " points" : "interrupted";
-  return branch;
+  return Tracker(follower, options, progress, false).follow(here);
+}
+
+Branch follow_new_branch(BranchEquations &equations, const SpecialMotion &from, const ContinuationOptions &options,
+                         const BranchProgress &progress)
+{
+  Follower follower(equations, options);
+  Point    here;
+  here.z        = equations.unknowns(from.solution, from.parameter);
+  here.lambda   = from.parameter;
+  here.solution = from.solution;
+  here.tangent  = VectorXd::Zero(here.z.size() + 1);
+  follower.grow_size(here);
+  equations.evaluate(here.z, here.lambda, true);
+  here.tangent.head(here.z.size()) = null_vector(equations.jacobian());
+  return Tracker(follower, options, progress, true).follow(here);
 }
 
 } // namespace gestell::coupling

@@ -38,7 +38,11 @@ struct Branch
   std::vector<BranchPoint>   points;
   std::vector<SpecialMotion> special;
   std::string                ended; ///< why, in words; empty: at the other end of the parameter
+  bool                       failed = false;
 };
+
+/// Told of each point; false: that was enough.
+using BranchProgress = std::function<bool(const BranchPoint &)>;
 
 /**
  * Follows a branch of periodic motions by its arclength (Keller 1977): F(z, lambda) = 0 with
@@ -56,11 +60,15 @@ struct Branch
  *     grazing          another number or kind of events, by bisection
  *
  * @param first     a solution at options.from
- * @param progress  called with the parameter of each point
  * @throws NoPeriodicMotion, ConvergenceFailure if not even the first point is found; later failures end the branch and
  * are told in `ended`
  */
 Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
-                     const std::function<bool(const BranchPoint &)> &progress = {});
+                     const BranchProgress &progress = {});
+
+/// The branch that leaves at a special motion, along what dF/dz leaves free there: at a period doubling with the
+/// equations and the solution of the double period.  It ends where it meets the first one again.
+Branch follow_new_branch(BranchEquations &equations, const SpecialMotion &from, const ContinuationOptions &options,
+                         const BranchProgress &progress = {});
 
 } // namespace gestell::coupling

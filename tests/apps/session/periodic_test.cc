@@ -245,7 +245,9 @@ TEST(PeriodicScene, ARunThatStartsOnTheOrbitRepeatsAtOnce)
   const std::size_t width = history.columns.size(), last = history.rows.size() - width;
   for (std::size_t j = 1; j + 3 < width; ++j)
     if (history.columns[j] == "x3" || history.columns[j] == "x1")
+    {
       EXPECT_NEAR(history.rows[last + j], history.rows[j], 1e-6 * std::abs(history.rows[j])) << history.columns[j];
+    }
 }
 
 TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)

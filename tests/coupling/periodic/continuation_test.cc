@@ -1,0 +1,129 @@
+// Branches of x'' + 0.2 x' + x^3 = B cos t: what must hold where they turn, double and begin.
+
+#include "coupling/periodic/continuation.h"
+#include "coupling/periodic/followed_equations.h"
+#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/trace_orbit.h"
+#include "tests/support/small_system.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace
+{
+
+using namespace gestell::coupling;
+using namespace gestell::tests;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+FamilyMember cubic_oscillator(double B)
+{
+  const MatrixXd one    = MatrixXd::Identity(1, 1);
+  auto           system = std::make_shared<SmallSystem>(one, 0.2 * one, 0. * one);
+  system->set_law(VectorXd::Ones(1),
+                  [](double u, double, double &p, double &dp_du, double &dp_dv)
+                  {
+                    p     = -u * u * u;
+                    dp_du = -3. * u * u;
+                    dp_dv = 0.;
+                  });
+  system->loads().add_harmonic(0, 1., B, 0.);
+  PeriodicProblem problem;
+  problem.system = system.get();
+  problem.period = 2. * M_PI;
+  problem.turn   = VectorXd::Zero(1);
+  return {problem, system};
+}
+
+/// From a motion to which the oscillator settles from `x` at rest.
+Branch branch_from(double x, double from, double to, ContinuationOptions &options)
+{
+  const FamilyMember first = cubic_oscillator(from);
+  PeriodicOptions    settled;
+  settled.lead_in = 200;
+  const auto solution =
+      shooting_method().solve(first.problem, {VectorXd::Constant(1, x), VectorXd::Zero(1), 0.}, settled);
+  options.from         = from;
+  options.to           = to;
+  const auto equations = shooting_branch(cubic_oscillator, {}, 1.);
+  return follow_branch(*equations, solution.at(0), options);
+}
+
+const SpecialMotion *found(const Branch &branch, const std::string &kind)
+{
+  const auto special = std::find_if(branch.special.begin(), branch.special.end(),
+                                    [&](const SpecialMotion &motion) { return motion.kind == kind; });
+  return special == branch.special.end() ? nullptr : &*special;
+}
+
+double nearest_multiplier(const PeriodicSolution &solution, double mu)
+{
+  return (solution.multipliers.array() - mu).abs().minCoeff();
+}
+
+} // namespace
+
+/// At a doubling a multiplier is -1; the motion that leaves there repeats after two periods and not after one.
+TEST(Branch, DoublesWhereAMultiplierIsMinusOne)
+{
+  ContinuationOptions options;
+  options.points               = 20;
+  const Branch         branch  = branch_from(1.5, 5.1, 5.6, options);
+  const SpecialMotion *special = found(branch, "period doubling");
+  ASSERT_NE(special, nullptr) << branch.ended;
+  // d mu / dB is of order one, the place is known to 1e-9 of the range.
+  EXPECT_LT(nearest_multiplier(special->solution, -1.), 1e-6);
+
+  SpecialMotion doubled = *special;
+  doubled.solution.period *= 2.;
+  const auto   equations = shooting_branch(cubic_oscillator, {}, 0.5, 2);
+  const Branch other     = follow_new_branch(*equations, doubled, options);
+  ASSERT_GT(other.points.size(), 3u) << other.ended;
+  const BranchPoint &point = other.points[3];
+  EXPECT_EQ(point.solution.ratio, 2);
+  FamilyMember member = cubic_oscillator(point.parameter);
+  member.problem.period *= 2.;
+  std::vector<double> x;
+  trace(member.problem, point.solution, 2, [&](const OrbitPoint &at) { x.push_back(at.q[0]); });
+  EXPECT_NEAR(x[2], x[0], 1e-6);
+  EXPECT_GT(std::abs(x[1] - x[0]), 1e-3);
+}
+
+/// Where a symmetric motion becomes lopsided, a multiplier is 1, and the symmetric branch does not turn.
+TEST(Branch, LeavesWhereTheSymmetricMotionBecomesUnstable)
+{
+  ContinuationOptions options;
+  options.points               = 20;
+  const Branch         branch  = branch_from(0.1, 2.2, 2.8, options);
+  const SpecialMotion *special = found(branch, "branch");
+  ASSERT_NE(special, nullptr) << branch.ended;
+  EXPECT_LT(nearest_multiplier(special->solution, 1.), 1e-6);
+  EXPECT_TRUE(branch.points.front().solution.stable());
+  EXPECT_FALSE(branch.points.back().solution.stable());
+}
+
+TEST(Branch, KeepsWhatItHasWhenItIsInterrupted)
+{
+  const std::atomic<bool> stop    = true;
+  int                     members = 0;
+  const auto              family  = [&](double B)
+  {
+    FamilyMember member = cubic_oscillator(B);
+    if (++members > 40)
+      member.problem.stop = &stop;
+    return member;
+  };
+  const FamilyMember  first    = cubic_oscillator(1.);
+  const auto          solution = shooting_method().solve(first.problem, {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, {});
+  const auto          equations = shooting_branch(family, {}, 1.);
+  ContinuationOptions options;
+  options.from        = 1.;
+  options.to          = 2.;
+  const Branch branch = follow_branch(*equations, solution.at(0), options);
+  EXPECT_GT(branch.points.size(), 2u);
+  EXPECT_TRUE(branch.failed);
+  EXPECT_EQ(branch.ended, "interrupted");
+}
