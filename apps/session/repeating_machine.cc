@@ -22,15 +22,13 @@ constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elasti
 constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
 constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
-/// Angles [rad] that may turn by any amount.
+/// Angles [rad] of rotors; other bodies may turn too, or swing, which nobody can know.
 std::vector<int> turning_coordinates(const coupling::Machine &machine)
 {
   std::vector<int> angles;
   for (const coupling::Body &body : machine.model().bodies())
     if (body.kind == BodyKind::rotor)
       angles.push_back(body.coordinate);
-    else if (body.kind == BodyKind::planar)
-      angles.push_back(body.coordinate + 2);
   return angles;
 }
 

@@ -1,7 +1,9 @@
 #include "apps/session/scene_family.h"
 
+#include "apps/scene/file/scene_file.h"
 #include "apps/session/repeating_machine.h"
 #include "coupling/frame/frame_recipe.h"
+#include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
 #include <cstdlib>
@@ -37,6 +39,23 @@ std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame
 }
 
 } // namespace
+
+void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key)
+{
+  const std::string table = "parameters.";
+  if (key.compare(0, table.size(), table) != 0)
+    return;
+  const std::string name = key.substr(table.size());
+  const SceneNode   root = read_scene_file(path, overrides);
+  const SceneNode  *all  = root.find("parameters");
+  if (all && all->find(name))
+    return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; all && i < all->entries.size(); ++i)
+    names.push_back(all->entries[i].first);
+  throw std::invalid_argument("--along " + key + ": " + path + " has no parameter '" + name + "'" +
+                              suggestion(name, names));
+}
 
 SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
                          PreparedMachine &machine, const PeriodicRequest &request,

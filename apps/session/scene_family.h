@@ -20,6 +20,9 @@ struct MachineMember
   coupling::PeriodicProblem        problem;
 };
 
+/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads.
+void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key);
+
 /// A scene over the values of one entry, on the frame that was reduced once.
 class SceneFamily
 {

@@ -231,6 +231,7 @@ Result Session::periodic(const PeriodicRequest &request)
 {
   if (request.along.empty())
     return periodic_here(request);
+  require_parameter(path_, overrides_, request.along);
   // Branches begin where the parameter does.
   std::vector<std::string> overrides = overrides_;
   overrides.push_back(request.along + '=' + request.from);

@@ -280,6 +280,9 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   along.to    = "2 s";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("one unit"));
+  along.along = "parameters.y";
+  EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
+              testing::HasSubstr("no parameter 'y'"));
 }
 
 } // namespace gestell::tests
