@@ -123,7 +123,8 @@ Command periodic_command()
        CommandOption{"--damping", &own->damping,
                      "of settling: share of critical by which the lowest mode is damped more at first"}
            .above_zero(),
-       CommandOption{"--check", &own->check, "a second method; the distance is told"}},
+       CommandOption{"--check", &own->check,
+                     "compute each motion by a second method too, and report how far the two differ"}},
       [own](const CommonOptions &options) { return find_periodic(options, *own); }};
 }
 

@@ -22,7 +22,7 @@ constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elasti
 constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
 constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
-/// Angles [rad] of rotors; other bodies may turn too, or swing, which nobody can know.
+/// Angles [rad] of rotors.  Planar bodies may turn round or swing, which the model does not say: they are left out.
 std::vector<int> turning_coordinates(const coupling::Machine &machine)
 {
   std::vector<int> angles;
@@ -76,7 +76,7 @@ double common_period(const std::vector<double> &omega, const Scene &scene)
   throw std::invalid_argument(text.str());
 }
 
-/// Names of the elements whose force at rest in the state tells of the time.
+/// Names of the elements whose force depends explicitly on the time, measures and rates kept as in the state.
 std::vector<std::string> told_by_time(const coupling::Machine &machine, const coupling::InitialState &start,
                                       double span, double period)
 {

@@ -21,7 +21,7 @@ constexpr int    rest_iterations = 100, mean_iterations = 500;
 constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
 constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
 constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
-constexpr double least_damping = 1e-4; ///< critical share that resonance is told with at least
+constexpr double least_damping = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
 constexpr int    grid_points   = 1500;
 
 [[noreturn]] void refuse_averaging(const std::string &reason)

@@ -262,7 +262,8 @@ public:
   {
   }
 
-  /// From a point on, which is told if it is one of the branch; failures end it and are told.
+  /// The branch from a point on, which is its first one unless the branch is new.  A failure ends it, with the reason
+  /// in `ended`.
   Branch follow(Point here);
 
 private:

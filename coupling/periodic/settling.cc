@@ -46,16 +46,13 @@ Settled settle(const PeriodicProblem &problem, const PeriodicGuess &from, const 
 {
   PeriodFlow flow(problem, options.integration);
   Settled    settled;
-  settled.at   = from;
-  double first = 1.;
+  settled.at = from;
   while (settled.periods < most && settled.error > tolerance && !problem.interrupted())
   {
     const double before = settled.error;
     settled.error       = one_period(flow, problem, settled.at);
     settled.work.add({0, 1, flow.passage().work});
     ++settled.periods;
-    if (settled.error < near_enough && first == 1.)
-      first = settled.error;
     settled.contraction = settled.error / before;
   }
   return settled;
