@@ -1,6 +1,7 @@
 #include "coupling/periodic/periodic_methods.h"
 
 #include "coupling/periodic/averaging.h"
+#include "coupling/periodic/collocation.h"
 #include "coupling/periodic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"
@@ -13,8 +14,9 @@ namespace gestell::coupling
 
 const std::vector<const PeriodicMethod *> &periodic_methods()
 {
-  static const std::vector<const PeriodicMethod *> all = {
-      &shooting_method(), &harmonic_balance_method(), &minimising_method(), &settling_method(), &averaging_method()};
+  static const std::vector<const PeriodicMethod *> all = {&shooting_method(),    &harmonic_balance_method(),
+                                                          &minimising_method(),  &settling_method(),
+                                                          &collocation_method(), &averaging_method()};
   return all;
 }
 
