@@ -2,7 +2,7 @@
 
 #include "apps/output/values/frequency_response.h"
 #include "coupling/modes/modes.h"
-#include "coupling/periodic/linear_response.h"
+#include "coupling/periodic/response/linear_response.h"
 
 #include <string>
 #include <vector>

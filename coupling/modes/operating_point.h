@@ -2,7 +2,7 @@
 
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
-#include "coupling/periodic/linear_response.h"
+#include "coupling/periodic/response/linear_response.h"
 
 #include <string>
 #include <vector>

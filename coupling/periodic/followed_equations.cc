@@ -1,6 +1,6 @@
 #include "coupling/periodic/followed_equations.h"
 
-#include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/shooting.h"
 
 namespace gestell::coupling

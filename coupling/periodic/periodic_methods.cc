@@ -2,7 +2,7 @@
 
 #include "coupling/periodic/averaging.h"
 #include "coupling/periodic/collocation.h"
-#include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting_method.h"

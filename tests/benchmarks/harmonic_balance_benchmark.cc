@@ -1,7 +1,7 @@
 // One Newton iteration of harmonic balance, at equal measures, of a chain with 20 ... 200 modes: the base stands in
 // tables of the measures alone, formed anew for each frequency as on a curve of resonance.
 
-#include "coupling/periodic/harmonic_balance.h"
+#include "coupling/periodic/harmonic/harmonic_balance.h"
 #include "tests/support/cubic_system.h"
 
 #include <benchmark/benchmark.h>

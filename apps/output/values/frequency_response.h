@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/periodic/response_peaks.h"
+#include "coupling/periodic/response/response_peaks.h"
 
 #include <complex>
 #include <string>

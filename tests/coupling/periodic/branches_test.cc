@@ -1,6 +1,6 @@
 // Harmonic balance of laws with branches, and of those that remember.
 
-#include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"

@@ -1,4 +1,4 @@
-#include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"

@@ -1,5 +1,5 @@
-#include "coupling/periodic/harmonic_balance_method.h"
-#include "coupling/periodic/hill.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/hill.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 

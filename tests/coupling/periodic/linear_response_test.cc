@@ -1,7 +1,7 @@
 // Frequency responses against the whole equations, solved independently with more digits.
 
-#include "coupling/periodic/linear_response.h"
-#include "coupling/periodic/response_peaks.h"
+#include "coupling/periodic/response/linear_response.h"
+#include "coupling/periodic/response/response_peaks.h"
 #include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>

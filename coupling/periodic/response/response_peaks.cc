@@ -1,4 +1,4 @@
-#include "coupling/periodic/response_peaks.h"
+#include "coupling/periodic/response/response_peaks.h"
 
 #include <cmath>
 #include <limits>

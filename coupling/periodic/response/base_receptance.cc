@@ -1,4 +1,4 @@
-#include "coupling/periodic/base_receptance.h"
+#include "coupling/periodic/response/base_receptance.h"
 
 #include <algorithm>
 #include <complex>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/periodic/base_response.h"
-#include "coupling/periodic/harmonic_forces.h"
+#include "coupling/periodic/harmonic/base_response.h"
+#include "coupling/periodic/harmonic/harmonic_forces.h"
 #include "coupling/periodic/periodic_solution.h"
 
 #include <Eigen/Core>

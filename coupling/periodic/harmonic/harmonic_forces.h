@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/periodic/fourier_transform.h"
+#include "coupling/periodic/harmonic/fourier_transform.h"
 #include "coupling/periodic/periodic_problem.h"
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-#include "coupling/periodic/hill.h"
+#include "coupling/periodic/harmonic/hill.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 

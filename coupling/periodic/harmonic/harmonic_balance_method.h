@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/periodic/harmonic_balance.h"
+#include "coupling/periodic/harmonic/harmonic_balance.h"
 #include "coupling/periodic/periodic_method.h"
 
 namespace gestell::coupling

@@ -1,4 +1,4 @@
-#include "coupling/periodic/base_response.h"
+#include "coupling/periodic/harmonic/base_response.h"
 
 #include <cmath>
 #include <sstream>

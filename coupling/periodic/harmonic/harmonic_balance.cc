@@ -1,4 +1,4 @@
-#include "coupling/periodic/harmonic_balance.h"
+#include "coupling/periodic/harmonic/harmonic_balance.h"
 
 #include <cmath>
 #include <complex>

@@ -1,6 +1,6 @@
-#include "coupling/periodic/orbit_series.h"
+#include "coupling/periodic/harmonic/orbit_series.h"
 
-#include "coupling/periodic/fourier_transform.h"
+#include "coupling/periodic/harmonic/fourier_transform.h"
 
 #include <cmath>
 #include <complex>

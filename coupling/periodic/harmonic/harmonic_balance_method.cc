@@ -1,9 +1,9 @@
-#include "coupling/periodic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/periodic/hill.h"
-#include "coupling/periodic/orbit_series.h"
+#include "coupling/periodic/harmonic/hill.h"
+#include "coupling/periodic/harmonic/orbit_series.h"
 #include "coupling/periodic/settling.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "coupling/periodic/harmonic_forces.h"
+#include "coupling/periodic/harmonic/harmonic_forces.h"
 
 #include <cmath>
 #include <complex>

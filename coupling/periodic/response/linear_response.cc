@@ -1,6 +1,6 @@
-#include "coupling/periodic/linear_response.h"
+#include "coupling/periodic/response/linear_response.h"
 
-#include "coupling/periodic/base_receptance.h"
+#include "coupling/periodic/response/base_receptance.h"
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/periodic/harmonic_forces.h"
+#include "coupling/periodic/harmonic/harmonic_forces.h"
 
 #include <Eigen/Core>
 

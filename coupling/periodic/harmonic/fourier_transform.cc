@@ -1,4 +1,4 @@
-#include "coupling/periodic/fourier_transform.h"
+#include "coupling/periodic/harmonic/fourier_transform.h"
 
 #include <unsupported/Eigen/FFT>
 
