@@ -51,6 +51,14 @@ public:
   void carry_tangents(Eigen::MatrixXd &X) override;
 
 private:
+  /// dp/du, dp/dv at the points of a step [n_u x s n_u], and the measures whose forces change with the motion.
+  struct LinearisedForces
+  {
+    Eigen::MatrixXd  of_u, of_v;
+    std::vector<int> measures;
+  };
+  LinearisedForces linearised_forces();
+
   static HermiteNodes hermite_nodes(std::vector<double> points);
 
   /// u, v at point i from the free motion and P.
