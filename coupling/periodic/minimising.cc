@@ -17,7 +17,7 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double reach         = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
+constexpr double box_reach         = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
 constexpr double same_orbit    = 1e-6; ///< distance of two motions, of their size, within which they are one
 constexpr int    highest_ratio = 3;    ///< of sub-harmonic motions that are looked for
 constexpr int    most_steps    = 60;   ///< of one minimisation
@@ -127,7 +127,7 @@ Box box_about(const PeriodicProblem &problem, const PeriodicGuess &guess, const 
   flow.pass(guess.q, guess.v, problem.period, false);
   const double   omega = 2. * M_PI / problem.period;
   const VectorXd half  = (0.5 * (high - low)).cwiseMax(fastest / omega);
-  return {0.5 * (low + high), VectorXd::Zero(n), reach * half, reach * (half * omega).cwiseMax(fastest)};
+  return {0.5 * (low + high), VectorXd::Zero(n), box_reach * half, box_reach * (half * omega).cwiseMax(fastest)};
 }
 
 class Minimising final : public PeriodicMethod
