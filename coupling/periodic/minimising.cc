@@ -17,7 +17,7 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double box_reach         = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
+constexpr double box_reach     = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
 constexpr double same_orbit    = 1e-6; ///< distance of two motions, of their size, within which they are one
 constexpr int    highest_ratio = 3;    ///< of sub-harmonic motions that are looked for
 constexpr int    most_steps    = 60;   ///< of one minimisation
