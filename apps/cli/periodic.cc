@@ -104,7 +104,9 @@ Command periodic_command()
        "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
       CommandInput::scene,
       {{"--method", &own->method,
-        "shooting, harmonic-balance, minimise, settling or averaging (default: chosen by the scene, and said why)"},
+        "shooting, harmonic-balance, collocation, minimise, settling or averaging (default: chosen by the scene, and "
+        "said "
+        "why)"},
        {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
        CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
            .above_zero(),

@@ -152,7 +152,8 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution
 }
 
 PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
-                       const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows)
+                       const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows,
+                       std::optional<coupling::RunResult> *run_of_it)
 {
   PeriodicEntry entry;
   entry.solution = solution;
@@ -160,7 +161,7 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
     trace_signals(machine, problem, solution, signals, rows, entry);
   else
   {
-    const coupling::RunResult run = orbit_run(machine, solution, signals, rows);
+    coupling::RunResult run = orbit_run(machine, solution, signals, rows);
     if (!run.failure.empty())
       throw coupling::ConvergenceFailure("the motion that was found cannot be traced: " + run.failure);
     entry.rows = signal_rows(run, signals.size());
@@ -173,6 +174,8 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
       signal.min  = summary.min;
       entry.signals.push_back(signal);
     }
+    if (run_of_it)
+      *run_of_it = std::move(run);
   }
   for (std::size_t j = 0; j < entry.signals.size(); ++j)
     find_harmonics(entry.rows, signals.size() + 1, j + 1, solution.ratio, solution.begin, solution.period,

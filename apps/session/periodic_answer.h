@@ -6,6 +6,7 @@
 #include "coupling/periodic/periodic_method.h"
 #include "coupling/simulation/simulation.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,10 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::Period
                               const std::vector<coupling::Signal> &signals, int rows);
 
 /// The solution with its signals: extremes, harmonics, rows.
+/// @param run  becomes the run of one period that tells them; left as it is of a motion that is a series
 PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                        const coupling::PeriodicSolution &solution, const std::vector<coupling::Signal> &signals,
-                       int rows);
+                       int rows, std::optional<coupling::RunResult> *run = nullptr);
 
 /// How far two solutions are apart in their signals.
 PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, const std::string &method);

@@ -289,17 +289,20 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   }
   else
     for (const auto &solution : solutions)
-      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
+    {
+      const bool shown = !result.run && solution.stable();
+      found.entries.push_back(
+          entry_of(machine, repeating.problem, solution, signals, orbit_rows, shown ? &result.run : nullptr));
+    }
   if (!request.check.empty())
     check_periodic(machine, repeating, options, request.check, signals, found);
   found.interrupted = repeating.problem.interrupted();
   const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
                                    [](const PeriodicEntry &entry) { return entry.solution.stable(); });
-  if (stable != found.entries.end() && request.along.empty())
-  {
+  if (stable != found.entries.end() && request.along.empty() && !result.run)
     result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
+  if (result.run)
     states_for_pictures(*machine_, *result.run);
-  }
   return found;
 }
 

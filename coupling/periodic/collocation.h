@@ -22,7 +22,8 @@ namespace gestell::coupling
  *
  *     u = u_0 + G_u P,   u' = v_0 + G_v P     [N s n_u],       P = p(t, u, u'),
  *
- * and only P is unknown, however many modes there are.  Order 2 s at the mesh points.
+ * and only P is unknown, however many modes there are.  Where a motion of the base repeats by itself, as that of a mass
+ * between stops, its two states at t_0 are unknown too, and its closing is an equation.  Order 2 s at the mesh points.
  *
  * Source of the method: Ascher, Mattheij, Russell, Numerical Solution of Boundary Value Problems, 1995, chapter 5.
  */
@@ -31,14 +32,16 @@ class PeriodicCollocation
 public:
   static constexpr int stages = 4;
 
-  /// @throws std::invalid_argument as modal_blocks(), or where a motion of the base repeats by itself
+  /// @throws std::invalid_argument as modal_blocks()
   explicit PeriodicCollocation(const PeriodicProblem &problem);
 
   /// Mesh points as shares of the period, 0 and 1 the ends, ascending.
   void                       set_mesh(const std::vector<double> &mesh);
   const std::vector<double> &mesh() const { return mesh_; }
 
-  /// Newton's method from P, which becomes the solution; its last correction, of the largest force.
+  /// Unknowns of forces at the Gauss points and a start q, q' [n].
+  Eigen::VectorXd unknowns(const Eigen::VectorXd &forces, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const;
+  /// Newton's method from P, and free states behind them, which become the solution; the number of its iterations.
   /// @throws NoPeriodicMotion if it does not converge
   int solve(Eigen::VectorXd &P, const PeriodicOptions &options);
   /// Forces of another mesh at the Gauss points of this one.
@@ -48,28 +51,29 @@ public:
   /// q, q' [n] at t_0.
   void state_at_begin(const Eigen::VectorXd &P, Eigen::VectorXd &q, Eigen::VectorXd &v) const;
 
-  int n_unknowns() const { return int(u_0_.size()); }
+  int n_unknowns() const { return int(G_u_.cols()); }
 
 private:
-  void close(Eigen::MatrixXd &X) const;
-  void evaluate(const Eigen::VectorXd &P, Eigen::VectorXd &r, Eigen::MatrixXd *J);
-  int  n_intervals() const { return int(tables_.size()); }
+  void   close(Eigen::MatrixXd &X);
+  double closing_determinant(Eigen::Index block) const;
+  void   read_measures();
+  void   evaluate(const Eigen::VectorXd &y, Eigen::VectorXd &r, Eigen::MatrixXd *J);
+  int    n_intervals() const { return int(tables_.size()); }
 
-  const PeriodicProblem &problem_;
-  ModalBlocks            modes_;
-  ModalMeasures          measures_;
-  ForceBasis             basis_;
-  int                    n_u_;
-  std::vector<double>    mesh_;
-  std::vector<StepTable> tables_;
-  Eigen::MatrixXd        start_;     ///< x_0 = start_ (P; 1) [2 n_p x (N s n_u + 1)]
-  Eigen::MatrixXd        G_u_, G_v_; ///< [N s n_u x N s n_u]
-  Eigen::VectorXd        u_0_, v_0_;
-  LocalState             node_;
+  const PeriodicProblem    &problem_;
+  ModalBlocks               modes_;
+  ModalMeasures             measures_;
+  ForceBasis                basis_;
+  int                       n_u_;
+  std::vector<double>       mesh_;
+  std::vector<StepTable>    tables_;
+  StepTable                 whole_;     ///< of the period
+  std::vector<Eigen::Index> free_;      ///< states of x that are unknowns
+  Eigen::MatrixXd           closing_;   ///< their equations closing_ (P; x_free; 1) = 0
+  Eigen::MatrixXd           start_;     ///< x_0 = start_ (P; x_free; 1)
+  Eigen::MatrixXd           G_u_, G_v_; ///< [N s n_u x unknowns]
+  Eigen::VectorXd           u_0_, v_0_;
+  LocalState                node_;
 };
-
-/// "collocation": one motion near the guess; the mesh is divided where forces are far from a polynomial, and has points
-/// at the events of the motion.
-const PeriodicMethod &collocation_method();
 
 } // namespace gestell::coupling

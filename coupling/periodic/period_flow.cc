@@ -51,6 +51,21 @@ void PeriodFlow::look_on(int samples, std::function<void(const OrbitPoint &)> lo
   look_    = std::move(look);
 }
 
+void PeriodFlow::carry(const MatrixXd &dq, const MatrixXd &dv)
+{
+  dq_begin_ = dq;
+  dv_begin_ = dv;
+}
+
+void PeriodFlow::carry_all()
+{
+  const Index n = problem_.turn.size();
+  dq_begin_.resize(n, 2 * n);
+  dv_begin_.resize(n, 2 * n);
+  dq_begin_ << MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
+  dv_begin_ << MatrixXd::Zero(n, n), MatrixXd::Identity(n, n);
+}
+
 void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool tangents)
 {
   if (tangents && !tangents_)
@@ -71,11 +86,9 @@ void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool ta
   driver_->begin(problem_.begin, q, v);
   if (tangents)
   {
-    const Index n = q.size();
-    MatrixXd    dq(n, 2 * n), dv(n, 2 * n);
-    dq << MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
-    dv << MatrixXd::Zero(n, n), MatrixXd::Identity(n, n);
-    tangents_->begin_tangents(dq, dv);
+    if (dq_begin_.size() == 0)
+      carry_all();
+    tangents_->begin_tangents(dq_begin_, dv_begin_);
   }
   driver_->on_step([this] { at_step(); });
   driver_->on_guard([this](int guard) { at_guard(guard); });
@@ -161,10 +174,9 @@ void PeriodFlow::finish(const IntegrationWork &before)
     passage_.chattering = driver_->chattering_time() / (end_ - problem_.begin);
   if (!carries_)
     return;
-  const Index n = passage_.q_begin.size();
-  MatrixXd    dq, dv;
+  MatrixXd dq, dv;
   tangents_->tangents(dq, dv);
-  passage_.monodromy.resize(2 * n, 2 * n);
+  passage_.monodromy.resize(2 * dq.rows(), dq.cols());
   passage_.monodromy << dq, dv;
 }
 
@@ -268,7 +280,7 @@ void PeriodFlow::at_guard(int guard)
   double       could = std::abs(partial);
   for (int part = 0; part < 3; ++part)
     could += (gradient.col(part).cwiseAbs().array() * largest_[part + 1].array()).sum();
-  dt_ = Eigen::RowVectorXd::Zero(2 * passage_.q_begin.size());
+  dt_ = Eigen::RowVectorXd::Zero(dq_begin_.cols());
   if (!gradient.isZero(0.) && std::abs(rate) > touching * could)
     dt_ = along(tangents_->local_tangents()) / -rate;
   else if (!gradient.isZero(0.))

@@ -12,11 +12,12 @@ namespace gestell::coupling
 /// Where a start leads in one period.
 struct PeriodPassage
 {
-  double                   period = 0.;      ///< T [s]
-  Eigen::VectorXd          q_begin, v_begin; ///< [n]
-  Eigen::VectorXd          q, v;             ///< at t_0 + T [n]
-  double                   fastest = 0.;     ///< max_t sqrt(sum_k q'_k^2)
-  Eigen::MatrixXd          monodromy;        ///< d(q, q')(T)/d(q, q')(0) [2n x 2n]; empty: not asked for
+  double          period = 0.;      ///< T [s]
+  Eigen::VectorXd q_begin, v_begin; ///< [n]
+  Eigen::VectorXd q, v;             ///< at t_0 + T [n]
+  double          fastest = 0.;     ///< max_t sqrt(sum_k q'_k^2)
+  Eigen::MatrixXd monodromy;        ///< d(q, q')(T)/d(q, q')(0) [2n x 2n]; empty: not asked for.  Of some
+                                    ///< tangents alone: their images [2n x k]
   std::vector<Event>       events;
   std::vector<std::string> grazing;         ///< events whose guard touches its zero rather than crosses it
   double                   chattering = 0.; ///< share of the period gone over with more events than are located
@@ -42,6 +43,8 @@ public:
   ~PeriodFlow();
 
   bool has_tangents() const { return tangents_ != nullptr; }
+  /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
+  void carry(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
 
   /// Over `period`.
   /// @throws ConvergenceFailure, std::invalid_argument if tangents are asked for and the integrator has none
@@ -61,6 +64,7 @@ private:
   void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double end, bool tangents);
   void advance(long steps_before);
   void finish(const IntegrationWork &before);
+  void carry_all();
   void at_step();
   void at_guard(int guard);
   void at_event();
@@ -74,6 +78,7 @@ private:
   MotionTangents                         *tangents_ = nullptr;
   std::unique_ptr<EventDriver>            driver_;
   PeriodPassage                           passage_;
+  Eigen::MatrixXd                         dq_begin_, dv_begin_; ///< tangents; empty: all
   bool                                    carries_ = false;
   bool                                    jumps_   = false; ///< a transition is under way
   double                                  end_     = 0.;

@@ -1,7 +1,7 @@
 #include "coupling/periodic/periodic_methods.h"
 
 #include "coupling/periodic/averaging.h"
-#include "coupling/periodic/collocation.h"
+#include "coupling/periodic/collocation_method.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"

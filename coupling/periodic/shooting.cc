@@ -39,13 +39,13 @@ VectorXd ShootingEquations::unknowns(const VectorXd &q, const VectorXd &v, doubl
   return z;
 }
 
-const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobian)
+const PeriodPassage &ShootingEquations::pass(const VectorXd &z, bool tangents)
 {
   const Index  n      = problem_.turn.size();
   const double period = problem_.period_is_unknown() ? z[2 * n] : problem_.period;
   if (!(period > 0.))
     throw ConvergenceFailure("Newton's method asks for a period that is not positive");
-  const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, jacobian);
+  const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, tangents);
   ++passages_;
   PeriodicWork sum{0, 0, work_};
   sum.add({0, 1, passage.work});
@@ -58,6 +58,28 @@ const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobia
   closing_                = closing_error(dq, dv, 2. * M_PI / period, passage.fastest);
   if (problem_.period_is_unknown())
     residual_[2 * n] = z[problem_.phase] - omega_ * problem_.phase_value;
+  return passage;
+}
+
+const PeriodPassage &ShootingEquations::evaluate_with(const VectorXd &z, const MatrixXd &dq, const MatrixXd &dv)
+{
+  flow_.carry(dq, dv);
+  const PeriodPassage &passage = pass(z, true);
+  flow_.carry({}, {});
+  return passage;
+}
+
+VectorXd ShootingEquations::rate_at_end()
+{
+  VectorXd rate(2 * problem_.turn.size());
+  rate << flow_.passage().v, flow_.end_acceleration();
+  return rate;
+}
+
+const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobian)
+{
+  const Index          n       = problem_.turn.size();
+  const PeriodPassage &passage = pass(z, jacobian);
   if (!jacobian)
     return passage;
   jacobian_.setZero(z.size(), z.size());
@@ -66,9 +88,9 @@ const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobia
   jacobian_.block(n, 0, n, n) /= omega_;
   if (!problem_.period_is_unknown())
     return passage;
-  jacobian_.col(2 * n).head(n)       = omega_ * passage.v;
-  jacobian_.col(2 * n).segment(n, n) = flow_.end_acceleration();
-  jacobian_(2 * n, problem_.phase)   = 1.;
+  jacobian_.col(2 * n).head(2 * n) = rate_at_end();
+  jacobian_.col(2 * n).head(n) *= omega_;
+  jacobian_(2 * n, problem_.phase) = 1.;
   return passage;
 }
 
@@ -88,7 +110,7 @@ PeriodicSolution ShootingEquations::solution(const std::string &method) const
   solution.integration        = integration_;
   solution.trivial_multiplier = problem_.period_is_unknown();
   solution.work               = {0, passages_, work_};
-  if (passage.monodromy.size() > 0)
+  if (passage.monodromy.size() > 0 && passage.monodromy.rows() == passage.monodromy.cols())
     solution.multipliers = multipliers_of(passage.monodromy);
   for (const std::string &event : passage.grazing)
     solution.notes.push_back("grazing: " + event +

@@ -25,6 +25,12 @@ public:
   /// Integrates one period from z.  @throws ConvergenceFailure
   const PeriodPassage &evaluate(const Eigen::VectorXd &z, bool jacobian);
 
+  /// The same with tangents dq, dv [n x k] alone, whose images are the passage's `monodromy`.
+  const PeriodPassage &evaluate_with(const Eigen::VectorXd &z, const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
+
+  double omega() const { return omega_; }
+  /// d(q, q')(T)/dT of the last evaluation [2n].
+  Eigen::VectorXd        rate_at_end();
   const Eigen::VectorXd &residual() const { return residual_; } ///< r(z), the last of them zero for the phase
   const Eigen::MatrixXd &jacobian() const { return jacobian_; }
   double                 closing() const { return closing_; } ///< closing_error()
@@ -35,6 +41,8 @@ public:
   PeriodicSolution solution(const std::string &method) const;
 
 private:
+  const PeriodPassage &pass(const Eigen::VectorXd &z, bool tangents);
+
   const PeriodicProblem &problem_;
   MethodOptions          integration_;
   PeriodFlow             flow_;

@@ -3,8 +3,157 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting.h"
 
+#include <sstream>
+
 namespace gestell::coupling
 {
+
+namespace
+{
+using Eigen::VectorXd;
+
+constexpr double fewer         = 0.1;  ///< of the share, where the motion does not close well
+constexpr double least_share   = 1e-4; ///< below it all motions are slow
+constexpr double good          = 0.3;  ///< residual behind a step, of that before, with which its matrix is kept
+constexpr double coarse_steps  = 1e-6; ///< tolerance of the steps at first
+constexpr double coarse_goal   = 1e-6; ///< closing error at which the fine steps begin
+constexpr double smallest_part = 1e-3; ///< of a step that is halved
+constexpr int    ritz_rounds   = 6;
+
+/// Newton's method on steps of one fineness, its matrix kept while the motion closes well.
+class ChordNewton
+{
+public:
+  ChordNewton(const PeriodicProblem &problem, const MethodOptions &integration, SlowMotions &slow, double omega)
+      : problem_(problem), slow_(slow), equations_(problem, integration, omega)
+  {
+  }
+
+  ShootingEquations &equations() { return equations_; }
+  int                iterations() const { return iterations_; }
+  /// Every evaluation improves them from now on.
+  void watch(LargestMultipliers &multipliers) { multipliers_ = &multipliers; }
+  /// From z until the motion closes to `goal`; whether it does.  A matrix that is not formed yet is formed at once.
+  bool close(VectorXd &z, double goal, int most);
+  void evaluate(const VectorXd &z);
+
+  void form(const VectorXd &z);
+
+private:
+  double step(VectorXd &z, bool formed_here);
+
+  const PeriodicProblem &problem_;
+  SlowMotions           &slow_;
+  ShootingEquations      equations_;
+  LargestMultipliers    *multipliers_ = nullptr;
+  int                    iterations_  = 0;
+};
+
+void ChordNewton::evaluate(const VectorXd &z)
+{
+  if (multipliers_)
+    multipliers_->take(equations_.evaluate_with(z, multipliers_->dq(), multipliers_->dv()).monodromy);
+  else
+    equations_.evaluate(z, false);
+}
+
+void ChordNewton::form(const VectorXd &z)
+{
+  const PeriodPassage &passage = equations_.evaluate_with(z, slow_.dq(), slow_.dv());
+  slow_.take(passage.monodromy, equations_.rate_at_end());
+}
+
+/// z - part dz with the largest part of 1, 1/2, 1/4 ... that closes better, the whole alone if the matrix is an old
+/// one; residual behind, of that before.
+double ChordNewton::step(VectorXd &z, bool formed_here)
+{
+  const double   before = equations_.residual().norm();
+  const VectorXd dz     = slow_.correction(equations_.residual());
+  for (double part = 1.; part > smallest_part; part *= 0.5)
+  {
+    const VectorXd next = z - part * dz;
+    try
+    {
+      evaluate(next);
+      const double behind = equations_.residual().norm();
+      if (behind < (1. - 0.1 * part) * before)
+      {
+        z = next;
+        return behind / before;
+      }
+    }
+    catch (const ConvergenceFailure &)
+    {
+    }
+    if (!formed_here)
+      break;
+  }
+  evaluate(z);
+  return 1.;
+}
+
+bool ChordNewton::close(VectorXd &z, double goal, int most)
+{
+  evaluate(z);
+  bool here = !slow_.formed() && equations_.closing() > goal;
+  if (here)
+    form(z);
+  while (equations_.closing() > goal && iterations_ < most && !problem_.interrupted())
+  {
+    ++iterations_;
+    const double left = step(z, here);
+    if (left < good)
+    {
+      here = false;
+      continue;
+    }
+    if (here && slow_.all() && left >= 1.)
+      return false;
+    if (here && !slow_.all())
+      slow_.choose(slow_.share() > least_share ? fewer * slow_.share() : 0., problem_.period);
+    if (equations_.closing() > goal)
+      form(z);
+    here = true;
+  }
+  return equations_.closing() <= goal;
+}
+
+} // namespace
+
+PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, const PeriodicGuess &guess,
+                            const PeriodicOptions &options)
+{
+  MethodOptions coarse = options.integration;
+  coarse.tolerance     = std::max(coarse.tolerance, coarse_steps);
+  const double  omega  = 2. * M_PI / problem.period;
+  ChordNewton   roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
+  PeriodicGuess near = guess;
+  lead_in(roughly.equations().flow(), problem, options, near);
+  VectorXd   z      = roughly.equations().unknowns(near.q, near.v, near.period);
+  const bool closes = roughly.close(z, coarse_goal, options.iterations);
+  if (!slow.formed())
+    roughly.form(z);
+  LargestMultipliers multipliers(slow.dominant(), omega);
+  finely.watch(multipliers);
+  if (!closes || !finely.close(z, options.tolerance, options.iterations))
+  {
+    ShootingEquations all(problem, options.integration);
+    return shoot(all, problem, all.unknowns(near.q, near.v, near.period), options);
+  }
+  for (int round = 0; round < ritz_rounds && !multipliers.converged(); ++round)
+    finely.evaluate(z);
+  PeriodicSolution solution = finely.equations().solution("shooting");
+  solution.multipliers      = multipliers.values();
+  solution.work.add(roughly.equations().solution("shooting").work);
+  solution.work.iterations = roughly.iterations() + finely.iterations();
+  std::ostringstream note;
+  note << "the " << solution.multipliers.size() << " largest multipliers are told; motions that lose more than "
+       << 100. * (1. - slow.share()) << " % of themselves in a period have smaller ones";
+  if (!multipliers.converged())
+    note << "; the largest are known to " << multipliers.leaves();
+  solution.notes.push_back(note.str());
+  return solution;
+}
 
 namespace
 {
@@ -26,6 +175,8 @@ public:
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
   {
+    if (SlowMotions motions(problem); mostly_fast(motions, problem))
+      return {shoot_slow(problem, motions, guess, options)};
     ShootingEquations equations(problem, options.integration);
     PeriodicGuess     near = guess;
     lead_in(equations.flow(), problem, options, near);

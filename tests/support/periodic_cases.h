@@ -3,6 +3,7 @@
 #include "coupling/periodic/periodic_problem.h"
 #include "tests/support/cubic_system.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -46,6 +47,34 @@ inline CubicSystem two_dof_system(const std::string &name, double Omega)
   C << 3., -1., -1., 2.;
   CubicSystem system(M, B, C, {{0.5, Eigen::Vector2d(1., 0.)}});
   system.loads().add_harmonic(0, Omega, 0.8, 0.);
+  return system;
+}
+
+/// x'' + 2 zeta x' + g(x) = F0 + F cos(Omega t), g a dead zone of half width 1 with unit slope: the base has no
+/// stiffness at all.
+struct ClearanceCase
+{
+  double zeta, F0, F, Omega;
+};
+inline const std::map<std::string, ClearanceCase> clearance_cases = {{"clearance1", {0.05, 0.3, 1., 0.7}},
+                                                                     {"clearance2", {0.05, 0.3, 0.5, 1.8}},
+                                                                     {"clearance3", {0.05, 0.1, 2., 1.8}},
+                                                                     {"clearance4", {0.1, 0.3, 1., 1.8}}};
+
+inline SmallSystem clearance_system(const ClearanceCase &given)
+{
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  SmallSystem           system(one, 2. * given.zeta * one, 0. * one);
+  system.set_law(Eigen::VectorXd::Ones(1),
+                 [](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   const bool touches = std::abs(u) > 1.;
+                   p                  = touches ? (u > 0. ? 1. : -1.) - u : 0.;
+                   dp_du              = touches ? -1. : 0.;
+                   dp_dv              = 0.;
+                 });
+  system.loads().add_constant(0, given.F0);
+  system.loads().add_harmonic(0, given.Omega, given.F, 0.);
   return system;
 }
 

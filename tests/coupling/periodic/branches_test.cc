@@ -7,9 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <map>
-
 namespace gestell::tests
 {
 namespace
@@ -18,33 +15,6 @@ namespace
 using namespace coupling;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// x'' + 2 zeta x' + g(x) = F0 + F cos(Omega t), g a dead zone of half width 1 with unit slope: the base has no
-/// stiffness at all.
-struct Clearance
-{
-  double zeta, F0, F, Omega;
-};
-const std::map<std::string, Clearance> clearances = {{"clearance1", {0.05, 0.3, 1., 0.7}},
-                                                     {"clearance2", {0.05, 0.3, 0.5, 1.8}},
-                                                     {"clearance3", {0.05, 0.1, 2., 1.8}},
-                                                     {"clearance4", {0.1, 0.3, 1., 1.8}}};
-
-double beyond(double x)
-{
-  return std::abs(x) > 1. ? x - (x > 0. ? 1. : -1.) : 0.;
-}
-
-SmallSystem clearance_system(const Clearance &given)
-{
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  SmallSystem    system(one, 2. * given.zeta * one, 0. * one);
-  system.set_law(VectorXd::Ones(1),
-                 law_of([](double u) { return -beyond(u); }, [](double u) { return std::abs(u) > 1. ? -1. : 0.; }));
-  system.loads().add_constant(0, given.F0);
-  system.loads().add_harmonic(0, given.Omega, given.F, 0.);
-  return system;
-}
 
 /// p = -(u - u_max/2): what it has reached it keeps.
 class Ratchet final : public SmallSystem
@@ -83,11 +53,11 @@ TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsItTells)
   int rows = 0;
   for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
   {
-    const Clearance &given   = clearances.at(row["case"]);
-    SmallSystem      system  = clearance_system(given);
-    const int        ratio   = int(row.number("period_in_forcing_periods"));
-    PeriodicProblem  problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
-    problem.ratio            = ratio;
+    const ClearanceCase &given   = clearance_cases.at(row["case"]);
+    SmallSystem          system  = clearance_system(given);
+    const int            ratio   = int(row.number("period_in_forcing_periods"));
+    PeriodicProblem      problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
+    problem.ratio                = ratio;
     const VectorXd q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
     const auto     found = harmonic_balance_method().solve(problem, {q, v, 0.}, {});
     ASSERT_EQ(found.size(), 1u);

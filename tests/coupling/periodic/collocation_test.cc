@@ -1,6 +1,7 @@
 #include "coupling/periodic/collocation.h"
+#include "coupling/periodic/collocation_method.h"
+#include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
-#include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>
 
@@ -9,45 +10,15 @@ namespace
 
 using namespace gestell::coupling;
 using namespace gestell::tests;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// x'' + 2 zeta x' + x = F cos(Omega t) + p(x)
-SmallSystem oscillator(double zeta, double F, double Omega, const SmallSystem::Law &law)
-{
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  SmallSystem    system(one, 2. * zeta * one, one);
-  system.set_law(VectorXd::Ones(1), law);
-  system.loads().add_harmonic(0, Omega, F, 0.);
-  return system;
-}
-
-PeriodicProblem problem_of(SmallSystem &system, double Omega)
-{
-  PeriodicProblem problem;
-  problem.system = &system;
-  problem.period = 2. * M_PI / Omega;
-  problem.turn   = VectorXd::Zero(1);
-  return problem;
-}
-
-SmallSystem::Law cubic(double beta)
-{
-  return [beta](double u, double, double &p, double &dp_du, double &dp_dv)
-  {
-    p     = -beta * u * u * u;
-    dp_du = -3. * beta * u * u;
-    dp_dv = 0.;
-  };
-}
 
 } // namespace
 
 /// Every motion of the table, unstable ones too, from a start nearby.
 TEST(Collocation, MeetsTheMotionsOfDuffingsOscillator)
 {
-  SmallSystem           system  = oscillator(0.05, 0.3, 1.4, cubic(0.5));
-  const PeriodicProblem problem = problem_of(system, 1.4);
+  CubicSystem           system  = duffing_system(duffing_cases.at("duffing1"));
+  const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 1.4);
   PeriodicOptions       options;
   options.lead_in = 0;
   int rows        = 0;
@@ -66,8 +37,8 @@ TEST(Collocation, MeetsTheMotionsOfDuffingsOscillator)
 /// On one mesh after the other, of half the intervals each, the start comes nearer by 2^8.
 TEST(Collocation, HasTheOrderOfItsGaussPointsTwice)
 {
-  SmallSystem           system  = oscillator(0.05, 0.8, 0.45, cubic(1.));
-  const PeriodicProblem problem = problem_of(system, 0.45);
+  CubicSystem           system  = duffing_system(duffing_cases.at("duffing3"));
+  const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 0.45);
   PeriodicOptions       options;
   options.tolerance = 1e-14;
   VectorXd starts(4);
@@ -86,4 +57,28 @@ TEST(Collocation, HasTheOrderOfItsGaussPointsTwice)
   }
   const double first = std::abs(starts[1] - starts[3]), second = std::abs(starts[2] - starts[3]);
   EXPECT_GT(std::log2(first / second), 7.);
+}
+
+/// Every motion of the table of play, in which nothing of the base holds the mass: its two states are unknowns.  The
+/// kinks lie inside intervals, whose halves end the search at 2^-12 of them: their error is the width of a kink's
+/// interval, squared.
+TEST(Collocation, MeetsTheTableOfPlay)
+{
+  int rows = 0;
+  for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
+  {
+    const ClearanceCase &given   = clearance_cases.at(row["case"]);
+    SmallSystem          system  = clearance_system(given);
+    const int            ratio   = int(row.number("period_in_forcing_periods"));
+    PeriodicProblem      problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
+    problem.ratio                = ratio;
+    const VectorXd  q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
+    PeriodicOptions options;
+    options.lead_in  = 0;
+    const auto found = collocation_method().solve(problem, {q, v, 0.}, options);
+    EXPECT_NEAR(found.at(0).q[0], q[0], 1e-8) << row["case"] << row["solution"];
+    EXPECT_NEAR(found.at(0).v[0], v[0], 1e-8) << row["case"] << row["solution"];
+    ++rows;
+  }
+  EXPECT_EQ(rows, 6);
 }

@@ -72,7 +72,7 @@ TEST_P(DuffingTable, IsMetByShooting)
     {
       ++rows;
       const VectorXd q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
-      const auto found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, options);
+      const auto     found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, options);
       ASSERT_EQ(found.size(), 1u);
       EXPECT_NEAR(found[0].q[0], q[0], 1e-10);
       EXPECT_NEAR(found[0].v[0], v[0], 1e-10);
@@ -97,7 +97,8 @@ TEST_P(DuffingTable, IsFoundWithoutBeingTold)
       double nearest = 1.;
       for (const PeriodicSolution &solution : found)
         if (solution.ratio == 1)
-          nearest = std::min(nearest, std::hypot(solution.q[0] - row.number("x(0)"), solution.v[0] - row.number("v(0)")));
+          nearest =
+              std::min(nearest, std::hypot(solution.q[0] - row.number("x(0)"), solution.v[0] - row.number("v(0)")));
       EXPECT_LT(nearest, 1e-8) << "solution " << row["solution"];
     }
 }
