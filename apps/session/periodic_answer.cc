@@ -110,7 +110,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 }
 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::PeriodicProblem &problem)
+                                           const coupling::Machine &machine)
 {
   coupling::PeriodicOptions options;
   options.harmonics     = request.harmonics;
@@ -120,13 +120,9 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
     options.lead_in = request.lead_in;
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;
-  const std::string why = coupling::why_not_propagated(*problem.system, "settling");
-  if (why.empty())
-    return options;
-  if (!scene.run.given)
-    throw std::invalid_argument(scene.file + ": " + why + ", integrated as [run] says, but there is no [run]");
-  options.integration = scene.run.options.method;
-  if (!(request.tolerance > 0.))
+  options.integration = periodic_integration(scene, machine);
+  // Steps that exact propagation does not make leave more than it closes to.
+  if (!(request.tolerance > 0.) && !coupling::why_not_propagated(machine, "settling").empty())
     options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
   return options;
 }

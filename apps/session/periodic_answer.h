@@ -26,7 +26,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 
 /// What methods obey; a machine that exact propagation cannot carry is integrated as [run] says.
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::PeriodicProblem &problem);
+                                           const coupling::Machine &machine);
 
 /// One period of a solution as a run of the machine, begun on it.
 coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::PeriodicSolution &solution,

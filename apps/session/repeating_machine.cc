@@ -1,6 +1,8 @@
 #include "apps/session/repeating_machine.h"
 
 #include "apps/session/option_value.h"
+#include "coupling/periodic/period_search.h"
+#include "coupling/periodic/settling.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -16,42 +18,26 @@ namespace
 using coupling::BodyKind;
 using Eigen::VectorXd;
 
-constexpr int    largest_ratio = 64;   ///< of frequencies or speeds that have a common period
-constexpr double equal_ratio   = 1e-9; ///< of frequencies
-constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
-constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
-constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
+constexpr double equal_speeds = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
+constexpr double equal_turns  = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
+constexpr double turns_tried  = 3.;   ///< of the fastest angle
+constexpr double no_stiffness = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
+constexpr double same_force   = 1e-9; ///< of forces a period later, against the largest change
 
-/// Angles [rad] of rotors.  Planar bodies may turn round or swing, which the model does not say: they are left out.
-std::vector<int> turning_coordinates(const coupling::Machine &machine)
+/// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
+struct MovingAngles
 {
-  std::vector<int> angles;
-  for (const coupling::Body &body : machine.model().bodies())
-    if (body.kind == BodyKind::rotor)
-      angles.push_back(body.coordinate);
-  return angles;
-}
+  std::vector<int> rotors, planar;
 
-/// Least whole numbers p_i in the ratio of the values, within `tolerance`; empty: there are none.
-std::vector<int> whole_ratios(const std::vector<double> &values, double tolerance)
-{
-  const double least =
-      *std::min_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  for (int base = 1; base <= largest_ratio; ++base)
+  MovingAngles(const coupling::Machine &machine, const coupling::InitialState &start)
   {
-    std::vector<int> whole;
-    for (const double value : values)
-    {
-      const double ratio = value / std::abs(least) * base, nearest = std::round(ratio);
-      if (std::abs(ratio - nearest) > tolerance * std::abs(ratio))
-        break;
-      whole.push_back(int(nearest));
-    }
-    if (whole.size() == values.size())
-      return whole;
+    for (const coupling::Body &body : machine.model().bodies())
+      if (body.kind == BodyKind::rotor && start.v[body.coordinate] != 0.)
+        rotors.push_back(body.coordinate);
+      else if (body.kind == BodyKind::planar && start.v[body.coordinate + 2] != 0.)
+        planar.push_back(body.coordinate + 2);
   }
-  return {};
-}
+};
 
 std::vector<double> load_frequencies(const coupling::Machine &machine)
 {
@@ -61,18 +47,15 @@ std::vector<double> load_frequencies(const coupling::Machine &machine)
   return omega;
 }
 
-/// 2 pi over the largest common divisor of the frequencies [rad/s].
-double common_period(const std::vector<double> &omega, const Scene &scene)
+double common_period_of(const std::vector<double> &omega, const Scene &scene)
 {
-  const std::vector<int> whole = whole_ratios(omega, equal_ratio);
-  if (!whole.empty())
-    return 2. * M_PI * whole[0] / omega[0];
+  if (const double period = coupling::common_period(omega); period > 0.)
+    return period;
   std::ostringstream text;
   text << scene.file << ": the loads have no common period; their frequencies are";
   for (const double w : omega)
     text << ' ' << short_text(w / (2. * M_PI), 8) << " Hz";
-  text << ": make them commensurate (ratios of whole numbers up to " << largest_ratio
-       << "), or look at the spectra of a run instead";
+  text << ": make them commensurate (ratios of whole numbers up to 64), or look at the spectra of a run instead";
   throw std::invalid_argument(text.str());
 }
 
@@ -117,36 +100,54 @@ std::vector<std::string> told_by_time(const coupling::Machine &machine, const co
   return names;
 }
 
-/// Whole turns [rad] in the ratio of the speeds at the start, of angles that turn without stiffness; zero: nothing
-/// does.
-VectorXd turns_of(const coupling::Machine &machine, const coupling::InitialState &start)
+/// Whole turns [rad] in the ratio of speeds [rad/s], of angles that turn without stiffness; zero: nothing does.
+struct Turns
 {
-  VectorXd            turn = VectorXd::Zero(machine.size());
-  std::vector<int>    angles;
-  std::vector<double> speeds;
-  for (const int i : turning_coordinates(machine))
-    if (start.v[i] != 0.)
-    {
-      angles.push_back(i);
-      speeds.push_back(start.v[i]);
-    }
+  VectorXd turn, speed;
+};
+
+/// Rotors turn with the speeds they have at the start.  Whether planar bodies turn or swing shows in some turns.
+Turns turns_of(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start)
+{
+  Turns              turns{VectorXd::Zero(machine.size()), start.v};
+  const MovingAngles moving(machine, start);
+  std::vector<int>   angles    = moving.rotors;
+  double             tolerance = equal_speeds;
+  if (!moving.planar.empty())
+  {
+    double fastest = 0.;
+    for (const auto *group : {&moving.rotors, &moving.planar})
+      for (const int i : *group)
+        fastest = std::max(fastest, std::abs(start.v[i]));
+    const double   time = turns_tried * 2. * M_PI / fastest;
+    const VectorXd way =
+        coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time);
+    for (const int i : moving.planar)
+      if (way[i] != 0.)
+      {
+        angles.push_back(i);
+        turns.speed[i] = way[i] / time;
+        tolerance      = equal_turns;
+      }
+  }
   if (angles.empty())
-    return turn;
-  const std::vector<int> whole = whole_ratios(speeds, equal_speeds);
-  if (whole.empty())
-    return turn;
-  for (std::size_t k = 0; k < angles.size(); ++k)
-    turn[angles[k]] = 2. * M_PI * whole[k];
-  VectorXd held(turn.size());
-  machine.linear().stiffness_times(turn, held);
+    return turns;
+  std::vector<double> speeds;
+  for (const int i : angles)
+    speeds.push_back(turns.speed[i]);
+  const std::vector<int> whole = coupling::whole_ratios(speeds, tolerance);
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    turns.turn[angles[k]] = 2. * M_PI * whole[k];
+  VectorXd held(turns.turn.size());
+  machine.linear().stiffness_times(turns.turn, held);
   Eigen::MatrixXd M, B, C;
   double          largest = 0.;
   if (machine.linear().dense_matrices(M, B, C))
     for (const int i : angles)
       largest = std::max(largest, C.row(i).cwiseAbs().maxCoeff());
   if (held.cwiseAbs().maxCoeff() > no_stiffness * largest)
-    turn.setZero();
-  return turn;
+    turns.turn.setZero();
+  return turns;
 }
 
 /// The turning angle that needs longest for a turn.
@@ -177,23 +178,70 @@ double asked_period(const PeriodicRequest &request)
   throw std::invalid_argument("--period " + request.period + ": a period is a time above zero, such as \"0.2 s\"");
 }
 
+coupling::FreeOscillation own_oscillation(const Scene &scene, coupling::Machine &machine,
+                                          const RepeatingMachine &repeating)
+{
+  const coupling::MethodOptions method = periodic_integration(scene, machine);
+  try
+  {
+    return coupling::free_oscillation(machine, method, repeating.guess, repeating.problem.begin,
+                                      repeating.problem.stop);
+  }
+  catch (const coupling::SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const coupling::NoPeriodicMotion &none)
+  {
+    throw std::invalid_argument(scene.file + ": " + none.what() + "; or give --period");
+  }
+}
+
+/// The period and phase of what the machine does by itself.
+void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingMachine &repeating)
+{
+  const coupling::FreeOscillation own     = own_oscillation(scene, machine, repeating);
+  coupling::PeriodicProblem      &problem = repeating.problem;
+  repeating.guess                         = own.at;
+  problem.period                          = own.at.period;
+  problem.phase                           = own.phase;
+  problem.phase_value                     = own.phase_value;
+  repeating.reason =
+      "nothing drives the machine, which keeps swinging by itself; its period is unknown, and begins where " +
+      machine.coordinate_name(own.phase) + " rises through the middle of its way" +
+      (own.pushed ? " (it rested at the start, and was pushed)" : "");
+}
+
 } // namespace
+
+coupling::MethodOptions periodic_integration(const Scene &scene, const coupling::Machine &machine)
+{
+  const std::string why = coupling::why_not_propagated(machine, "settling");
+  if (why.empty())
+    return coupling::PeriodicOptions().integration;
+  if (scene.run.given)
+    return scene.run.options.method;
+  throw std::invalid_argument(scene.file + ": " + why + ", integrated as [run] says, but there is no [run]");
+}
 
 double load_period(const Scene &scene, const coupling::Machine &machine)
 {
   const std::vector<double> omega = load_frequencies(machine);
-  return omega.empty() ? 0. : common_period(omega, scene);
+  return omega.empty() ? 0. : common_period_of(omega, scene);
 }
 
 RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
-                                   const PeriodicRequest &request)
+                                   const PeriodicRequest &request, const std::atomic<bool> *stop)
 {
   RepeatingMachine           repeating;
   coupling::PeriodicProblem &problem = repeating.problem;
   problem.system                     = &machine;
   problem.begin                      = start.t;
   problem.ratio                      = request.ratio;
-  problem.turn                       = turns_of(machine, start);
+  problem.stop                       = stop;
+  repeating.guess                    = {start.q, start.v, 0.};
+  const Turns turns                  = turns_of(scene, machine, start);
+  problem.turn                       = turns.turn;
   problem.period                     = asked_period(request);
   const std::vector<double> omega    = load_frequencies(machine);
   const int                 turning  = slowest_of(problem.turn);
@@ -201,12 +249,12 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     repeating.reason = "the period is given";
   else if (!omega.empty())
   {
-    problem.period   = common_period(omega, scene);
+    problem.period   = common_period_of(omega, scene);
     repeating.reason = omega.size() == 1 ? "the period is that of the load" : "the period is common to all loads";
   }
   else if (turning >= 0)
   {
-    problem.period      = problem.turn[turning] / start.v[turning];
+    problem.period      = problem.turn[turning] / turns.speed[turning];
     problem.phase       = turning;
     problem.phase_value = start.q[turning];
     repeating.reason    = "the machine comes round with " + machine.coordinate_name(turning) +
@@ -215,12 +263,12 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   if (problem.period > 0. && !problem.period_is_unknown() && turning >= 0)
   {
     // What turns comes round a whole number of times in the period of the loads, or not at all.
-    const double turns = start.v[turning] * problem.period / problem.turn[turning];
-    if (std::abs(turns - std::round(turns)) > equal_speeds * std::abs(turns) || std::round(turns) == 0.)
+    const double times = turns.speed[turning] * problem.period / problem.turn[turning];
+    if (std::abs(times - std::round(times)) > equal_speeds * std::abs(times) || std::round(times) == 0.)
       throw std::invalid_argument(scene.file + ": " + machine.coordinate_name(turning) + " turns " +
-                                  short_text(turns, 6) + " times in the period of " + short_text(problem.period, 8) +
+                                  short_text(times, 6) + " times in the period of " + short_text(problem.period, 8) +
                                   " s; load and turning must be commensurate: give --period, or change the speed");
-    problem.turn *= std::round(turns);
+    problem.turn *= std::round(times);
   }
   const double span = problem.period > 0. ? problem.period : 1.;
   if (const auto names = told_by_time(machine, start, span, problem.period); !names.empty())
@@ -230,9 +278,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
                                      : ", and no period can be told from it") +
                                 ": give --period \"... s\", or a load with harmonics whose frequencies tell it");
   if (!(problem.period > 0.))
-    throw std::invalid_argument(scene.file +
-                                ": nothing tells the period: no load oscillates, and no angle turns freely "
-                                "at the start; give --period, a load with harmonics, or a speed in [start]");
+    oscillate_freely(scene, machine, repeating);
   problem.period *= request.ratio;
   problem.turn *= request.ratio;
   return repeating;

@@ -50,12 +50,11 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                  coupling::InitialState &state)
 {
-  RepeatingMachine repeating  = repeating_machine(scene, prepared.machine, state, {});
-  repeating.problem.stop      = stop;
-  const ChosenMethod chosen   = chosen_method(repeating, "");
-  const auto         options  = periodic_options(scene, {}, repeating.problem);
-  const auto         found    = chosen.method->solve(repeating.problem, {state.q, state.v, 0.}, options);
-  const auto         solution = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
+  const RepeatingMachine repeating = repeating_machine(scene, prepared.machine, state, {}, stop);
+  const ChosenMethod     chosen    = chosen_method(repeating, "");
+  const auto             options   = periodic_options(scene, {}, prepared.machine);
+  const auto             found     = chosen.method->solve(repeating.problem, repeating.guess, options);
+  const auto             solution  = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
   if (solution == found.end())
     throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic motions found are unstable");
   state.q       = solution->q;
@@ -255,11 +254,10 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   const auto         signals = scene_signals(scene_, machine);
   progress()("start", -1.);
   const coupling::InitialState start     = prepare_start(scene_, *machine_);
-  RepeatingMachine             repeating = repeating_machine(scene_, machine, start, request);
-  repeating.problem.stop                 = watch_.interruption;
-  const ChosenMethod chosen              = chosen_method(repeating, request.method);
-  const auto         options             = periodic_options(scene_, request, repeating.problem);
-  PeriodicResult     found;
+  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request, watch_.interruption);
+  const ChosenMethod           chosen    = chosen_method(repeating, request.method);
+  const auto                   options   = periodic_options(scene_, request, machine);
+  PeriodicResult               found;
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)
@@ -271,7 +269,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   std::vector<coupling::PeriodicSolution> solutions;
   try
   {
-    solutions = chosen.method->solve(repeating.problem, {start.q, start.v, 0.}, options);
+    solutions = chosen.method->solve(repeating.problem, repeating.guess, options);
   }
   catch (const std::runtime_error &none)
   {

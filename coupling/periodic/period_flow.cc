@@ -112,18 +112,20 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
 {
   const IntegrationWork before = integrator_->work();
   const int             phase  = problem_.phase;
-  const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase];
+  const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase],
+               direction = problem_.turn[phase] < 0. ? -1. : 1.;
   begin(q, v, problem_.begin + longest, false);
   bool there = false;
   driver_->on_step(
       [&]
       {
         at_step();
-        // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction.
+        // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction,
+        // that of the turn, and upwards without one.
         const auto past = [&](double t)
         {
           integrator_->interpolate(t, q_look_, v_look_);
-          return q_look_[phase] - target;
+          return direction * (q_look_[phase] - target);
         };
         double low = integrator_->step_begin(), high = integrator_->time();
         if (there || !(high > low) || !(past(low) < 0.) || !(past(high) >= 0.))

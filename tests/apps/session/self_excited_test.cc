@@ -1,0 +1,94 @@
+// Machines that nothing tells the time: what they do by themselves, and planar bodies that turn.
+
+#include "apps/session/session.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::PeriodicRequest;
+using apps::PeriodicResult;
+using apps::Session;
+
+PeriodicResult steady(const std::string &text, const std::string &method = "")
+{
+  const test::SceneFolder folder;
+  PeriodicRequest         request;
+  request.method = method;
+  return *Session(folder.write("scene.toml", text)).periodic(request).periodic;
+}
+
+/// x'' - mu (1 - x^2) x' + x = 0
+std::string van_der_pol(const std::string &force)
+{
+  return slider_body("slide", "1", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}}) +
+         element("drive", "formula force", {{"from", "slide"}, {"force", force}}) +
+         test::quoted("[output.signals]\nx = 'slide.displacement'\n");
+}
+
+/// A crank as planar body on a pin, driven by a torque that falls with its speed, with rod and ram.
+std::string planar_crank(double torque, double rpm)
+{
+  return test::quoted("gravity = [0, 0, '-9.81 m/s^2']\n"
+                      "[body.crank]\ntype = 'planar'\nnormal = [0, 1, 0]\nposition = ['0.05 m', 0, 0]\nmass = '2 kg'\n"
+                      "inertia = '0.5 kg m^2'\n"
+                      "[body.rod]\ntype = 'planar'\nnormal = [0, 1, 0]\nposition = ['0.4 m', 0, 0]\nmass = '1 kg'\n"
+                      "inertia = '0.02 kg m^2'\n"
+                      "[body.ram]\ntype = 'slider'\naxis = [1, 0, 0]\nmass = '3 kg'\nposition = ['0.7 m', 0, 0]\n"
+                      "[joint.O]\ntype = 'revolute'\nfrom = 'ground'\nto = 'crank'\nat = [0, 0, 0]\n"
+                      "[joint.A]\ntype = 'revolute'\nfrom = 'crank'\nto = 'rod'\nat = ['0.1 m', 0, 0]\n"
+                      "[joint.B]\ntype = 'revolute'\nfrom = 'rod'\nto = 'ram'\nat = ['0.7 m', 0, 0]\n"
+                      "[element.motor]\ntype = 'formula force'\nfrom = 'crank'\nto = 'ground'\nabout = [0, 1, 0]\n"
+                      "force = '" +
+                      number(torque) + " N*m - 2 N*m*s/rad*v'\n[start]\nv = { 'crank.angle' = '" + number(rpm) +
+                      " rpm' }\n[run]\nmethod = 'bdf'\nstep = '0.5 ms'\nend = '1 s'\n"
+                      "[output.signals]\nx = 'ram.displacement'\n");
+}
+
+} // namespace
+
+/// Published to many digits for mu = 1: period 6.6632868593231, largest displacement 2.0086198608748.  From rest, which
+/// is an equilibrium, and by three methods.
+TEST(SelfExcitedScene, VanDerPolsOscillatorKeepsItsPublishedPeriod)
+{
+  for (const std::string method : {"shooting", "settling", "harmonic-balance"})
+  {
+    const PeriodicResult result = steady(van_der_pol("(1 N*s/m - 1 N*s/m^3*u^2)*v"), method);
+    ASSERT_EQ(result.entries.size(), 1u) << method << result.failure;
+    EXPECT_NEAR(result.entries[0].solution.period, 6.6632868593231, 1e-8) << method;
+    EXPECT_NEAR(result.entries[0].signals[0].max, 2.0086198608748, method == "harmonic-balance" ? 1e-4 : 1e-8)
+        << method;
+    EXPECT_TRUE(result.entries[0].solution.stable()) << method;
+  }
+}
+
+/// What loses its energy has no motion of its own but rest.
+TEST(SelfExcitedScene, AMachineThatComesToRestIsSaidTo)
+{
+  expect_refusal([] { steady(van_der_pol("-0.1 N*s/m*v")); }, "comes to rest");
+}
+
+/// Crank and rod are planar bodies, of which one turns and one swings; backwards the machine is its own mirror image,
+/// at the same speed.  Steps of 0.5 ms leave a relative 1e-6 of the period.
+TEST(SelfExcitedScene, APlanarCrankComesRoundInBothDirections)
+{
+  const PeriodicResult forward = steady(planar_crank(20., 95.)), backward = steady(planar_crank(-20., -95.));
+  ASSERT_EQ(forward.entries.size(), 1u) << forward.failure;
+  ASSERT_EQ(backward.entries.size(), 1u) << backward.failure;
+  EXPECT_NEAR(forward.entries[0].solution.period, 0.6286341, 1e-5);
+  EXPECT_NEAR(backward.entries[0].solution.period, forward.entries[0].solution.period, 1e-6);
+  EXPECT_NEAR(forward.entries[0].solution.turn.maxCoeff(), 2. * M_PI, 0.);
+  EXPECT_NEAR(backward.entries[0].solution.turn.minCoeff(), -2. * M_PI, 0.);
+  EXPECT_EQ((forward.entries[0].solution.turn.array() != 0.).count(), 1) << "the rod swings";
+}
+
+} // namespace gestell::tests
