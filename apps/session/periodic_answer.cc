@@ -128,7 +128,7 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
 }
 
 coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution &solution,
-                              const std::vector<coupling::Signal> &signals, int rows)
+                              const std::vector<coupling::Signal> &signals, int rows, OrbitRun keep)
 {
   coupling::RunOptions run;
   run.method = solution.integration;
@@ -137,7 +137,8 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution
   run.begin          = solution.begin;
   run.end            = solution.begin + solution.period;
   run.output_step    = solution.period / rows;
-  run.picture_step   = solution.period / 60.;
+  run.picture_step   = keep == OrbitRun::pictures ? solution.period / 60. : 0.;
+  run.energy         = keep == OrbitRun::pictures;
   run.force_unstable = true;
   coupling::InitialState initial;
   initial.t       = solution.begin;
@@ -157,7 +158,8 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
     trace_signals(machine, problem, solution, signals, rows, entry);
   else
   {
-    coupling::RunResult run = orbit_run(machine, solution, signals, rows);
+    coupling::RunResult run =
+        orbit_run(machine, solution, signals, rows, run_of_it ? OrbitRun::pictures : OrbitRun::signals);
     if (!run.failure.empty())
       throw coupling::ConvergenceFailure("the motion that was found cannot be traced: " + run.failure);
     entry.rows = signal_rows(run, signals.size());

@@ -28,9 +28,17 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine);
 
+/// What is kept of a run over a period besides the signals.
+enum class OrbitRun
+{
+  signals,
+  pictures ///< and the energy balance
+};
+
 /// One period of a solution as a run of the machine, begun on it.
 coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::PeriodicSolution &solution,
-                              const std::vector<coupling::Signal> &signals, int rows);
+                              const std::vector<coupling::Signal> &signals, int rows,
+                              OrbitRun keep = OrbitRun::pictures);
 
 /// The solution with its signals: extremes, harmonics, rows.
 /// @param run  becomes the run of one period that tells them; left as it is of a motion that is a series

@@ -1,6 +1,7 @@
 #include "apps/session/scene_family.h"
 
 #include "apps/scene/file/scene_file.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/session/repeating_machine.h"
 #include "coupling/frame/frame_recipe.h"
 #include "fem/values/nearest_name.h"
@@ -60,7 +61,8 @@ void require_parameter(const std::string &path, const std::vector<std::string> &
 SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
                          PreparedMachine &machine, const PeriodicRequest &request,
                          const coupling::PeriodicProblem &like)
-    : path_(path), key_(request.along), overrides_(overrides), scripts_(scripts), request_(request), like_(like)
+    : path_(path), key_(request.along), root_(read_scene_file(path, overrides)), scripts_(scripts), request_(request),
+      like_(like)
 {
   if (request.from.empty() || request.to.empty())
     throw std::invalid_argument("--along " + key_ + ": give its ends, --from and --to");
@@ -88,11 +90,11 @@ SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string>
 
 Scene SceneFamily::scene_at(double value) const
 {
-  std::vector<std::string> overrides = overrides_;
-  std::string              text;
+  std::string text;
   append_exact(text, value);
-  overrides.push_back(key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"'));
-  return read_scene(path_, overrides, scripts_);
+  SceneNode root = root_;
+  apply_override(root, key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"'));
+  return read_scene(root, path_, scripts_);
 }
 
 std::shared_ptr<MachineMember> SceneFamily::member(double value) const

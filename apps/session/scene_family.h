@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/file/scene_node.h"
 #include "apps/scene/scene.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/prepared_machine.h"
@@ -44,7 +45,7 @@ private:
   Scene scene_at(double value) const;
 
   std::string                                   path_, key_, unit_;
-  std::vector<std::string>                      overrides_;
+  SceneNode                                     root_; ///< of the file with all overrides but that of the entry
   fem::Scripts                                  scripts_;
   PeriodicRequest                               request_;
   double                                        from_ = 0., to_ = 0.;

@@ -3,11 +3,14 @@
 #include "coupling/integration/step/implicit_step.h"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <variant>
 
 namespace gestell::coupling
 {
+
+class SharedModes;
 
 /// A parameter that one method has: a number, or one of its choices.
 using MethodValue = std::variant<double, std::string>;
@@ -25,6 +28,9 @@ struct MethodOptions
   /// Parameters of IntegrationMethod::parameters(); those left out have their default, those of other methods are not
   /// looked at.
   std::map<std::string, MethodValue> own{};
+
+  /// Of the base, kept for systems with the same matrices by methods that work in modes; null: found by each.
+  std::shared_ptr<SharedModes> modes{};
 
   void set(const std::string &parameter, double value) { own[parameter] = value; }
   void set(const std::string &parameter, const std::string &choice) { own[parameter] = choice; }

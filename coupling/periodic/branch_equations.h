@@ -24,7 +24,7 @@ public:
   virtual const Eigen::VectorXd &residual() const = 0;
   virtual const Eigen::MatrixXd &jacobian() const = 0;
   virtual double                 closing() const  = 0; ///< size of F, relative
-  /// Of the last evaluation, which had a jacobian; with multipliers.
+  /// Of the last evaluation; with multipliers where it had a jacobian.
   virtual PeriodicSolution solution() = 0;
 };
 

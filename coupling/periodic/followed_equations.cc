@@ -1,5 +1,6 @@
 #include "coupling/periodic/followed_equations.h"
 
+#include "coupling/integration/propagation/shared_modes.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/shooting.h"
 
@@ -17,6 +18,8 @@ public:
   ShootingBranch(ProblemFamily family, const PeriodicOptions &options, double omega, int ratio)
       : family_(std::move(family)), options_(options), omega_(omega), ratio_(ratio)
   {
+    if (!options_.integration.modes)
+      options_.integration.modes = std::make_shared<SharedModes>();
   }
 
   VectorXd unknowns(const PeriodicSolution &solution, double) override

@@ -1,5 +1,6 @@
 #include "coupling/integration/propagation/modal_blocks.h"
 
+#include "coupling/integration/propagation/shared_modes.h"
 #include "coupling/integration/system/dense_solvers.h"
 
 #include <Eigen/Cholesky>
@@ -67,8 +68,7 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C,
   const VectorXd             pivots = cholesky.matrixLLT().diagonal();
   for (Eigen::Index i = 0; i < M.rows(); ++i)
     if (!(M(i, i) > 0.) || !(pivots[i] * pivots[i] > 1e-14 * M(i, i)))
-      refuse("the mass matrix is singular at " + coordinate_name(int(i)) +
-             "; give it mass, or take the method bdf");
+      refuse("the mass matrix is singular at " + coordinate_name(int(i)) + "; give it mass, or take the method bdf");
   if (cholesky.info() != Eigen::Success)
     refuse("the mass matrix is not positive definite; take the method bdf");
 
@@ -382,7 +382,7 @@ ModalBlocks modal_blocks(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C
   return result;
 }
 
-ModalBlocks modal_blocks(const SecondOrderSystem &system)
+ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared)
 {
   MatrixXd M, B, C;
   if (!system.linear().dense_matrices(M, B, C))
@@ -392,7 +392,8 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system)
     refuse("the load is no sum of harmonics; take the method bdf");
   if (system.joints().n_rows() > 0)
     refuse("ideal joints are not integrated by it; use compliant ones");
-  ModalBlocks result    = modal_blocks(M, B, C, [&](int i) { return system.linear().coordinate_name(i); });
+  const auto  name      = [&](int i) { return system.linear().coordinate_name(i); };
+  ModalBlocks result    = shared ? shared->of(M, B, C, name) : modal_blocks(M, B, C, name);
   const auto &harmonics = system.linear().excitation().harmonics();
   const auto  n = M.rows(), n_x = 2 * (n + Eigen::Index(harmonics.size()));
   result.Q.conservativeResize(n, n_x);

@@ -54,9 +54,12 @@ struct ModalBlocks
   void turn_harmonics(double t, Eigen::VectorXd &x) const;
 };
 
+class SharedModes;
+
+/// @param shared  with systems of the same matrices; null: the modes are found anew
 /// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is no sum of
 ///         harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
-ModalBlocks modal_blocks(const SecondOrderSystem &system);
+ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared = nullptr);
 
 /// Those of the matrices alone [n x n], symmetric, without loads.
 /// @param coordinate_name  of coordinate i, for messages

@@ -37,7 +37,8 @@ double natural_step(const ModalBlocks &modes)
 } // namespace
 
 ModalPropagation::ModalPropagation(const SecondOrderSystem &system, const Options &options)
-    : system_(system), options_(options), modes_(modal_blocks(system)), context_(system, modes_, options.newton)
+    : system_(system), options_(options), modes_(modal_blocks(system, options.modes.get())),
+      context_(system, modes_, options.newton)
 {
   const auto n_u = system.forces().directions().cols();
   force_         = options.force == ForceRule::collocation ? make_collocation_step(context_, options.order / 2)

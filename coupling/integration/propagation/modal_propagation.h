@@ -45,6 +45,7 @@ public:
     double        tolerance = 0.; ///< of the local error in the measures, relative to their largest excursion; 0: fixed
     int           max_halvings = 24;
     NewtonOptions newton{};
+    std::shared_ptr<SharedModes> modes; ///< of systems with the same matrices; null: its own
   };
 
   /// @throws std::invalid_argument as modal_blocks()

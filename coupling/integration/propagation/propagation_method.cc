@@ -139,6 +139,7 @@ std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem 
   options.step      = o.step;
   options.tolerance = o.tolerance;
   options.newton    = o.newton;
+  options.modes     = o.modes;
   if (controlled(o))
     options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest);
   else
