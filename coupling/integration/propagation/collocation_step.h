@@ -2,6 +2,8 @@
 
 #include "coupling/integration/propagation/force_step.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <vector>
 
@@ -51,13 +53,21 @@ public:
   void carry_tangents(Eigen::MatrixXd &X) override;
 
 private:
-  /// dp/du, dp/dv at the points of a step [n_u x s n_u], and the measures whose forces change with the motion.
-  struct LinearisedForces
+  /// Work space of carry_tangents(), for the n measures whose forces change with the motion.
+  struct TangentWork
   {
-    Eigen::MatrixXd  of_u, of_v;
-    std::vector<int> measures;
+    Eigen::MatrixXd                      all_of_u, all_of_v; ///< dp/du, dp/dv at the points of a step [n_u x s n_u]
+    std::vector<int>                     measures;
+    Eigen::MatrixXd                      rows, in;   ///< [2 s n x 2 n_p], [2 n_p x s n]
+    Eigen::MatrixXd                      S_u, S_v;   ///< [s n x s n]
+    Eigen::MatrixXd                      of_u, of_v; ///< at one point [n x n]
+    Eigen::MatrixXd                      free, matrix, forces, dP;
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    Eigen::ArrayXd                       first; ///< [n_p]
   };
-  LinearisedForces linearised_forces();
+  void linearise_forces();
+  void take_measures(const StepTable &table);
+  void fill_tangent_rows(const StepTable &table, int i);
 
   static HermiteNodes hermite_nodes(std::vector<double> points);
 
@@ -132,6 +142,7 @@ private:
   double              defect_part_ = 1.;      ///< the largest of them, as a part of the largest force
   const StepTable    *tried_       = nullptr; ///< of a step from the present begin
   Eigen::MatrixXd     U_, V_, dp_du_, dp_dv_, extrapolate_;
+  TangentWork         tangent_;
   std::vector<double> at_begin_, at_end_;
   LocalState          begin_at_, node_;
   SmallLu             lu_, sound_;
