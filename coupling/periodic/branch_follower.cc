@@ -33,8 +33,8 @@ double least_pivot(const MatrixXd &J)
 
 } // namespace
 
-BranchFollower::BranchFollower(BranchEquations &equations, const ContinuationOptions &options)
-    : equations_(equations), options_(options), range_(options.to - options.from)
+BranchFollower::BranchFollower(BranchEquations &equations, double range, double tolerance)
+    : equations_(equations), range_(range), tolerance_(tolerance)
 {
 }
 
@@ -103,7 +103,7 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
     const double   here = equations_.closing();
     if (!F.allFinite())
       return false;
-    if (here <= options_.tolerance)
+    if (here <= tolerance_)
     {
       point.z          = z;
       point.lambda     = lambda;

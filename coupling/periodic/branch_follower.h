@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/periodic/branch_equations.h"
-#include "coupling/periodic/continuation.h"
 
 #include <Eigen/Core>
 
@@ -38,7 +37,9 @@ public:
     all
   };
 
-  BranchFollower(BranchEquations &equations, const ContinuationOptions &options);
+  /// @param range      of the parameter, with the sign of its way
+  /// @param tolerance  of closing()
+  BranchFollower(BranchEquations &equations, double range, double tolerance);
 
   /// The point at fixed lambda nearest to z, with the tangent that goes on along that of `near`.
   bool at_parameter(const Eigen::VectorXd &z, double lambda, const Point &near, Point &point);
@@ -60,9 +61,8 @@ private:
   Eigen::MatrixXd bordered(const Eigen::MatrixXd &derivative, const Eigen::VectorXd &last) const;
   Eigen::MatrixXd unscaled(const Eigen::MatrixXd &bordered) const;
 
-  BranchEquations           &equations_;
-  const ContinuationOptions &options_;
-  double                     range_, size_ = 1e-300;
+  BranchEquations &equations_;
+  double           range_, tolerance_, size_ = 1e-300;
 };
 
 } // namespace gestell::coupling

@@ -1,6 +1,6 @@
 #include "coupling/periodic/followed_equations.h"
 
-#include "coupling/integration/propagation/shared_modes.h"
+#include "coupling/integration/propagation/modal_blocks.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/shooting.h"
 

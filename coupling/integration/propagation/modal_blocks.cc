@@ -1,6 +1,5 @@
 #include "coupling/integration/propagation/modal_blocks.h"
 
-#include "coupling/integration/propagation/shared_modes.h"
 #include "coupling/integration/system/dense_solvers.h"
 
 #include <Eigen/Cholesky>
@@ -318,6 +317,11 @@ void add_harmonic(const Excitation::Harmonic &harmonic, ModalBlocks &to, Eigen::
   to.V.col(column + 1) = -omega * to.Q.col(column);
 }
 
+bool same_matrix(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
+{
+  return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+}
+
 } // namespace
 
 Eigen::VectorXd ModalBlocks::state(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const
@@ -380,6 +384,19 @@ ModalBlocks modal_blocks(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C
   // G = from_v M^-1
   result.G = M.llt().solve(assembly.from_v.transpose()).transpose();
   return result;
+}
+
+const ModalBlocks &SharedModes::of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                                   const std::function<std::string(int)> &coordinate_name)
+{
+  if (found_ > 0 && same_matrix(M, M_) && same_matrix(B, B_) && same_matrix(C, C_))
+    return blocks_;
+  blocks_ = modal_blocks(M, B, C, coordinate_name);
+  M_      = M;
+  B_      = B;
+  C_      = C;
+  ++found_;
+  return blocks_;
 }
 
 ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared)

@@ -54,18 +54,32 @@ struct ModalBlocks
   void turn_harmonics(double t, Eigen::VectorXd &x) const;
 };
 
-class SharedModes;
+/// Those of the matrices alone [n x n], symmetric, without loads.
+/// @param coordinate_name  of coordinate i, for messages
+/// @throws std::invalid_argument: M is singular, or eigenvectors coincide
+ModalBlocks modal_blocks(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                         const std::function<std::string(int)> &coordinate_name);
+
+/// The modes of the matrices that were asked for last: systems of a family, whose forces and loads differ but whose
+/// matrices do not, share them.
+class SharedModes
+{
+public:
+  /// As modal_blocks(M, B, C, coordinate_name), found anew where a matrix differs in any digit.
+  const ModalBlocks &of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
+                        const std::function<std::string(int)> &coordinate_name);
+  int                found() const { return found_; } ///< how often
+
+private:
+  Eigen::MatrixXd M_, B_, C_;
+  ModalBlocks     blocks_;
+  int             found_ = 0;
+};
 
 /// @param shared  with systems of the same matrices; null: the modes are found anew
 /// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is no sum of
 ///         harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
 ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared = nullptr);
-
-/// Those of the matrices alone [n x n], symmetric, without loads.
-/// @param coordinate_name  of coordinate i, for messages
-/// @throws std::invalid_argument as above: M is singular, or eigenvectors coincide
-ModalBlocks modal_blocks(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
-                         const std::function<std::string(int)> &coordinate_name);
 
 /// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] by columns a, b as the block's kind has it.
 struct Block2
