@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <string>
+#include <complex>
 #include <vector>
 
 namespace gestell::coupling
@@ -13,31 +13,64 @@ namespace gestell::coupling
 /**
  * The base system of a machine as it answers harmonic forces F e^(i w t), in its complex modes:
  *
- *     q = Y(w) F,     Y = (-w^2 M + i w B + C)^-1 = Q (i w E - Lambda)^-1 G,
+ *     q = Y(s) F,     Y(s) = (s^2 M + s B + C)^-1 = Q (s E - Lambda)^-1 G,     s = i w,
  *
- * so that a frequency costs two multiplications per mode and entry, and no factor.  Virtual coordinates T x' + x = f
- * are states of their own.
+ * so that a frequency costs two multiplications per mode and entry, and no factor; condensed to what is read and where
+ * forces act,
  *
- * Source: docs/frf.md (3).
+ *     R(s) = read^T (s E - Lambda)^-1 put = sum over the blocks of their products, weighed by shares that tell of s,
+ *
+ * m operations for a frequency and an entry.  What is singular at s = 0 (motions without stiffness) is left out there.
+ * Virtual coordinates T x' + x = f are states of their own.
+ *
+ * Source: docs/frf.md (3), docs/theory/periodic.md (6).
  */
 class BaseReceptance
 {
 public:
+  /// @param read  W of what is read [n x n_rows]
+  /// @param act   W of the forces [n x n_u]
   /// @throws std::invalid_argument if the matrices are not dense, a coordinate has no mass or eigenvectors coincide
-  explicit BaseReceptance(const LinearSystem &base);
+  BaseReceptance(const LinearSystem &base, const Eigen::MatrixXd &read, const Eigen::MatrixXd &act);
+  /// Of modes that are known; blocks of a load are left out.
+  BaseReceptance(const ModalBlocks &modes, const Eigen::MatrixXd &read, const Eigen::MatrixXd &act);
 
-  Eigen::Index           n_states() const { return Q_.cols(); }
-  const Eigen::MatrixXd &Q() const { return Q_; } ///< [n x n_x]
-  const Eigen::MatrixXd &G() const { return G_; } ///< [n_x x n]
+  Eigen::Index                   n_states() const { return Q_.cols(); }
+  const Eigen::MatrixXd         &Q() const { return Q_; }       ///< [n x n_x]
+  const Eigen::MatrixXd         &G() const { return G_; }       ///< [n_x x n]
+  const Eigen::MatrixXd         &read() const { return read_; } ///< Q^T W of what is read [n_x x n_rows]
+  const Eigen::MatrixXd         &put() const { return put_; }   ///< G W of the forces [n_x x n_u]
+  const std::vector<ModalBlock> &blocks() const { return blocks_; }
 
-  /// X becomes (i w E - Lambda)^-1 X, [n_x x columns].  A block that is undamped and driven at its own frequency makes
+  /// X becomes (s E - Lambda)^-1 X, [n_x x columns].  A block that is undamped and driven at its own frequency makes
   /// it infinite.
-  void divide(double omega, Eigen::MatrixXcd &X) const;
+  void divide(std::complex<double> s, Eigen::Ref<Eigen::MatrixXcd> X) const;
+
+  enum class Slopes
+  {
+    none,
+    with
+  };
+  /// Forms R at s = i h omega, h = 0 ... H, and the slopes over omega if wanted.
+  void             tabulate(double omega, int harmonics, Slopes slopes);
+  Eigen::MatrixXcd R(int h) const { return entry(table_, h); }       ///< [n_rows x n_u]
+  Eigen::MatrixXcd R_slope(int h) const { return entry(slope_, h); } ///< over omega [s/rad]
 
 private:
-  std::vector<ModalBlock> blocks_;
-  std::vector<double>     decay_; ///< -1/T [1/s] of the virtual coordinates, whose states stand behind the blocks
-  Eigen::MatrixXd         Q_, G_;
+  void             fill_products();
+  void             fill_shares(int h);
+  void             fill_share_slopes(int h);
+  Eigen::MatrixXcd entry(const Eigen::MatrixXd &table, int h) const;
+
+  std::vector<ModalBlock> blocks_; ///< of modes, then of virtual coordinates, whose second state is nothing
+  Eigen::MatrixXd         Q_, G_, read_, put_;
+  Eigen::ArrayXd          s_, w_;         ///< of the blocks
+  std::vector<int>        others_;        ///< blocks that do not oscillate
+  Eigen::MatrixXd         products_;      ///< of read and put, one or two for each block [n_rows n_u x (1 or 2) n_b]
+  Eigen::MatrixXd         shares_;        ///< of the blocks at the harmonics [1 or 2 n_b x 2 or 4 (H + 1)]
+  Eigen::MatrixXd         table_, slope_; ///< R and its slopes, real parts and imaginary ones beside them
+  double                  omega_     = 0.;
+  int                     harmonics_ = 0;
 };
 
 } // namespace gestell::coupling

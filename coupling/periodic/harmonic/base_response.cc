@@ -39,82 +39,27 @@ ModalBlocks modes_for_harmonics(const SecondOrderSystem &system)
   }
 }
 
-/// Shares c_1, c_2 of the two products of a block in R(s), and their slopes over s; what is singular at s = 0 is zero.
-struct BlockShares
+/// Measures, and the coordinate of the phase behind them [n x n_rows].
+MatrixXd rows_of(const PeriodicProblem &problem)
 {
-  Complex c[2] = {0., 0.}, slope[2] = {0., 0.};
-};
-
-BlockShares shares_at(const ModalBlock &block, Complex s)
-{
-  BlockShares shares;
-  if (block.kind == ModalBlock::oscillating)
-  {
-    const Complex a = s - block.s, determinant = a * a + block.w * block.w;
-    shares.c[0]     = a / determinant;
-    shares.c[1]     = block.w / determinant;
-    shares.slope[0] = (block.w * block.w - a * a) / (determinant * determinant);
-    shares.slope[1] = -2. * a * block.w / (determinant * determinant);
-    return shares;
-  }
-  if (block.kind == ModalBlock::free)
-  {
-    if (s == 0.)
-      return shares;
-    shares.c[0]     = 1. / s;
-    shares.c[1]     = 1. / (s * s);
-    shares.slope[0] = -1. / (s * s);
-    shares.slope[1] = -2. / (s * s * s);
-    return shares;
-  }
-  const double eigenvalues[] = {block.s, block.w};
-  for (int k = 0; k < 2; ++k)
-    if (const Complex a = s - eigenvalues[k]; a != 0.)
-    {
-      shares.c[k]     = 1. / a;
-      shares.slope[k] = -1. / (a * a);
-    }
-  return shares;
-}
-
-/// The two products of read (r_1, r_2) and put (p_1, p_2) that BlockShares weighs.
-void products_of(const ModalBlock &block, double r_1, double r_2, double p_1, double p_2, double &first, double &second)
-{
-  if (block.kind == ModalBlock::oscillating)
-  {
-    first  = r_1 * p_1 + r_2 * p_2;
-    second = r_2 * p_1 - r_1 * p_2;
-  }
-  else if (block.kind == ModalBlock::free)
-  {
-    first  = r_1 * p_1 + r_2 * p_2;
-    second = r_1 * p_2;
-  }
-  else
-  {
-    first  = r_1 * p_1;
-    second = r_2 * p_2;
-  }
+  const MatrixXd W = MatrixXd(problem.system->forces().directions());
+  if (!problem.period_is_unknown())
+    return W;
+  MatrixXd rows(W.rows(), W.cols() + 1);
+  rows << W, VectorXd::Unit(W.rows(), problem.phase);
+  return rows;
 }
 
 } // namespace
 
 BaseResponse::BaseResponse(const PeriodicProblem &problem)
-    : modes_(modes_for_harmonics(*problem.system)), begin_(problem.begin)
+    : modes_(modes_for_harmonics(*problem.system)),
+      base_(modes_, rows_of(problem), MatrixXd(problem.system->forces().directions())), n_u_(int(base_.put().cols())),
+      n_rows_(int(base_.read().cols())), begin_(problem.begin)
 {
-  const MatrixXd W     = MatrixXd(problem.system->forces().directions());
-  const auto     modal = 2 * Eigen::Index(modes_.n_modal);
-  n_u_                 = int(W.cols());
-  n_rows_              = n_u_ + (problem.period_is_unknown() ? 1 : 0);
-  read_.resize(modal, n_rows_);
-  read_.leftCols(n_u_) = (W.transpose() * modes_.Q.leftCols(modal)).transpose();
-  if (problem.period_is_unknown())
-    read_.col(n_u_) = modes_.Q.row(problem.phase).head(modal).transpose();
-  put_ = modes_.G * W;
   check_turn(problem);
   gather_loads(problem);
   gather_free_motions();
-  fill_products();
 }
 
 /// A ramp needs no force of the base where C turn = 0.
@@ -183,74 +128,7 @@ void BaseResponse::gather_free_motions()
   }
   free_columns_.resize(n_rows_, n_free());
   for (int k = 0; k < n_free(); ++k)
-    free_columns_.col(k) = read_.row(free_[k].unknown).transpose();
-}
-
-/// The first products of all blocks, then the second ones.  Those of modes that no damping couples have no first ones.
-void BaseResponse::fill_products()
-{
-  const int n_b = modes_.n_modal;
-  products_.resize(Eigen::Index(n_rows_) * n_u_, 2 * n_b);
-  for (int b = 0; b < n_b; ++b)
-    for (int j = 0; j < n_u_; ++j)
-      for (int i = 0; i < n_rows_; ++i)
-        products_of(modes_.blocks[b], read_(2 * b, i), read_(2 * b + 1, i), put_(2 * b, j), put_(2 * b + 1, j),
-                    products_(i + n_rows_ * j, b), products_(i + n_rows_ * j, n_b + b));
-  if (products_.leftCols(n_b).isZero(0.))
-    products_ = MatrixXd(products_.rightCols(n_b));
-  s_.resize(n_b);
-  w_.resize(n_b);
-  for (int b = 0; b < n_b; ++b)
-  {
-    const ModalBlock &block = modes_.blocks[b];
-    s_[b]                   = block.s;
-    w_[b]                   = block.w;
-    if (block.kind != ModalBlock::oscillating)
-      others_.push_back(b);
-  }
-}
-
-/// Of all blocks at s = i h omega, real and imaginary parts; at once where they oscillate.
-void BaseResponse::fill_shares(int h)
-{
-  const Eigen::Index   n_b = w_.size(), rest = products_.cols() - n_b;
-  const double         Omega = h * omega_;
-  const Eigen::ArrayXd x = s_ * s_ + (w_ - Omega) * (w_ + Omega), y = -2. * Omega * s_;
-  const Eigen::ArrayXd inverse = (x * x + y * y).inverse(); // 1/det = (x - i y) inverse
-  auto                 real = shares_.col(h), imaginary = shares_.col(harmonics_ + 1 + h);
-  if (rest > 0)
-  {
-    real.head(rest)      = ((Omega * y - s_ * x) * inverse).matrix();
-    imaginary.head(rest) = ((Omega * x + s_ * y) * inverse).matrix();
-  }
-  real.tail(n_b)      = (w_ * x * inverse).matrix();
-  imaginary.tail(n_b) = (-w_ * y * inverse).matrix();
-  for (const int b : others_)
-  {
-    const BlockShares shares = shares_at(modes_.blocks[b], Complex(0., Omega));
-    for (int k = rest > 0 ? 0 : 1; k < 2; ++k)
-    {
-      real[k == 0 ? b : rest + b]      = shares.c[k].real();
-      imaginary[k == 0 ? b : rest + b] = shares.c[k].imag();
-    }
-  }
-}
-
-/// d/domega of the shares.
-void BaseResponse::fill_share_slopes(int h)
-{
-  const Eigen::Index n_b = w_.size(), rest = products_.cols() - n_b;
-  for (Eigen::Index b = 0; b < n_b; ++b)
-  {
-    const BlockShares shares = shares_at(modes_.blocks[b], Complex(0., h * omega_));
-    for (int k = rest > 0 ? 0 : 1; k < 2; ++k)
-    {
-      const Complex      slope               = Complex(0., h) * shares.slope[k];
-      const Eigen::Index row                 = k == 0 ? b : rest + b;
-      shares_(row, 2 * (harmonics_ + 1) + h) = slope.real();
-      shares_(row, 3 * (harmonics_ + 1) + h) = slope.imag();
-    }
-  }
+    free_columns_.col(k) = base_.read().row(free_[k].unknown).transpose();
 }
 
 int BaseResponse::largest_load() const
@@ -266,17 +144,7 @@ void BaseResponse::form(double omega, int harmonics, Slopes slopes)
   omega_     = omega;
   harmonics_ = harmonics;
   check_resonance();
-  const int n_h = harmonics + 1;
-  shares_.resize(products_.cols(), (slopes == Slopes::with ? 4 : 2) * n_h);
-  for (int h = 0; h < n_h; ++h)
-  {
-    fill_shares(h);
-    if (slopes == Slopes::with)
-      fill_share_slopes(h);
-  }
-  table_.noalias() = products_ * shares_.leftCols(2 * n_h);
-  if (slopes == Slopes::with)
-    slope_.noalias() = products_ * shares_.rightCols(2 * n_h);
+  base_.tabulate(omega, harmonics, slopes);
   form_forced(slopes);
 }
 
@@ -297,38 +165,18 @@ void BaseResponse::check_resonance() const
   }
 }
 
-Eigen::MatrixXcd BaseResponse::matrix(const MatrixXd &table, int h) const
-{
-  MatrixXcd R(n_rows_, n_u_);
-  R.real() = Eigen::Map<const MatrixXd>(table.col(h).data(), n_rows_, n_u_);
-  R.imag() = Eigen::Map<const MatrixXd>(table.col(harmonics_ + 1 + h).data(), n_rows_, n_u_);
-  return R;
-}
-
 /// (s - Lambda)^-1 g; what is singular at s = 0 is left out.
 VectorXcd BaseResponse::solve(Complex s, const VectorXcd &g) const
 {
-  VectorXcd x(g.size());
-  for (int b = 0; b < modes_.n_modal; ++b)
-  {
-    const ModalBlock &block  = modes_.blocks[b];
-    const BlockShares shares = shares_at(block, s);
-    const Complex     g_1 = g[2 * b], g_2 = g[2 * b + 1];
-    const Complex     second = block.kind == ModalBlock::decaying ? shares.c[1] : shares.c[0];
-    x[2 * b]                 = shares.c[0] * g_1;
-    x[2 * b + 1]             = second * g_2;
-    if (block.kind == ModalBlock::oscillating)
-      x[2 * b + 1] += shares.c[1] * g_1;
-    if (block.kind != ModalBlock::decaying)
-      x[2 * b] += (block.kind == ModalBlock::free ? 1. : -1.) * shares.c[1] * g_2;
-  }
+  VectorXcd x = g;
+  base_.divide(s, x);
   return x;
 }
 
 /// Put by the loads, with the phase they have at t_0.
 VectorXcd BaseResponse::load_at(int h) const
 {
-  VectorXcd g = VectorXcd::Zero(put_.rows());
+  VectorXcd g = VectorXcd::Zero(base_.put().rows());
   if (h == 0)
     g.real() = constant_ + omega_ * turning_;
   for (const Load &load : loads_)
@@ -350,12 +198,12 @@ void BaseResponse::form_forced(Slopes slopes)
       continue;
     const Complex   s(0., h * omega_);
     const VectorXcd g = load_at(h), x = solve(s, g);
-    forced_[h] = read_.transpose() * x;
+    forced_[h] = base_.read().transpose() * x;
     if (slopes == Slopes::none)
       continue;
     const VectorXcd slope =
         h == 0 ? solve(s, turning_.cast<Complex>()) : VectorXcd(Complex(0., h) * (begin_ * x - solve(s, x)));
-    forced_slope_[h] = read_.transpose() * slope;
+    forced_slope_[h] = base_.read().transpose() * slope;
   }
 }
 
@@ -364,7 +212,7 @@ MatrixXd BaseResponse::free_rows() const
 {
   MatrixXd rows(n_free(), n_u_);
   for (int k = 0; k < n_free(); ++k)
-    rows.row(k) = put_.row(free_[k].equation) * std::pow(omega_, -free_[k].power);
+    rows.row(k) = base_.put().row(free_[k].equation) * std::pow(omega_, -free_[k].power);
   return rows;
 }
 
@@ -388,11 +236,11 @@ VectorXd BaseResponse::free_loads_slope(const VectorXd &p) const
 
 VectorXcd BaseResponse::displacement(int h, const VectorXcd &p, const VectorXd &y) const
 {
-  VectorXcd x = solve(Complex(0., h * omega_), put_ * p + load_at(h));
+  VectorXcd x = solve(Complex(0., h * omega_), base_.put() * p + load_at(h));
   if (h == 0)
     for (int k = 0; k < n_free(); ++k)
       x[free_[k].unknown] += y[k];
-  return modes_.Q.leftCols(put_.rows()) * x;
+  return modes_.Q.leftCols(base_.put().rows()) * x;
 }
 
 VectorXd BaseResponse::mean_of_free(const VectorXd &q) const

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/propagation/modal_blocks.h"
+#include "coupling/periodic/base_receptance.h"
 #include "coupling/periodic/periodic_problem.h"
 
 #include <Eigen/Core>
@@ -17,8 +17,7 @@ namespace gestell::coupling
  *
  *     u_h = R_h p_h + u0_h,     R_h = W^T D(i h omega)^-1 W,     D(s) = s^2 M + s B + C,
  *
- * from the modes, R_h = sum over their blocks of read (s - Lambda)^-1 put: m operations for a harmonic and a pair of
- * measures, and no unknowns.
+ * from the modes (BaseReceptance): m operations for a harmonic and a pair of measures, and no unknowns.
  *
  * Motions without stiffness make D(0) singular.  Their mean displacements y stay unknown, and their balance of mean
  * forces are equations of their own:
@@ -40,18 +39,14 @@ public:
   int n_free() const { return static_cast<int>(free_.size()); }
   int largest_load() const; ///< highest harmonic of the load
 
-  enum class Slopes
-  {
-    none,
-    with
-  };
+  using Slopes = BaseReceptance::Slopes;
   /// Forms R_h, u0_h for h = 0 ... H at omega [rad/s] anew, and their slopes over omega if wanted.
   /// @throws std::invalid_argument if an undamped mode stands at a harmonic
   void form(double omega, int harmonics, Slopes slopes);
 
-  Eigen::MatrixXcd        R(int h) const { return matrix(table_, h); }       ///< [n_rows x n_u]
-  Eigen::MatrixXcd        R_slope(int h) const { return matrix(slope_, h); } ///< over omega [s/rad]
-  const Eigen::VectorXcd &u0(int h) const { return forced_[h]; }             ///< [n_rows]
+  Eigen::MatrixXcd        R(int h) const { return base_.R(h); }             ///< [n_rows x n_u]
+  Eigen::MatrixXcd        R_slope(int h) const { return base_.R_slope(h); } ///< over omega [s/rad]
+  const Eigen::VectorXcd &u0(int h) const { return forced_[h]; }            ///< [n_rows]
   const Eigen::VectorXcd &u0_slope(int h) const { return forced_slope_[h]; }
 
   const Eigen::MatrixXd &free_columns() const { return free_columns_; }   ///< U_y [n_rows x n_free]
@@ -79,29 +74,20 @@ private:
   void             gather_loads(const PeriodicProblem &problem);
   void             gather_free_motions();
   void             check_turn(const PeriodicProblem &problem) const;
-  void             fill_products();
-  void             fill_shares(int h);
-  void             fill_share_slopes(int h);
   void             check_resonance() const;
   Eigen::VectorXcd load_at(int h) const;
   Eigen::VectorXcd solve(std::complex<double> s, const Eigen::VectorXcd &g) const;
   void             form_forced(Slopes slopes);
-  Eigen::MatrixXcd matrix(const Eigen::MatrixXd &table, int h) const;
 
   ModalBlocks                   modes_;
+  BaseReceptance                base_;
   int                           n_u_ = 0, n_rows_ = 0, harmonics_ = 0;
   double                        omega_ = 0., begin_ = 0.;
-  Eigen::MatrixXd               read_, put_; ///< [2 n_modal x n_rows], [2 n_modal x n_u]
-  Eigen::VectorXd               constant_;   ///< put by the constant load [2 n_modal]
-  Eigen::VectorXd               turning_;    ///< put by a ramp of turn in one radian of omega t [2 n_modal]
+  Eigen::VectorXd               constant_; ///< put by the constant load [2 n_modal]
+  Eigen::VectorXd               turning_;  ///< put by a ramp of turn in one radian of omega t [2 n_modal]
   std::vector<Load>             loads_;
   std::vector<FreeMotion>       free_;
   Eigen::MatrixXd               free_columns_;
-  Eigen::MatrixXd               products_;      ///< of read and put, two for each block [n_rows n_u x (1 or 2) n_modal]
-  Eigen::MatrixXd               shares_;        ///< of the blocks at the harmonics [2 n_modal x 2 (H + 1)]
-  Eigen::ArrayXd                s_, w_;         ///< of the blocks [n_modal]
-  std::vector<int>              others_;        ///< blocks that do not oscillate
-  Eigen::MatrixXd               table_, slope_; ///< R_h and their slopes, real parts and imaginary ones beside them
   std::vector<Eigen::VectorXcd> forced_, forced_slope_;
 };
 

@@ -1,6 +1,6 @@
 #include "coupling/periodic/response/linear_response.h"
 
-#include "coupling/periodic/response/base_receptance.h"
+#include "coupling/periodic/base_receptance.h"
 
 #include <Eigen/LU>
 
@@ -85,7 +85,6 @@ struct LinearisedSystem
   MatrixXd                      E;
   Index                         n_c = 0;
   std::optional<BaseReceptance> modes;
-  MatrixXd                      WQ, GW; ///< [n_u x n_x], [n_x x n_u]
   std::string                   not_condensed;
 
   Index     n() const { return M.rows(); }
@@ -144,9 +143,9 @@ class Condensed final : public AtFrequency
 public:
   Condensed(const LinearisedSystem &parts, double omega) : parts_(parts), omega_(omega), D_(parts.D(omega))
   {
-    driven_ = parts.GW.cast<Complex>();
-    parts.modes->divide(omega, driven_);
-    Y_              = parts.WQ * driven_;
+    driven_ = parts.modes->put().cast<Complex>();
+    parts.modes->divide(Complex(0., omega), driven_);
+    Y_              = parts.modes->read().transpose() * driven_;
     const Index n_u = parts.n_u(), n_e = parts.E.rows();
     unit_           = Y_.size() > 0 ? Y_.cwiseAbs().maxCoeff() : 1.; // of mu, so that both columns are alike
     MatrixXcd small = MatrixXcd::Zero(n_u + n_e, n_u + n_e);
@@ -164,12 +163,12 @@ public:
   {
     const Index n_u = parts_.n_u(), n_e = parts_.E.rows();
     MatrixXcd   x = parts_.modes->G() * rhs.q;
-    parts_.modes->divide(omega_, x);
+    parts_.modes->divide(Complex(0., omega_), x);
     Solution result{{}, MatrixXcd::Zero(n_u, x.cols()), MatrixXcd::Zero(n_e, x.cols())};
     if (n_u > 0)
     {
       MatrixXcd known(n_u + n_e, x.cols());
-      known << parts_.WQ * x + Y_ * rhs.p, rhs.mu;
+      known << parts_.modes->read().transpose() * x + Y_ * rhs.p, rhs.mu;
       const MatrixXcd found = lu_.solve(known);
       result.mu             = found.bottomRows(n_e) / unit_;
       result.p              = rhs.p - D_ * found.topRows(n_u) + parts_.E.transpose() * result.mu;
@@ -309,9 +308,8 @@ LinearResponse::LinearResponse(const SecondOrderSystem &system, const OperatingP
   own.n_c = system.joints().n_rows();
   try
   {
-    own.modes.emplace(system.linear());
-    own.WQ = own.W.transpose() * own.modes->Q();
-    own.GW = own.modes->G() * own.W;
+    const MatrixXd W = own.W;
+    own.modes.emplace(system.linear(), W, W);
   }
   catch (const std::invalid_argument &error)
   {
