@@ -1,6 +1,8 @@
 #include "apps/session/periodic_answer.h"
 
 #include "coupling/machine/accelerations.h"
+#include "coupling/periodic/harmonic/fourier_transform.h"
+#include "coupling/periodic/harmonic/signal_harmonics.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/trace_orbit.h"
@@ -20,30 +22,17 @@ constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace
 
 using coupling::PeriodicSolution;
 
-/// Amplitudes and phases from rows over one period, the last row being the first again.
-void find_harmonics(const std::vector<double> &rows, std::size_t width, std::size_t column, int ratio, double begin,
-                    double period, SignalOrbit &signal)
+/// Mean, amplitudes and phases of column `column` of rows over one period, the last row being the first again.
+void take_harmonics(const PeriodicEntry &entry, std::size_t width, std::size_t column, SignalOrbit &signal)
 {
-  const std::size_t n   = rows.size() / width - 1;
-  double            sum = 0.;
-  for (std::size_t i = 0; i < n; ++i)
-    sum += rows[i * width + column];
-  signal.mean = sum / double(n);
-  // What turns has a ramp, that of the period, taken off before.
-  const double ramp = (rows[n * width + column] - rows[column]) / double(n);
-  for (int k = 1; k <= harmonics_told; ++k)
-  {
-    const double w = 2. * M_PI * k * ratio / period;
-    double       c = 0., s = 0.;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const double t = begin + period * double(i) / double(n), x = rows[i * width + column] - ramp * double(i);
-      c += x * std::cos(w * t);
-      s += x * std::sin(w * t);
-    }
-    signal.amplitude.push_back(2. / double(n) * std::hypot(c, s));
-    signal.phase.push_back(std::atan2(-s, c));
-  }
+  std::vector<double> samples;
+  for (std::size_t i = column; i < entry.rows.size(); i += width)
+    samples.push_back(entry.rows[i]);
+  const PeriodicSolution &of    = entry.solution;
+  auto                    found = coupling::signal_harmonics(samples, of.begin / of.period, of.ratio, harmonics_told);
+  signal.mean                   = found.mean;
+  signal.amplitude              = std::move(found.amplitude);
+  signal.phase                  = std::move(found.phase);
 }
 
 /// Columns t and signals of a history.
@@ -154,6 +143,7 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
 {
   PeriodicEntry entry;
   entry.solution = solution;
+  rows           = std::max(rows, coupling::power_of_two(4 * harmonics_told * solution.ratio));
   if (solution.series)
     trace_signals(machine, problem, solution, signals, rows, entry);
   else
@@ -176,8 +166,7 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
       *run_of_it = std::move(run);
   }
   for (std::size_t j = 0; j < entry.signals.size(); ++j)
-    find_harmonics(entry.rows, signals.size() + 1, j + 1, solution.ratio, solution.begin, solution.period,
-                   entry.signals[j]);
+    take_harmonics(entry, signals.size() + 1, j + 1, entry.signals[j]);
   return entry;
 }
 

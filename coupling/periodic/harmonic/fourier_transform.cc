@@ -17,9 +17,9 @@ struct FourierTransform::Library
 
 FourierTransform::FourierTransform(int samples) : samples_(samples), library_(std::make_unique<Library>())
 {
-  if (samples < 4 || samples != power_of_two(samples))
+  if (samples < 4 || samples % 4 != 0)
     throw std::invalid_argument("FourierTransform: " + std::to_string(samples) +
-                                " samples; their number must be a power of two, at least 4");
+                                " samples; their number must be a multiple of 4");
   library_->half.setZero(samples / 2 + 1);
 }
 

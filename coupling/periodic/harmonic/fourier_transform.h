@@ -17,7 +17,7 @@ namespace gestell::coupling
 class FourierTransform
 {
 public:
-  /// @param samples N, a power of two, at least 4
+  /// @param samples N, a multiple of 4; fast where it has small factors
   explicit FourierTransform(int samples);
   ~FourierTransform();
   FourierTransform(FourierTransform &&) noexcept;
