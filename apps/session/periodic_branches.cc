@@ -31,10 +31,11 @@ std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &fami
   return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);
 }
 
-/// The branch that leaves at a special motion, of `repeats` periods; at a doubling after twice as many.
-coupling::Branch new_branch(const SceneFamily &family, coupling::SpecialMotion special,
-                            const coupling::PeriodicOptions &options, const coupling::ContinuationOptions &along,
-                            int repeats, const coupling::BranchProgress &progress)
+/// The branches that leave at a special motion, of `repeats` periods; at a doubling after twice as many.
+std::vector<coupling::Branch> new_branches(const SceneFamily &family, coupling::SpecialMotion special,
+                                           const coupling::PeriodicOptions     &options,
+                                           const coupling::ContinuationOptions &along, int repeats,
+                                           const coupling::BranchProgress &progress)
 {
   if (special.kind == "period doubling")
   {
@@ -43,7 +44,7 @@ coupling::Branch new_branch(const SceneFamily &family, coupling::SpecialMotion s
   }
   const double omega     = 2. * M_PI / special.solution.period;
   const auto   equations = coupling::shooting_branch(family.problems(), options, omega, repeats);
-  return follow_new_branch(*equations, special, along, progress);
+  return follow_new_branches(*equations, special, along, progress);
 }
 
 /// Whether a solution lies on a branch that was followed already.
@@ -137,11 +138,13 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
     for (const coupling::SpecialMotion &special : branch.special)
       if (special.kind == "period doubling" || special.kind == "branch")
       {
-        const int  times = special.kind == "branch" ? repeats : 2 * repeats;
-        const auto other = new_branch(family, special, options, along, times, on_point);
-        keep(other);
-        if (generation < generations)
-          shed(other, times, generation + 1);
+        const int times = special.kind == "branch" ? repeats : 2 * repeats;
+        for (const auto &other : new_branches(family, special, options, along, times, on_point))
+        {
+          keep(other);
+          if (generation < generations)
+            shed(other, times, generation + 1);
+        }
       }
   };
   for (const PeriodicSolution &first : solutions)

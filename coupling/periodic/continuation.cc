@@ -24,6 +24,7 @@ constexpr double widest         = 2.;   ///< the step, of that
 constexpr double straight       = 0.94; ///< cosine between two tangents: 20 degrees
 constexpr double corner         = 0.02; ///< step, of that, below which a turn is a corner
 constexpr int    most_searches  = 40;
+constexpr double equal_images   = 1e-5; ///< multipliers of motions that are images of each other, of the largest
 
 double slope_of(const Point &point)
 {
@@ -243,7 +244,7 @@ VectorXd null_vector(const MatrixXd &J)
 Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
                      const BranchProgress &progress)
 {
-  BranchFollower follower(equations, options);
+  BranchFollower follower(equations, options.to - options.from, options.tolerance);
   const VectorXd z = equations.unknowns(first, options.from);
   Point          here;
   here.z       = z;
@@ -257,9 +258,9 @@ Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, 
 }
 
 Branch follow_new_branch(BranchEquations &equations, const SpecialMotion &from, const ContinuationOptions &options,
-                         const BranchProgress &progress)
+                         const BranchProgress &progress, Side side)
 {
-  BranchFollower follower(equations, options);
+  BranchFollower follower(equations, options.to - options.from, options.tolerance);
   Point          here;
   here.z        = equations.unknowns(from.solution, from.parameter);
   here.lambda   = from.parameter;
@@ -267,8 +268,59 @@ Branch follow_new_branch(BranchEquations &equations, const SpecialMotion &from, 
   here.tangent  = VectorXd::Zero(here.z.size() + 1);
   follower.grow_size(here);
   equations.evaluate(here.z, here.lambda, true);
-  here.tangent.head(here.z.size()) = null_vector(equations.jacobian());
+  here.tangent.head(here.z.size()) = (side == Side::along ? 1. : -1.) * null_vector(equations.jacobian());
   return Tracker(follower, options, progress, true).follow(here);
+}
+
+namespace
+{
+
+/// Whether a motion has an image on a branch: another motion there, at the same parameter, with its period and
+/// multipliers.  Symmetries of the machine make such images.
+bool has_image(BranchEquations &equations, const BranchPoint &motion, const Branch &branch,
+               const ContinuationOptions &options)
+{
+  if (branch.points.empty())
+    return false;
+  const auto near =
+      std::min_element(branch.points.begin(), branch.points.end(),
+                       [&](const BranchPoint &a, const BranchPoint &b)
+                       { return std::abs(a.parameter - motion.parameter) < std::abs(b.parameter - motion.parameter); });
+  const VectorXd z      = equations.unknowns(motion.solution, motion.parameter),
+                 beside = equations.unknowns(near->solution, near->parameter);
+  BranchFollower follower(equations, options.to - options.from, options.tolerance);
+  Point          start, there;
+  start.tangent = VectorXd::Zero(z.size() + 1);
+  try
+  {
+    if (!follower.at_parameter(beside, motion.parameter, start, there))
+      return false;
+  }
+  catch (const ConvergenceFailure &)
+  {
+    return false;
+  }
+  const auto &mu = motion.solution.multipliers, &image_mu = there.solution.multipliers;
+  return (there.z - beside).norm() < (there.z - z).norm() && mu.size() == image_mu.size() && mu.size() > 0 &&
+         std::abs(there.solution.period - motion.solution.period) < equal_images * motion.solution.period &&
+         (mu - image_mu).cwiseAbs().maxCoeff() < equal_images * mu.cwiseAbs().maxCoeff();
+}
+
+} // namespace
+
+std::vector<Branch> follow_new_branches(BranchEquations &equations, const SpecialMotion &from,
+                                        const ContinuationOptions &options, const BranchProgress &progress)
+{
+  std::vector<Branch> sides = {follow_new_branch(equations, from, options, progress, Side::along)};
+  if (from.kind != "branch")
+    return sides;
+  ContinuationOptions few = options;
+  few.most                = 2;
+  const Branch begin      = follow_new_branch(equations, from, few, {}, Side::against);
+  if (begin.points.empty() || has_image(equations, begin.points.back(), sides.front(), options))
+    return sides;
+  sides.push_back(follow_new_branch(equations, from, options, progress, Side::against));
+  return sides;
 }
 
 } // namespace gestell::coupling

@@ -66,9 +66,25 @@ using BranchProgress = std::function<bool(const BranchPoint &)>;
 Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
                      const BranchProgress &progress = {});
 
+/// Where a new branch leaves: along or against what dF/dz leaves free.
+enum class Side
+{
+  along,
+  against
+};
+
 /// The branch that leaves at a special motion, along what dF/dz leaves free there: at a period doubling with the
 /// equations and the solution of the double period.  It ends where it meets the first one again.
 Branch follow_new_branch(BranchEquations &equations, const SpecialMotion &from, const ContinuationOptions &options,
-                         const BranchProgress &progress = {});
+                         const BranchProgress &progress = {}, Side side = Side::along);
+
+/**
+ * The branches that leave at a special motion, on both sides of it.
+ *
+ * At a period doubling the second side is the first one period later.  Where a symmetric motion loses its symmetry it
+ * is the mirror image: at equal parameters period and multipliers are equal on both, and the second is left out.
+ */
+std::vector<Branch> follow_new_branches(BranchEquations &equations, const SpecialMotion &from,
+                                        const ContinuationOptions &options, const BranchProgress &progress = {});
 
 } // namespace gestell::coupling

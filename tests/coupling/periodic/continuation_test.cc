@@ -1,5 +1,6 @@
 // Branches of x'' + 0.2 x' + x^3 = B cos t: what must hold where they turn, double and begin.
 
+#include "coupling/integration/propagation/modal_blocks.h"
 #include "coupling/periodic/continuation.h"
 #include "coupling/periodic/followed_equations.h"
 #include "coupling/periodic/shooting_method.h"
@@ -35,6 +36,26 @@ FamilyMember cubic_oscillator(double B)
   problem.system = system.get();
   problem.period = 2. * M_PI;
   problem.turn   = VectorXd::Zero(1);
+  return {problem, system};
+}
+
+/// x'' + x' = x (lambda - x - x^2) at rest, beside a linear oscillator that moves.
+FamilyMember buckling_oscillator(double lambda)
+{
+  const MatrixXd one    = MatrixXd::Identity(2, 2);
+  auto           system = std::make_shared<SmallSystem>(one, one, one);
+  system->set_law(VectorXd::Unit(2, 0),
+                  [lambda](double u, double, double &p, double &dp_du, double &dp_dv)
+                  {
+                    p     = u * (1. + lambda - u - u * u);
+                    dp_du = 1. + lambda - 2. * u - 3. * u * u;
+                    dp_dv = 0.;
+                  });
+  system->loads().add_harmonic(1, 1., 1., 0.);
+  PeriodicProblem problem;
+  problem.system = system.get();
+  problem.period = 2. * M_PI;
+  problem.turn   = VectorXd::Zero(2);
   return {problem, system};
 }
 
@@ -103,6 +124,67 @@ TEST(Branch, LeavesWhereTheSymmetricMotionBecomesUnstable)
   EXPECT_LT(nearest_multiplier(special->solution, 1.), 1e-6);
   EXPECT_TRUE(branch.points.front().solution.stable());
   EXPECT_FALSE(branch.points.back().solution.stable());
+}
+
+/// The lopsided motions of a symmetric oscillator are mirror images of each other: one of them is followed.
+TEST(Branch, IsFollowedOnceWhereItsSidesAreMirrorImages)
+{
+  ContinuationOptions options;
+  options.points               = 20;
+  const Branch         branch  = branch_from(0.1, 2.2, 2.8, options);
+  const SpecialMotion *special = found(branch, "branch");
+  ASSERT_NE(special, nullptr) << branch.ended;
+  const auto equations = shooting_branch(cubic_oscillator, {}, 1.);
+  const auto sides     = follow_new_branches(*equations, *special, options);
+  ASSERT_EQ(sides.size(), 1u);
+  EXPECT_GT(sides[0].points.size(), 3u);
+}
+
+/// x (1 + x) = lambda leaves x = 0 at lambda = 0 to both sides, which are unlike.
+TEST(Branch, IsFollowedToBothSidesWhereTheyAreUnlike)
+{
+  ContinuationOptions options;
+  options.from               = -0.2;
+  options.to                 = 0.2;
+  options.points             = 20;
+  const FamilyMember   first = buckling_oscillator(options.from);
+  const auto           rest  = shooting_method().solve(first.problem, {VectorXd::Zero(2), VectorXd::Zero(2), 0.}, {});
+  const auto           equations = shooting_branch(buckling_oscillator, {}, 1.);
+  const Branch         straight  = follow_branch(*equations, rest.at(0), options);
+  const SpecialMotion *special   = found(straight, "branch");
+  ASSERT_NE(special, nullptr) << straight.ended;
+  EXPECT_NEAR(special->parameter, 0., 1e-8);
+  const auto sides = follow_new_branches(*equations, *special, options);
+  ASSERT_EQ(sides.size(), 2u);
+  int above = 0, below = 0;
+  for (const Branch &side : sides)
+    for (const BranchPoint &point : side.points)
+    {
+      const double x = point.solution.q[0];
+      // x goes by about x (lambda - x - x^2) in a period, which closes to 1e-9
+      EXPECT_NEAR(x * (1. + x), point.parameter, 1e-9 / std::abs(x));
+      ++(x > 0. ? above : below);
+    }
+  EXPECT_GT(above, 3);
+  EXPECT_GT(below, 3);
+}
+
+/// Only the load of the family changes: the modes of its base are found once.
+TEST(Branch, FindsTheModesOfTheBaseOnce)
+{
+  PeriodicOptions settled, shared;
+  settled.lead_in          = 200;
+  shared.integration.modes = std::make_shared<SharedModes>();
+  const FamilyMember first = cubic_oscillator(2.2);
+  const auto         solution =
+      shooting_method().solve(first.problem, {VectorXd::Constant(1, 0.1), VectorXd::Zero(1), 0.}, settled);
+  ContinuationOptions options;
+  options.from         = 2.2;
+  options.to           = 2.4;
+  options.points       = 5;
+  const auto equations = shooting_branch(cubic_oscillator, shared, 1.);
+  EXPECT_GT(follow_branch(*equations, solution.at(0), options).points.size(), 3u);
+  EXPECT_EQ(shared.integration.modes->found(), 1);
 }
 
 TEST(Branch, KeepsWhatItHasWhenItIsInterrupted)
