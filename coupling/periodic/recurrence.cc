@@ -1,9 +1,13 @@
 #include "coupling/periodic/recurrence.h"
 
+#include "coupling/integration/integration_methods.h"
 #include "coupling/periodic/period_flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
+#include <tuple>
 
 namespace gestell::coupling
 {
@@ -13,55 +17,204 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr int    least_periods   = 64;
 constexpr int    highest_repeats = 16;
-constexpr double closes          = 1e-4; ///< distance of two states, of the way between all, at which they are one
-constexpr double certain         = 3.;   ///< standard errors of the mean
+constexpr double closes          = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
+constexpr int    n_batches       = 16;   ///< of periods, for the error of the mean
+constexpr double certain         = 4.;   ///< standard errors
+constexpr double comes_nearer    = 0.01; ///< by which distances fall at least, quarter by quarter, if they do
+constexpr double soon_there      = 0.5;  ///< last distances, of the first, of a motion that settles
+constexpr double followed_finely = 1e-9; ///< tolerance of the steps: a section is not read more finely
+constexpr double longest_turn    = 3.;   ///< of the period expected, within which an angle comes round
 
-/// Periods after which the states come back; 0: they do not.
-int repeats_of(const Eigen::MatrixXd &section)
+/// The periods of a motion one after the other, with a direction d in which a neighbour lies.
+class Follower
 {
-  const double size = (section.colwise() - section.rowwise().mean()).colwise().norm().maxCoeff();
-  for (int k = 1; k <= highest_repeats && 2 * k < section.cols(); ++k)
+public:
+  Follower(const PeriodicProblem &problem, const PeriodicGuess &guess, const MethodOptions &integration)
+      : problem_(problem), flow_(problem, integration), omega_(2. * M_PI / problem.period), q_(guess.q), v_(guess.v)
   {
-    const Index n = section.cols() - k;
-    if ((section.rightCols(n) - section.leftCols(n)).colwise().norm().maxCoeff() <= closes * size)
-      return k;
+    if (!flow_.has_tangents())
+      throw std::invalid_argument(method_name(integration) + " carries no tangents, without which nobody knows how "
+                                                             "neighbouring motions part");
+    // No symmetry of a machine is one of this direction: it has a share in all that grows.
+    direction_ = VectorXd::NullaryExpr(2 * q_.size(), [](Index i) { return std::cos(1. + double(i * i)); });
+    direction_.normalize();
   }
-  return 0;
+
+  VectorXd state() const
+  {
+    VectorXd x(2 * q_.size());
+    x << omega_ * q_, v_;
+    return x;
+  }
+  double              fastest() const { return fastest_; }
+  double              seconds() const { return seconds_; } ///< of the last period
+  const PeriodicWork &work() const { return work_; }
+
+  void pass() { go_on(problem_.period_is_unknown() ? pass_turn() : flow_.pass(q_, v_, problem_.period, false)); }
+
+  /// @return ln of the growth of d
+  double pass_with_direction()
+  {
+    const double         period  = problem_.period_is_unknown() ? pass_turn().period : problem_.period;
+    const PeriodPassage &passage = flow_.pass(q_, v_, period, true);
+    const Index          n       = q_.size();
+    VectorXd             d       = direction_;
+    d.head(n) /= omega_;
+    d = passage.monodromy * d;
+    if (problem_.period_is_unknown())
+    {
+      // A neighbour comes round by dt earlier: what it does in dt belongs to the next period.
+      VectorXd rates(2 * n);
+      rates << passage.v, flow_.end_acceleration();
+      d -= d[problem_.phase] / rates[problem_.phase] * rates;
+    }
+    d.head(n) *= omega_;
+    const double growth = d.norm();
+    direction_          = d / growth;
+    go_on(passage);
+    return std::log(growth);
+  }
+
+private:
+  const PeriodPassage &pass_turn() { return flow_.pass_turn(q_, v_, longest_turn * problem_.period); }
+
+  void go_on(const PeriodPassage &passage)
+  {
+    q_       = passage.q - problem_.turn;
+    v_       = passage.v;
+    fastest_ = passage.fastest;
+    seconds_ = passage.period;
+    work_.add({0, 1, passage.work});
+    if (!q_.allFinite() || !v_.allFinite())
+      throw ConvergenceFailure("the motion runs away");
+  }
+
+  const PeriodicProblem &problem_;
+  PeriodFlow             flow_;
+  double                 omega_;
+  VectorXd               q_, v_, direction_;
+  double                 fastest_ = 0., seconds_ = 0.;
+  PeriodicWork           work_;
+};
+
+/// |x_(j+k) - x_j| over all j.
+VectorXd distances(const Eigen::MatrixXd &states, int k)
+{
+  const Index n = states.cols() - k;
+  return (states.rightCols(n) - states.leftCols(n)).colwise().norm().transpose();
 }
+
+/// How a motion comes back to where it was some periods before.
+struct Return
+{
+  int  repeats = 0; ///< these periods; 0: to no place of up to highest_repeats
+  bool closes  = false;
+  bool nearer  = false; ///< it comes ever nearer to it
+};
+
+/// The largest of each quarter.
+std::array<double, 4> quarters(const VectorXd &distances)
+{
+  std::array<double, 4> largest;
+  const Index           length = distances.size() / 4;
+  for (Index i = 0; i < 4; ++i)
+    largest[std::size_t(i)] = distances.segment(i * length, length).maxCoeff();
+  return largest;
+}
+
+/// The fewest periods that bring the motion back, now or soon.
+Return return_of(const Eigen::MatrixXd &states, double fastest)
+{
+  bool falls_slowly = false;
+  for (int k = 1; k <= highest_repeats; ++k)
+  {
+    const auto distance = quarters(distances(states, k));
+    if (std::max(distance[2], distance[3]) <= closes * fastest)
+      return {k, true, false};
+    if (distance[3] < soon_there * distance[0])
+      return {k, false, true};
+    falls_slowly = falls_slowly || (std::is_sorted(distance.rbegin(), distance.rend()) &&
+                                    distance[3] < (1. - comes_nearer) * distance[0]);
+  }
+  return {0, false, falls_slowly};
+}
+
+/// Mean and standard error of the mean of terms that are correlated with their neighbours.
+std::pair<double, double> mean_of(const VectorXd &terms)
+{
+  const Index length = terms.size() / n_batches;
+  VectorXd    batches(n_batches);
+  for (Index i = 0; i < n_batches; ++i)
+    batches[i] = terms.segment(i * length, length).mean();
+  const double mean = batches.mean();
+  return {mean, std::sqrt((batches.array() - mean).square().sum() / (n_batches * (n_batches - 1)))};
+}
+
+void name(Recurrence &recurrence, const Eigen::MatrixXd &states, double fastest)
+{
+  const Return back  = return_of(states, fastest);
+  const double doubt = certain * recurrence.error;
+  if (back.closes)
+    recurrence.kind = back.repeats == 1 ? "periodic" : "sub-harmonic";
+  else if (recurrence.exponent > doubt)
+    recurrence.kind = "chaotic";
+  else if (recurrence.exponent < -doubt || back.nearer)
+    recurrence.kind = "settling";
+  else
+    recurrence.kind = "quasi-periodic";
+  if (back.closes || recurrence.kind == "settling")
+    recurrence.repeats = back.repeats;
+}
+
+/// By the period of the excitation.
+PeriodicProblem single(const PeriodicProblem &problem)
+{
+  PeriodicProblem one = problem;
+  one.period /= problem.ratio;
+  one.turn /= problem.ratio;
+  one.ratio = 1;
+  return one;
+}
+
 } // namespace
 
 Recurrence recurrence_of(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicOptions &options,
                          int periods)
 {
-  PeriodFlow   flow(problem, options.integration);
-  const Index  n     = guess.q.size();
-  const double omega = 2. * M_PI / problem.period;
-  VectorXd     q = guess.q, v = guess.v, d = VectorXd::Ones(2 * n).normalized();
-  const auto   next = [&](bool tangents)
-  {
-    const PeriodPassage &passage = flow.pass(q, v, problem.period, tangents);
-    q                            = passage.q - problem.turn;
-    v                            = passage.v;
-  };
+  if (periods < least_periods)
+    throw std::invalid_argument("a section of " + std::to_string(periods) +
+                                " periods tells too little; take at least " + std::to_string(least_periods));
+  const PeriodicProblem one         = single(problem);
+  MethodOptions         integration = options.integration;
+  if (!(integration.step > 0.))
+    integration.tolerance = std::max(integration.tolerance, followed_finely);
+  Follower follower(one, guess, integration);
+  for (int k = 0; k < periods - periods / n_batches; ++k)
+    follower.pass();
+  for (int k = 0; k < periods / n_batches; ++k)
+    follower.pass_with_direction(); // until d is the direction that grows most
+  const Index     n = guess.q.size();
+  Eigen::MatrixXd states(2 * n, periods);
+  VectorXd        growth(periods);
+  double          fastest = 0., seconds = 0.;
   for (int k = 0; k < periods; ++k)
-    next(false);
-  Recurrence recurrence;
-  recurrence.section.resize(2 * n, periods);
-  VectorXd growth(periods);
-  for (int k = 0; k < periods; ++k)
   {
-    recurrence.section.col(k) << omega * q, v;
-    next(true);
-    d         = flow.passage().monodromy * d;
-    growth[k] = std::log(d.norm());
-    d.normalize();
+    states.col(k) = follower.state();
+    growth[k]     = follower.pass_with_direction();
+    fastest       = std::max(fastest, follower.fastest());
+    seconds += follower.seconds();
   }
-  const double mean = growth.mean(), spread = std::sqrt((growth.array() - mean).square().mean() / periods);
-  recurrence.exponent = mean / problem.period;
-  recurrence.repeats  = repeats_of(recurrence.section);
-  recurrence.section.topRows(n) /= omega;
-  recurrence.kind = recurrence.repeats > 0 ? "sub-harmonic" : mean > certain * spread ? "chaotic" : "quasi-periodic";
+  Recurrence recurrence;
+  recurrence.periods                              = periods;
+  std::tie(recurrence.exponent, recurrence.error) = mean_of(growth);
+  recurrence.exponent *= periods / seconds;
+  recurrence.error *= periods / seconds;
+  name(recurrence, states, fastest);
+  recurrence.section = states;
+  recurrence.section.topRows(n) *= one.period / (2. * M_PI);
+  recurrence.work = follower.work();
   return recurrence;
 }
 
