@@ -3,6 +3,7 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
 
@@ -56,6 +57,8 @@ void print_solutions(const PeriodicResult &result)
     std::cout << "  ... " << result.entries.size() << " in all, in solutions.csv\n";
   for (const SpecialPoint &point : result.special_points)
     std::cout << "  " << point.kind << " at " << result.parameter << " = " << short_text(point.parameter, 10) << '\n';
+  if (result.long_run)
+    std::cout << "  " << long_run_text(*result.long_run) << '\n';
   for (const std::string &note : result.notes)
     std::cout << "  " << note << '\n';
   for (const PeriodicCheck &check : result.checks)
@@ -126,7 +129,11 @@ Command periodic_command()
                      "of settling: share of critical by which the lowest mode is damped more at first"}
            .above_zero(),
        CommandOption{"--check", &own->check,
-                     "compute each motion by a second method too, and report how far the two differ"}},
+                     "compute each motion by a second method too, and report how far the two differ"},
+       CommandOption{"--section", &own->section,
+                     "follow the motion for so many periods, 64 or more, and tell what it does in the long run "
+                     "(default: 256 where no motion that lasts is found)"}
+           .above_zero()},
       [own](const CommonOptions &options) { return find_periodic(options, *own); }};
 }
 

@@ -5,6 +5,7 @@
 #include "apps/output/tables/order_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/section_table.h"
 
 namespace gestell::apps
 {
@@ -46,6 +47,11 @@ std::string special_points(const Result &result)
   return result.periodic ? special_points_csv(*result.periodic) : "";
 }
 
+std::string section_of_motion(const Result &result)
+{
+  return result.periodic ? section_csv(*result.periodic) : "";
+}
+
 std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
 {
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
@@ -84,6 +90,7 @@ const std::vector<ResultFile> &result_files()
       {"multipliers.csv", "their Floquet multipliers", multipliers},
       {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
+      {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
       {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},

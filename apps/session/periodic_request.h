@@ -19,6 +19,7 @@ struct PeriodicRequest
   std::string along, from, to; ///< key of the scene that is followed, and its ends
   int         points = 0;      ///< of a branch at most; 0: as usual
   std::string check;           ///< second method
+  int         section = 0;     ///< periods that the motion is followed to tell what it does in the long run; 0: if need be
 };
 
 } // namespace gestell::apps

@@ -2,11 +2,14 @@
 
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/scene.h"
+#include "apps/session/backbone.h"
 #include "apps/session/frequency_response.h"
+#include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/order_tracking.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
+#include "apps/session/phase_planes.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/simulation/simulation.h"
 
@@ -275,6 +278,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   {
     found.failure = none.what();
   }
+  follow_long_run(machine, repeating.problem, {start.q, start.v, 0.}, options, request, signals, solutions, found);
   for (const auto &solution : solutions)
     found.work.add(solution.work);
   if (family)
@@ -284,14 +288,18 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
     const auto now       = progress();
     follow_branches(
         *family, solutions, options, request, [&](double share) { now("branches", share); }, found);
+    found.backbone = backbone_of(machine, repeating.problem, found.entries, signals);
   }
   else
+  {
     for (const auto &solution : solutions)
     {
       const bool shown = !result.run && solution.stable();
       found.entries.push_back(
           entry_of(machine, repeating.problem, solution, signals, orbit_rows, shown ? &result.run : nullptr));
     }
+    found.planes = phase_planes(machine, repeating.problem, found.entries, signals);
+  }
   if (!request.check.empty())
     check_periodic(machine, repeating, options, request.check, signals, found);
   found.interrupted = repeating.problem.interrupted();

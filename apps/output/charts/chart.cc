@@ -16,6 +16,8 @@ constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;
 constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.;
 constexpr double letter_width = 6.5; ///< of the 12 px letters, on average
 
+constexpr std::size_t long_curve = 2000; ///< points, beyond which it is thinned
+
 /// The drawing area of a panel with its axes.
 struct Area
 {
@@ -155,6 +157,24 @@ std::string levels(const Chart &chart, const Area &area)
   return svg;
 }
 
+std::string tiles(const Panel &panel, const Chart &chart, const Area &area)
+{
+  std::string svg;
+  for (const Tile &tile : panel.tiles)
+  {
+    const double left  = area.x.at(std::max(tile.x_begin, chart.x.begin));
+    const double right = area.x.at(std::min(tile.x_end, chart.x.end));
+    const double low   = area.y.at(std::max(tile.y_begin, chart.y.begin));
+    const double high  = area.y.at(std::min(tile.y_end, chart.y.end));
+    if (!(right > left) || !(low > high))
+      continue;
+    const std::string box =
+        "<rect class=\"f" + colour_class(tile.colour) + "\"" + svg_box(left, high, right - left, low - high) + "/>";
+    svg += tile.text.empty() ? box : svg_hint(tile.text, box);
+  }
+  return svg;
+}
+
 // Curves
 
 std::string line_class(const Curve &curve)
@@ -203,12 +223,13 @@ bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
   return !all([&](double x) { return x < chart.x.begin; }) && !all([&](double x) { return x > chart.x.end; });
 }
 
-/// The line as a path; per column of pixels at most four points in the order in which they occur.
+/// The line as a path; of long curves per column of pixels at most four points in the order in which they occur.
 std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
 {
   const auto drawn = [&](std::size_t i)
   { return chart.x.has_place(curve.x[i]) && chart.y.has_place(curve.y[i]) && is_near(chart, curve, i); };
 
+  const bool  is_long = curve.x.size() > long_curve;
   std::string path;
   bool        pen_down = false;
   for (std::size_t i = 0; i < curve.x.size();)
@@ -221,7 +242,8 @@ std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
     }
     const double column = std::floor(area.x.at(curve.x[i]));
     std::size_t  last = i, low = i, high = i;
-    for (std::size_t k = i; k < curve.x.size() && drawn(k) && std::floor(area.x.at(curve.x[k])) == column; ++k)
+    for (std::size_t k = i;
+         k < curve.x.size() && drawn(k) && (k == i || is_long) && std::floor(area.x.at(curve.x[k])) == column; ++k)
     {
       last = k;
       low  = curve.y[k] < curve.y[low] ? k : low;
@@ -344,8 +366,9 @@ std::string panel_svg(const Chart &chart, const Panel &panel, const Heights &hei
   const double top = y0 + heights.above(), bottom = top + chart.height - bottom_margin;
   const Area   area{left, right, top, bottom, AxisMap(chart.x, left, right), AxisMap(chart.y, bottom, top)};
 
-  return svg_text(left, y0 + 13., panel.title, "title") + shades(chart, area) + axes(chart, area) + marks(chart, area) +
-         levels(chart, area) + lines(chart, panel, area) + markers(chart, panel, area) +
+  return svg_text(left, y0 + 13., panel.title, "title") + shades(chart, area) + axes(chart, area) +
+         tiles(panel, chart, area) + marks(chart, area) + levels(chart, area) + lines(chart, panel, area) +
+         markers(chart, panel, area) +
          (chart.legend_column > 0. ? legend(chart, panel, right + 22., top)
                                    : legend(chart, panel, left, y0 + heights.title));
 }
@@ -355,6 +378,11 @@ std::string panel_svg(const Chart &chart, const Panel &panel, const Heights &hei
 Curve rings(const std::string &name, int colour)
 {
   return {name, {}, {}, colour, LineStyle::none, Marker::ring};
+}
+
+Curve tile_name(const std::string &name, int colour)
+{
+  return {name, {}, {}, colour, LineStyle::none, Marker::square};
 }
 
 void Panel::add(Curve curve)

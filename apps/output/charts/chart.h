@@ -56,6 +56,9 @@ struct Curve
 /// A curve of rings without a line.
 Curve rings(const std::string &name, int colour);
 
+/// What stands in the legend for tiles of a colour.
+Curve tile_name(const std::string &name, int colour);
+
 /// An abscissa worth looking at: a dotted line with its number above it, or without one a tick at the bottom.
 struct Mark
 {
@@ -79,11 +82,20 @@ struct Shade
   int    colour;
 };
 
+/// A filled rectangle below the curves: a bar, or a cell of a map.  Axes are not stretched for it.
+struct Tile
+{
+  double      x_begin, x_end, y_begin, y_end;
+  int         colour;
+  std::string text{}; ///< shown by browsers under the pointer
+};
+
 /// Curves that share a drawing area.
 struct Panel
 {
   std::string        title;
   std::vector<Curve> curves;
+  std::vector<Tile>  tiles{};
 
   /// Adds a curve told from those before it: by the next colour, every other one dashed.
   void add(Curve curve);

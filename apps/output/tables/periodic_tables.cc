@@ -1,5 +1,6 @@
 #include "apps/output/tables/periodic_tables.h"
 
+#include "apps/output/tables/section_table.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -182,6 +183,8 @@ Json periodic_json(const PeriodicResult &result)
   for (const SpecialPoint &point : result.special_points)
     json["special_points"].push_back(
         {{"kind", point.kind}, {"parameter", point.parameter}, {"period", point.period}, {"solution", point.solution}});
+  if (result.long_run)
+    json["recurrence"] = long_run_json(*result.long_run);
   json["checks"] = Json::array();
   for (const PeriodicCheck &check : result.checks)
   {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "coupling/periodic/periodic_solution.h"
+#include "coupling/periodic/recurrence.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +45,30 @@ struct PeriodicCheck
   std::string                                 failure;   ///< empty: none
 };
 
+/// A signal against its rate.
+struct PhasePlane
+{
+  struct Curve
+  {
+    int                      solution = 0; ///< its number, from 1; 0: points of a section
+    bool                     stable   = true;
+    std::vector<double>      x, rate;
+    std::vector<std::size_t> begins; ///< where a period of the excitation begins
+  };
+
+  std::string        name, unit; ///< of the signal; the rate's is the unit per second
+  std::vector<Curve> curves;
+};
+
+/// What a motion does in the long run, with its Poincare section.
+struct LongRun
+{
+  coupling::Recurrence     motion;
+  std::vector<std::string> columns; ///< of the signals, "name [unit]"
+  std::vector<double>      rows;    ///< signals at the begins of the periods; row major
+  std::vector<PhasePlane>  planes;  ///< the section in a few signals
+};
+
 /// What `gestell periodic` finds.
 struct PeriodicResult
 {
@@ -52,6 +78,9 @@ struct PeriodicResult
   std::vector<PeriodicEntry> entries;
   std::vector<SpecialPoint>  special_points;
   std::vector<PeriodicCheck> checks;
+  std::vector<PeriodicEntry> backbone; ///< of free vibration, where the parameter is a load's frequency
+  std::vector<PhasePlane>    planes;   ///< the first solutions in some signals whose rates are known exactly
+  std::optional<LongRun>     long_run;
   coupling::PeriodicWork     work;
   std::vector<std::string>   notes;   ///< of branches
   std::string                failure; ///< not empty: why it ended early

@@ -1,0 +1,314 @@
+#include "apps/output/report/periodic_charts.h"
+
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr int         circle_points = 180;
+constexpr std::size_t most_barred = 4, most_left_out = 6; ///< signals
+constexpr double      bars_of_harmonic = 0.8;             ///< width of all bars of a harmonic
+constexpr double      nan_here         = std::numeric_limits<double>::quiet_NaN();
+
+void square_plane(Chart &chart)
+{
+  chart.width  = 372.;
+  chart.height = 320.;
+}
+
+std::string with_unit(const std::string &name, const std::string &unit)
+{
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+/// A plane with room about what is drawn in it.
+Chart plane_of(const PhasePlane &plane)
+{
+  Chart chart;
+  square_plane(chart);
+  chart.x.label = with_unit(plane.name, plane.unit);
+  chart.y.label = with_unit(plane.name + "'", plane.unit.empty() ? "" : plane.unit + "/s");
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const PhasePlane::Curve &curve : plane.curves)
+    for (const double x : curve.x)
+    {
+      low  = std::min(low, x);
+      high = std::max(high, x);
+    }
+  chart.x = fitted(chart.x, low, high, 0.05);
+  return chart;
+}
+
+/// Amplitudes over the largest one; empty: the signal does not move.
+std::vector<double> shares_of(const SignalOrbit &signal)
+{
+  const double largest =
+      signal.amplitude.empty() ? 0. : *std::max_element(signal.amplitude.begin(), signal.amplitude.end());
+  std::vector<double> shares;
+  for (const double amplitude : signal.amplitude)
+    if (largest > 0.)
+      shares.push_back(amplitude / largest);
+  return shares;
+}
+
+double apart(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double sum = 0.;
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+    sum += std::abs(a[k] - b[k]);
+  return sum;
+}
+
+/// Begins with the richest spectrum, goes on with those that are farthest from all that were taken.
+std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
+{
+  std::vector<std::vector<double>> shares;
+  std::vector<std::size_t>         left, taken;
+  for (const SignalOrbit &signal : signals)
+  {
+    shares.push_back(shares_of(signal));
+    if (!shares.back().empty())
+      left.push_back(shares.size() - 1);
+  }
+  const auto distance = [&](std::size_t i)
+  {
+    if (taken.empty())
+      return std::accumulate(shares[i].begin(), shares[i].end(), 0.);
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t other : taken)
+      least = std::min(least, apart(shares[i], shares[other]));
+    return least;
+  };
+  while (!left.empty() && taken.size() < most_barred)
+  {
+    const auto best = std::max_element(left.begin(), left.end(),
+                                       [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+    taken.push_back(*best);
+    left.erase(best);
+  }
+  std::sort(taken.begin(), taken.end());
+  return taken;
+}
+
+std::string left_out_text(const std::vector<SignalOrbit> &signals, const std::vector<std::size_t> &taken)
+{
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    if (!std::binary_search(taken.begin(), taken.end(), i) && ++count <= most_left_out)
+      names += (names.empty() ? "" : ", ") + signals[i].name;
+  if (count > most_left_out)
+    names += " and " + std::to_string(count - most_left_out) + " more";
+  return names.empty() ? "" : "; not drawn: " + names;
+}
+
+/// A value of the solutions over the parameter, stable ones alone or the others; branches are not joined.
+Curve branch_curve(const PeriodicResult &result, bool stable, const std::function<double(const PeriodicEntry &)> &value)
+{
+  Curve curve;
+  curve.colour                = stable ? 0 : 3;
+  curve.line                  = stable ? LineStyle::full : LineStyle::dashed;
+  const PeriodicEntry *before = nullptr;
+  for (const PeriodicEntry &entry : result.entries)
+  {
+    const bool goes_on = before && before->branch == entry.branch;
+    const bool here = entry.solution.stable() == stable, was = goes_on && before->solution.stable() == stable;
+    if (!here && !was)
+      curve.add(entry.parameter, nan_here);
+    else
+    {
+      if (!goes_on)
+        curve.add(entry.parameter, nan_here);
+      else if (here && !was)
+        curve.add(before->parameter, value(*before));
+      if (here)
+        curve.add(entry.parameter, value(entry));
+    }
+    before = &entry;
+  }
+  return curve;
+}
+
+void add_if_seen(Panel &panel, const Curve &curve)
+{
+  if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return !std::isnan(y); }))
+    panel.curves.push_back(curve);
+}
+
+void add_special_points(const PeriodicResult &result, const std::function<double(const PeriodicEntry &)> &value,
+                        Panel &panel)
+{
+  Curve special = rings("", 5);
+  for (const SpecialPoint &point : result.special_points)
+  {
+    special.add(point.parameter, value(result.entries[std::size_t(point.solution) - 1]));
+    special.notes.push_back({point.kind + " at " + short_text(point.parameter, 8)});
+  }
+  add_if_seen(panel, special);
+}
+
+Chart over_parameter(const PeriodicResult &result, const SignalOrbit &signal)
+{
+  Chart chart;
+  chart.width   = 880.;
+  chart.height  = 300.;
+  chart.x.label = with_unit(result.parameter, result.parameter_unit);
+  chart.y.label = with_unit(signal.name, signal.unit);
+  return chart;
+}
+
+} // namespace
+
+Chart multiplier_chart(const std::vector<PeriodicEntry> &entries, std::size_t most_solutions)
+{
+  Chart chart;
+  square_plane(chart);
+  chart.title   = "Floquet multipliers";
+  chart.note    = "inside the circle a disturbance dies away";
+  chart.x.label = "real part";
+  chart.y.label = "imaginary part";
+  Curve circle;
+  circle.colour = 6;
+  for (int k = 0; k <= circle_points; ++k)
+    circle.add(std::cos(2. * M_PI * k / circle_points), std::sin(2. * M_PI * k / circle_points));
+  chart.panels[0].curves.push_back(circle);
+  double reach  = 1.1;
+  Curve  inside = rings("stable", 0), outside = rings("unstable", 3);
+  for (std::size_t i = 0; i < std::min(entries.size(), most_solutions); ++i)
+  {
+    const coupling::PeriodicSolution &solution = entries[i].solution;
+    for (const auto &mu : solution.multipliers)
+    {
+      (solution.stable() ? inside : outside).add(mu.real(), mu.imag());
+      reach = std::max(reach, 1.1 * std::abs(mu));
+    }
+  }
+  for (const Curve &curve : {inside, outside})
+    if (!curve.x.empty())
+      chart.panels[0].curves.push_back(curve);
+  chart.x.begin = chart.y.begin = -reach;
+  chart.x.end = chart.y.end = reach;
+  return chart;
+}
+
+Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
+{
+  const std::vector<std::size_t> barred = most_different(entry.signals);
+  Chart                          chart;
+  chart.title              = "Harmonics of solution " + std::to_string(number);
+  chart.note               = "amplitudes, each signal against its largest one" + left_out_text(entry.signals, barred);
+  chart.width              = 480.;
+  chart.height             = 320.;
+  chart.x.label            = "multiple of the drive's frequency";
+  chart.y.label            = "share of the largest";
+  chart.x.begin            = 0.5;
+  chart.y.begin            = 0.;
+  chart.y.end              = 1.05;
+  std::size_t  n_harmonics = 1;
+  const double width       = bars_of_harmonic / double(std::max<std::size_t>(barred.size(), 1));
+  for (std::size_t j = 0; j < barred.size(); ++j)
+  {
+    const SignalOrbit        &signal = entry.signals[barred[j]];
+    const std::vector<double> shares = shares_of(signal);
+    n_harmonics                      = std::max(n_harmonics, shares.size());
+    chart.panels[0].curves.push_back(tile_name(signal.name, int(j)));
+    for (std::size_t k = 0; k < shares.size(); ++k)
+    {
+      const double x = double(k + 1) - 0.5 * bars_of_harmonic + double(j) * width;
+      chart.panels[0].tiles.push_back(
+          {x, x + 0.9 * width, 0., shares[k], int(j),
+           signal.name + ", " + std::to_string(k + 1) + ": " + short_text(signal.amplitude[k], 5) + " " + signal.unit});
+    }
+  }
+  chart.x.end = double(n_harmonics) + 0.5;
+  for (std::size_t k = 1; k <= n_harmonics; ++k)
+    chart.x.ticks.push_back(double(k));
+  return chart;
+}
+
+Chart phase_plane_chart(const PhasePlane &plane)
+{
+  Chart chart = plane_of(plane);
+  chart.title = plane.name + ", phase plane";
+  chart.note  = "unstable motions dashed; discs: a period begins";
+  for (const PhasePlane::Curve &motion : plane.curves)
+  {
+    Curve curve;
+    curve.name   = "no. " + std::to_string(motion.solution);
+    curve.colour = motion.solution - 1;
+    curve.line   = motion.stable ? LineStyle::full : LineStyle::dashed;
+    curve.x      = motion.x;
+    curve.y      = motion.rate;
+    chart.panels[0].curves.push_back(curve);
+    Curve begins{"", {}, {}, curve.colour, LineStyle::none, Marker::disc};
+    for (const std::size_t i : motion.begins)
+      begins.add(motion.x[i], motion.rate[i]);
+    chart.panels[0].curves.push_back(begins);
+  }
+  return chart;
+}
+
+Chart section_chart(const PhasePlane &plane, int periods)
+{
+  Chart chart = plane_of(plane);
+  chart.title = plane.name + ", Poincaré section";
+  chart.note  = "at the begin of " + std::to_string(periods) + " periods of the excitation";
+  for (const PhasePlane::Curve &motion : plane.curves)
+    chart.panels[0].curves.push_back({"", motion.x, motion.rate, 0, LineStyle::none, Marker::disc});
+  return chart;
+}
+
+Chart response_chart(const PeriodicResult &result, std::size_t signal)
+{
+  const SignalOrbit &of    = result.entries.front().signals[signal];
+  Chart              chart = over_parameter(result, of);
+  chart.title              = of.name + " of the periodic motions";
+  chart.note               = "largest and smallest value; unstable motions dashed; rings: special points";
+  for (const bool largest : {true, false})
+    for (const bool stable : {true, false})
+    {
+      Curve curve = branch_curve(result, stable,
+                                 [&](const PeriodicEntry &at)
+                                 { return largest ? at.signals[signal].max : at.signals[signal].min; });
+      curve.name  = !largest ? "" : stable ? "stable" : "unstable";
+      add_if_seen(chart.panels[0], curve);
+    }
+  add_special_points(
+      result, [&](const PeriodicEntry &at) { return at.signals[signal].max; }, chart.panels[0]);
+  return chart;
+}
+
+Chart amplitude_chart(const PeriodicResult &result, std::size_t signal)
+{
+  const auto         a1    = [&](const PeriodicEntry &at) { return at.signals[signal].amplitude.at(0); };
+  const SignalOrbit &of    = result.entries.front().signals[signal];
+  Chart              chart = over_parameter(result, of);
+  chart.title              = of.name + ", first harmonic of the drive";
+  chart.note               = "amplitude; unstable motions dashed; rings: special points" +
+               std::string(result.backbone.empty() ? "" : "; dotted: free vibration, by describing functions");
+  for (const bool stable : {true, false})
+  {
+    Curve curve = branch_curve(result, stable, a1);
+    curve.name  = stable ? "stable" : "unstable";
+    add_if_seen(chart.panels[0], curve);
+  }
+  Curve backbone;
+  backbone.name   = "backbone";
+  backbone.colour = 6;
+  backbone.line   = LineStyle::dotted;
+  for (const PeriodicEntry &entry : result.backbone)
+    backbone.add(entry.parameter, a1(entry));
+  add_if_seen(chart.panels[0], backbone);
+  add_special_points(result, a1, chart.panels[0]);
+  return chart;
+}
+
+} // namespace gestell::apps

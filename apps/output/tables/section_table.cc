@@ -1,0 +1,78 @@
+#include "apps/output/tables/section_table.h"
+
+#include "fem/values/number_text.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string quoted_head(const std::string &name)
+{
+  return name.find(',') == std::string::npos ? name : '"' + name + '"';
+}
+
+std::string kind_text(const coupling::Recurrence &motion)
+{
+  if (motion.kind == "periodic")
+    return "periodic: it repeats after one period of the excitation";
+  if (motion.kind == "sub-harmonic")
+    return "sub-harmonic: it repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
+  if (motion.kind == "quasi-periodic")
+    return "quasi-periodic: it beats and never repeats, neighbouring motions keep their distance";
+  if (motion.kind == "chaotic")
+    return "chaotic: it never repeats, neighbouring motions part";
+  return "still settling: it comes ever nearer to a motion that repeats" +
+         (motion.repeats > 0 ? " after " + std::to_string(motion.repeats) + " period" + (motion.repeats > 1 ? "s" : "")
+                             : std::string());
+}
+
+} // namespace
+
+std::string long_run_text(const LongRun &run)
+{
+  const coupling::Recurrence &motion = run.motion;
+  return "in the long run (" + std::to_string(motion.periods) + " periods, behind as many) the motion is " +
+         kind_text(motion) + "; largest Lyapunov exponent " + short_text(motion.exponent, 3) + " 1/s, standard error " +
+         short_text(motion.error, 2) + " 1/s";
+}
+
+std::string section_csv(const PeriodicResult &result)
+{
+  if (!result.long_run)
+    return "";
+  const LongRun &run = *result.long_run;
+  std::string    csv = "period";
+  for (const std::string &name : result.coordinates)
+    csv += ',' + quoted_head(name) + ',' + quoted_head(name + "'");
+  for (const std::string &column : run.columns)
+    csv += ',' + quoted_head(column);
+  csv += '\n';
+  const Eigen::MatrixXd &section = run.motion.section;
+  const auto             n = section.rows() / 2, width = Eigen::Index(run.columns.size());
+  for (Eigen::Index k = 0; k < section.cols(); ++k)
+  {
+    csv += std::to_string(run.motion.periods + k);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      append_exact(csv += ',', section(i, k));
+      append_exact(csv += ',', section(n + i, k));
+    }
+    for (Eigen::Index j = 0; j < width; ++j)
+      append_exact(csv += ',', run.rows[std::size_t(k * width + j)]);
+    csv += '\n';
+  }
+  return csv;
+}
+
+Json long_run_json(const LongRun &run)
+{
+  const coupling::Recurrence &motion = run.motion;
+  return {{"kind", motion.kind},
+          {"repeats", motion.repeats},
+          {"exponent", motion.exponent},
+          {"error", motion.error},
+          {"periods", motion.periods}};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,78 @@
+#include "apps/output/report/periodic_charts.h"
+#include "apps/output/tables/section_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+SignalOrbit spectrum(const std::string &name, const std::vector<double> &amplitude)
+{
+  SignalOrbit signal;
+  signal.name      = name;
+  signal.unit      = "N";
+  signal.amplitude = amplitude;
+  return signal;
+}
+
+} // namespace
+
+TEST(HarmonicsChart, DrawsFourSignalsWhoseSpectraDifferMostSideBySide)
+{
+  PeriodicEntry entry;
+  entry.signals     = {spectrum("a", {1., 0., 0.}), spectrum("twice a", {2., 0., 0.}), spectrum("b", {0., 1., 0.}),
+                       spectrum("c", {0., 0., 1.}), spectrum("rest", {0., 0., 0.}),    spectrum("all", {1., 1., 1.})};
+  const Chart chart = harmonics_chart(entry, 1);
+  EXPECT_EQ(chart.panels[0].curves.size(), 4u);
+  EXPECT_THAT(chart.note, HasSubstr("not drawn: twice a, rest"));
+  for (const Tile &one : chart.panels[0].tiles)
+    for (const Tile &other : chart.panels[0].tiles)
+      EXPECT_TRUE(&one == &other || one.x_end < other.x_begin || other.x_end < one.x_begin);
+  EXPECT_THAT(chart_svg(chart), HasSubstr("all, 3: 1 N"));
+}
+
+TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
+{
+  PeriodicResult result;
+  result.parameter = "parameters.n";
+  for (const double multiplier : {0.5, 1.5})
+  {
+    PeriodicEntry entry;
+    entry.parameter            = multiplier;
+    entry.solution.multipliers = Eigen::VectorXcd::Constant(1, multiplier);
+    entry.signals              = {spectrum("F", {2. * multiplier})};
+    result.entries.push_back(entry);
+  }
+  EXPECT_EQ(amplitude_chart(result, 0).panels[0].curves.size(), 2u);
+  result.backbone   = {result.entries[0]};
+  const Chart chart = amplitude_chart(result, 0);
+  ASSERT_EQ(chart.panels[0].curves.size(), 3u);
+  EXPECT_EQ(chart.panels[0].curves[1].line, LineStyle::dashed);
+  EXPECT_EQ(chart.panels[0].curves[1].y.back(), 3.);
+  EXPECT_EQ(chart.panels[0].curves[2].line, LineStyle::dotted);
+}
+
+TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
+{
+  PeriodicResult result;
+  EXPECT_EQ(section_csv(result), "");
+  result.coordinates = {"slide"};
+  LongRun run;
+  run.motion.kind    = "quasi-periodic";
+  run.motion.periods = 64;
+  run.motion.section = (Eigen::Matrix2d() << 1., 2., 3., 4.).finished();
+  run.columns        = {"F [N]"};
+  run.rows           = {5., 6.};
+  result.long_run    = run;
+  EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,1,3,5\n65,2,4,6\n");
+  EXPECT_THAT(long_run_text(run), HasSubstr("quasi-periodic"));
+  EXPECT_EQ(long_run_json(run)["kind"], "quasi-periodic");
+}
+
+} // namespace gestell::apps

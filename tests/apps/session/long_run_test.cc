@@ -1,0 +1,151 @@
+// What scenes do in the long run, and the pictures of their motions, against what must hold of them.
+
+#include "apps/session/session.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::PeriodicEntry;
+using apps::PeriodicRequest;
+using apps::PeriodicResult;
+using apps::Session;
+
+/// x'' + b x' + c x + beta x^3 = F cos(Omega t)
+std::string cubic_slide(double b, double c, double beta, double F, const std::string &frequency)
+{
+  return slider_body("slide", "1", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", number(c)}, {"damping", number(b)}}) +
+         element("cubic", "cubic spring", {{"from", "slide"}, {"cubic", number(beta)}}) +
+         element("load", "force",
+                 {{"from", "slide"},
+                  {"to", "ground"},
+                  {"direction", "[1, 0, 0]"},
+                  {"harmonics",
+                   "[{ amplitude = '" + number(F) + " N', frequency = '" + frequency + "', phase = '90 deg' }]"}}) +
+         test::quoted("[output.signals]\nx = 'slide.displacement'\nv = 'slide.velocity'\nF = 'cubic.force'\n");
+}
+
+std::string hertz(double Omega)
+{
+  return number(Omega / (2. * M_PI)) + " Hz";
+}
+
+PeriodicResult motions_of(const std::string &text, const PeriodicRequest &request)
+{
+  const test::SceneFolder folder;
+  return *Session(folder.write("scene.toml", text)).periodic(request).periodic;
+}
+
+PeriodicRequest by(const std::string &method)
+{
+  PeriodicRequest request;
+  request.method = method;
+  request.starts = 4;
+  return request;
+}
+
+} // namespace
+
+/// All periodic motions are unstable: that there is chaos is the answer, not a failure.
+TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
+{
+  PeriodicRequest request     = by("minimise");
+  request.starts              = 1;
+  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request);
+  EXPECT_EQ(result.failure, "");
+  ASSERT_TRUE(result.long_run);
+  const auto &run = *result.long_run;
+  EXPECT_EQ(run.motion.kind, "chaotic");
+  for (const PeriodicEntry &entry : result.entries)
+    EXPECT_FALSE(entry.solution.stable());
+  // the section in coordinates and in signals is the same
+  ASSERT_EQ(run.rows.size(), 3u * std::size_t(run.motion.periods));
+  for (int k = 0; k < run.motion.periods; ++k)
+  {
+    const double x = run.motion.section(0, k);
+    EXPECT_EQ(run.rows[3 * std::size_t(k)], x);
+    EXPECT_EQ(run.rows[3 * std::size_t(k) + 1], run.motion.section(1, k));
+    EXPECT_NEAR(std::abs(run.rows[3 * std::size_t(k) + 2]), std::abs(x * x * x), 1e-12 * std::abs(x * x * x));
+  }
+  ASSERT_EQ(run.planes.size(), 1u) << "of x alone the rate is known";
+  EXPECT_EQ(run.planes[0].curves[0].rate[7], run.motion.section(1, 7));
+}
+
+/// Settling by single periods never ends; the motion of three is found, computed and stable.
+TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
+{
+  const std::string    start  = test::quoted("[start]\nv = { slide = 4 }\n");
+  const PeriodicResult result = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, by("settling"));
+  EXPECT_EQ(result.failure, "");
+  ASSERT_TRUE(result.long_run);
+  EXPECT_EQ(result.long_run->motion.kind, "sub-harmonic");
+  ASSERT_EQ(result.entries.size(), 1u);
+  EXPECT_EQ(result.entries[0].solution.ratio, 3);
+  EXPECT_TRUE(result.entries[0].solution.stable());
+  EXPECT_LT(result.entries[0].solution.residual, 1e-10);
+  // from then on the section is that motion
+  const auto  &section = result.long_run->motion.section;
+  Eigen::Index nearest;
+  EXPECT_LT((section.row(0).array() - result.entries[0].solution.q[0]).abs().minCoeff(&nearest), 1e-5);
+}
+
+TEST(LongRun, IsToldWhereItIsAskedFor)
+{
+  PeriodicRequest request = by("shooting");
+  EXPECT_FALSE(motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request).long_run);
+  request.section             = 80;
+  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request);
+  ASSERT_TRUE(result.long_run);
+  EXPECT_EQ(result.long_run->motion.kind, "periodic");
+  EXPECT_EQ(result.long_run->motion.section.cols(), 80);
+  EXPECT_EQ(result.entries.size(), 1u);
+  request.section = 10;
+  expect_refusal([&] { motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");
+}
+
+/// x = a cos(Omega t) is an ellipse in its plane: x^2 + (x'/Omega)^2 = a^2.
+TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
+{
+  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), by("shooting"));
+  const double         a      = 1. / std::hypot(1. - 1.4 * 1.4, 0.1 * 1.4);
+  ASSERT_EQ(result.planes.size(), 1u) << "velocities and forces have no exact rate";
+  EXPECT_EQ(result.planes[0].name, "x");
+  ASSERT_EQ(result.planes[0].curves.size(), 1u);
+  const auto &curve = result.planes[0].curves[0];
+  EXPECT_EQ(curve.begins, std::vector<std::size_t>{0});
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    EXPECT_NEAR(std::hypot(curve.x[i], curve.rate[i] / 1.4), a, 1e-8 * a);
+}
+
+/// omega^2 = 1 + 3/4 beta a^2 of a cubic spring, over the parameter that the load's frequency is.
+TEST(Backbone, OfACubicSpringIsItsFormula)
+{
+  PeriodicRequest request = by("harmonic-balance");
+  request.along           = "parameters.Omega";
+  request.from            = "0.8";
+  request.to              = "2";
+  request.points          = 30;
+  const std::string text =
+      test::quoted("[parameters]\nOmega = 0.8\n") + cubic_slide(0.1, 1., 0.5, 0.3, "Omega/(2*pi) * 1 Hz");
+  const PeriodicResult result = motions_of(text, request);
+  ASSERT_GT(result.backbone.size(), 20u);
+  double largest = 0.;
+  for (const PeriodicEntry &entry : result.backbone)
+  {
+    const double a = entry.signals[0].amplitude[0];
+    EXPECT_NEAR(entry.parameter, std::sqrt(1. + 0.375 * a * a), 1e-9);
+    largest = std::max(largest, a);
+  }
+  EXPECT_GT(largest, 1.9) << "as far as the branch";
+}
+
+} // namespace gestell::tests
