@@ -3,6 +3,7 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
@@ -59,6 +60,8 @@ void print_solutions(const PeriodicResult &result)
     std::cout << "  " << point.kind << " at " << result.parameter << " = " << short_text(point.parameter, 10) << '\n';
   if (result.long_run)
     std::cout << "  " << long_run_text(*result.long_run) << '\n';
+  if (result.basins)
+    std::cout << "  " << basins_text(*result.basins) << '\n';
   for (const std::string &note : result.notes)
     std::cout << "  " << note << '\n';
   for (const PeriodicCheck &check : result.checks)
@@ -130,6 +133,11 @@ Command periodic_command()
            .above_zero(),
        CommandOption{"--check", &own->check,
                      "compute each motion by a second method too, and report how far the two differ"},
+       {"--basins", &own->basins,
+        "to which motion starts settle that differ in two coordinates or rates, such as \"slide, slide'\" or \"slide "
+        "from -1 to 1, slide' from -2 to 2\" (default ends: twice the largest excursions of the motions found)"},
+       CommandOption{"--basin-points", &own->basin_points, "starts along a side (default 60)"}.above_zero().with(
+           "--basins"),
        CommandOption{"--section", &own->section,
                      "follow the motion for so many periods, 64 or more, and tell what it does in the long run "
                      "(default: 256 where no motion that lasts is found)"}

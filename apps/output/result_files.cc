@@ -1,5 +1,6 @@
 #include "apps/output/result_files.h"
 
+#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/order_table.h"
@@ -47,6 +48,11 @@ std::string special_points(const Result &result)
   return result.periodic ? special_points_csv(*result.periodic) : "";
 }
 
+std::string basins_of_motions(const Result &result)
+{
+  return result.periodic ? basins_csv(*result.periodic) : "";
+}
+
 std::string section_of_motion(const Result &result)
 {
   return result.periodic ? section_csv(*result.periodic) : "";
@@ -91,6 +97,7 @@ const std::vector<ResultFile> &result_files()
       {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
       {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
+      {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
       {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},

@@ -136,6 +136,13 @@ bool lasts(const std::vector<PeriodicSolution> &solutions)
   return std::any_of(solutions.begin(), solutions.end(), [](const auto &solution) { return solution.stable(); });
 }
 
+bool all_unstable(const std::vector<PeriodicSolution> &solutions)
+{
+  return !solutions.empty() &&
+         std::all_of(solutions.begin(), solutions.end(),
+                     [](const auto &solution) { return solution.stability_is_known() && !solution.stable(); });
+}
+
 /// Methods that follow the motion itself, so that their failing says something of it.
 bool is_followed(const std::string &method)
 {
@@ -176,13 +183,25 @@ void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOpti
 
 } // namespace
 
+void check_long_run(const PeriodicRequest &request)
+{
+  if (request.section > 0 && request.section < coupling::least_section)
+    throw std::invalid_argument("--section " + std::to_string(request.section) + ": so few periods tell too little; " +
+                                "take at least " + std::to_string(coupling::least_section));
+}
+
 void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem, const coupling::PeriodicGuess &start,
                      const coupling::PeriodicOptions &options, const PeriodicRequest &request,
                      const std::vector<Signal> &signals, std::vector<PeriodicSolution> &solutions,
                      PeriodicResult &found)
 {
   if (!is_wanted(problem, request, solutions, found))
+  {
+    if (all_unstable(solutions) && request.along.empty())
+      found.notes.push_back("no motion that lasts was found; --section " + std::to_string(usual_periods) +
+                            " tells what the machine does instead");
     return;
+  }
   if (const std::string why = coupling::why_not_propagated(machine, "settling"); !why.empty())
   {
     found.notes.push_back("what the motion does in the long run is not told: " + why);

@@ -10,6 +10,9 @@
 namespace gestell::apps
 {
 
+/// That enough periods are asked for.  @throws std::invalid_argument
+void check_long_run(const PeriodicRequest &request);
+
 /**
  * Follows the motion that begins at `start` for some hundred periods where nothing that lasts was found, or where the
  * request asks for it, and tells what it is.

@@ -19,7 +19,9 @@ struct PeriodicRequest
   std::string along, from, to; ///< key of the scene that is followed, and its ends
   int         points = 0;      ///< of a branch at most; 0: as usual
   std::string check;           ///< second method
-  int         section = 0;     ///< periods that the motion is followed to tell what it does in the long run; 0: if need be
+  int         section = 0; ///< periods that the motion is followed to tell what it does in the long run; 0: if need be
+  std::string basins;      ///< "X, Y" of the starts whose motions are looked for; empty: none
+  int         basin_points = 0; ///< of a side; 0: as usual
 };
 
 } // namespace gestell::apps

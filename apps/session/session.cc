@@ -3,6 +3,7 @@
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/scene.h"
 #include "apps/session/backbone.h"
+#include "apps/session/basin_answer.h"
 #include "apps/session/frequency_response.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
@@ -53,11 +54,12 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                  coupling::InitialState &state)
 {
-  const RepeatingMachine repeating = repeating_machine(scene, prepared.machine, state, {}, stop);
-  const ChosenMethod     chosen    = chosen_method(repeating, "");
-  const auto             options   = periodic_options(scene, {}, prepared.machine);
-  const auto             found     = chosen.method->solve(repeating.problem, repeating.guess, options);
-  const auto             solution  = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
+  RepeatingMachine repeating  = repeating_machine(scene, prepared.machine, state, {});
+  repeating.problem.stop      = stop;
+  const ChosenMethod chosen   = chosen_method(repeating, "");
+  const auto         options  = periodic_options(scene, {}, repeating.problem);
+  const auto         found    = chosen.method->solve(repeating.problem, {state.q, state.v, 0.}, options);
+  const auto         solution = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
   if (solution == found.end())
     throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic motions found are unstable");
   state.q       = solution->q;
@@ -111,6 +113,22 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
     {
       found.checks.push_back({name, {}, none.what()});
     }
+}
+
+/// By the method; none where it fails, which `found` then tells.
+std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, const coupling::PeriodicProblem &problem,
+                                                 const coupling::PeriodicGuess   &guess,
+                                                 const coupling::PeriodicOptions &options, PeriodicResult &found)
+{
+  try
+  {
+    return chosen.method->solve(problem, guess, options);
+  }
+  catch (const std::runtime_error &none)
+  {
+    found.failure = none.what();
+    return {};
+  }
 }
 
 coupling::RunResult not_started(const coupling::RunOptions &run, const std::string &failure)
@@ -257,10 +275,13 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   const auto         signals = scene_signals(scene_, machine);
   progress()("start", -1.);
   const coupling::InitialState start     = prepare_start(scene_, *machine_);
-  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request, watch_.interruption);
-  const ChosenMethod           chosen    = chosen_method(repeating, request.method);
-  const auto                   options   = periodic_options(scene_, request, machine);
-  PeriodicResult               found;
+  RepeatingMachine             repeating = repeating_machine(scene_, machine, start, request);
+  repeating.problem.stop                 = watch_.interruption;
+  check_long_run(request);
+  check_basins(machine, repeating.problem, request);
+  const ChosenMethod chosen  = chosen_method(repeating, request.method);
+  const auto         options = periodic_options(scene_, request, repeating.problem);
+  PeriodicResult     found;
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)
@@ -269,16 +290,9 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   if (!request.along.empty())
     family.emplace(path_, overrides_, scripts_, *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
-  std::vector<coupling::PeriodicSolution> solutions;
-  try
-  {
-    solutions = chosen.method->solve(repeating.problem, repeating.guess, options);
-  }
-  catch (const std::runtime_error &none)
-  {
-    found.failure = none.what();
-  }
-  follow_long_run(machine, repeating.problem, {start.q, start.v, 0.}, options, request, signals, solutions, found);
+  const coupling::PeriodicGuess guess{start.q, start.v, 0.};
+  auto                          solutions = searched(chosen, repeating.problem, guess, options, found);
+  follow_long_run(machine, repeating.problem, guess, options, request, signals, solutions, found);
   for (const auto &solution : solutions)
     found.work.add(solution.work);
   if (family)
@@ -293,22 +307,23 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   else
   {
     for (const auto &solution : solutions)
-    {
-      const bool shown = !result.run && solution.stable();
-      found.entries.push_back(
-          entry_of(machine, repeating.problem, solution, signals, orbit_rows, shown ? &result.run : nullptr));
-    }
-    found.planes = phase_planes(machine, repeating.problem, found.entries, signals);
+      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
+    found.planes   = phase_planes(machine, repeating.problem, found.entries, signals);
+    const auto now = progress();
+    find_basins(
+        machine, repeating.problem, guess, solutions, options, request, [&](double share) { now("basins", share); },
+        found);
   }
   if (!request.check.empty())
     check_periodic(machine, repeating, options, request.check, signals, found);
   found.interrupted = repeating.problem.interrupted();
   const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
                                    [](const PeriodicEntry &entry) { return entry.solution.stable(); });
-  if (stable != found.entries.end() && request.along.empty() && !result.run)
+  if (stable != found.entries.end() && request.along.empty())
+  {
     result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
-  if (result.run)
     states_for_pictures(*machine_, *result.run);
+  }
   return found;
 }
 

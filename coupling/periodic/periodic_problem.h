@@ -37,6 +37,16 @@ struct PeriodicProblem
   bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
 
   bool period_is_unknown() const { return phase >= 0; }
+
+  /// The same by the period of the excitation.
+  PeriodicProblem of_one_period() const
+  {
+    PeriodicProblem one = *this;
+    one.period /= ratio;
+    one.turn /= ratio;
+    one.ratio = 1;
+    return one;
+  }
 };
 
 /// What all methods obey; each takes what it knows.

@@ -17,7 +17,6 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int    least_periods   = 64;
 constexpr int    highest_repeats = 16;
 constexpr double closes          = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
 constexpr int    n_batches       = 16;   ///< of periods, for the error of the mean
@@ -168,25 +167,15 @@ void name(Recurrence &recurrence, const Eigen::MatrixXd &states, double fastest)
     recurrence.repeats = back.repeats;
 }
 
-/// By the period of the excitation.
-PeriodicProblem single(const PeriodicProblem &problem)
-{
-  PeriodicProblem one = problem;
-  one.period /= problem.ratio;
-  one.turn /= problem.ratio;
-  one.ratio = 1;
-  return one;
-}
-
 } // namespace
 
 Recurrence recurrence_of(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicOptions &options,
                          int periods)
 {
-  if (periods < least_periods)
+  if (periods < least_section)
     throw std::invalid_argument("a section of " + std::to_string(periods) +
-                                " periods tells too little; take at least " + std::to_string(least_periods));
-  const PeriodicProblem one         = single(problem);
+                                " periods tells too little; take at least " + std::to_string(least_section));
+  const PeriodicProblem one         = problem.of_one_period();
   MethodOptions         integration = options.integration;
   if (!(integration.step > 0.))
     integration.tolerance = std::max(integration.tolerance, followed_finely);

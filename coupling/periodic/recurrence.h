@@ -9,6 +9,8 @@
 namespace gestell::coupling
 {
 
+constexpr int least_section = 64; ///< periods: fewer tell too little
+
 /// What a motion does in the long run.
 struct Recurrence
 {
@@ -41,7 +43,7 @@ struct Recurrence
  *     else                                      quasi-periodic
  *
  * @param problem  a `ratio` above 1 is not looked at: the section is taken by the period of the excitation
- * @param periods  that are looked at, at least 64; as many are gone through before
+ * @param periods  that are looked at, at least least_section; as many are gone through before
  * @throws std::invalid_argument where the integrator carries no tangents; ConvergenceFailure where the motion cannot be
  *         followed, as one that runs away; SearchInterrupted
  */

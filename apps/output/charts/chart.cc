@@ -168,8 +168,8 @@ std::string tiles(const Panel &panel, const Chart &chart, const Area &area)
     const double high  = area.y.at(std::min(tile.y_end, chart.y.end));
     if (!(right > left) || !(low > high))
       continue;
-    const std::string box =
-        "<rect class=\"f" + colour_class(tile.colour) + "\"" + svg_box(left, high, right - left, low - high) + "/>";
+    const std::string box = "<rect class=\"f" + colour_class(tile.colour) + "\"" +
+                            svg_box(left, high, right - left, low - high) + " shape-rendering=\"crispEdges\"/>";
     svg += tile.text.empty() ? box : svg_hint(tile.text, box);
   }
   return svg;

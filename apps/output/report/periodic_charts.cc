@@ -16,6 +16,7 @@ namespace
 constexpr int         circle_points = 180;
 constexpr std::size_t most_barred = 4, most_left_out = 6; ///< signals
 constexpr double      bars_of_harmonic = 0.8;             ///< width of all bars of a harmonic
+constexpr double      cell_overlap     = 0.05;            ///< of a cell, over which the next one is drawn: no gaps
 constexpr double      nan_here         = std::numeric_limits<double>::quiet_NaN();
 
 void square_plane(Chart &chart)
@@ -263,6 +264,51 @@ Chart section_chart(const PhasePlane &plane, int periods)
   chart.note  = "at the begin of " + std::to_string(periods) + " periods of the excitation";
   for (const PhasePlane::Curve &motion : plane.curves)
     chart.panels[0].curves.push_back({"", motion.x, motion.rate, 0, LineStyle::none, Marker::disc});
+  return chart;
+}
+
+Chart basins_chart(const BasinMap &map)
+{
+  const coupling::Basins     &basins = map.basins;
+  const coupling::StartPlane &plane  = basins.plane;
+  Chart                       chart;
+  chart.title         = "Basins of the stable motions";
+  chart.note          = basins.share(coupling::Basins::not_reached) > 0.
+                            ? "white: none of them; discs: where they begin a period"
+                            : "discs: where they begin a period";
+  chart.width         = 640.;
+  chart.height        = 520.;
+  chart.x.label       = map.x_name;
+  chart.y.label       = map.y_name;
+  chart.x.begin       = plane.x_begin;
+  chart.x.end         = plane.x_end;
+  chart.y.begin       = plane.y_begin;
+  chart.y.end         = plane.y_end;
+  const double width  = (plane.x_end - plane.x_begin) / plane.points,
+               height = (plane.y_end - plane.y_begin) / plane.points;
+  for (int j = 0; j < plane.points; ++j)
+    for (int i = 0, end = 0; i < plane.points; i = end)
+    {
+      const int motion = basins.motion(i, j);
+      for (end = i + 1; end < plane.points && basins.motion(end, j) == motion; ++end)
+      {
+      }
+      if (motion > 0)
+        chart.panels[0].tiles.push_back({plane.x_begin + i * width, plane.x_begin + (end + cell_overlap) * width,
+                                         plane.y_begin + j * height, plane.y_begin + (j + 1 + cell_overlap) * height,
+                                         motion - 1});
+    }
+  for (int motion = 1; motion <= basins.motion.maxCoeff(); ++motion)
+    if (const double share = basins.share(motion); share > 0.)
+      chart.panels[0].curves.push_back(
+          tile_name("no. " + std::to_string(motion) + ", " + short_text(100. * share, 3) + " %", motion - 1));
+  Curve begins{"", {}, {}, 5, LineStyle::none, Marker::disc};
+  for (const coupling::Basins::Place &place : basins.places)
+  {
+    begins.add(place.x, place.y);
+    begins.notes.push_back({"no. " + std::to_string(place.motion), true});
+  }
+  chart.panels[0].curves.push_back(begins);
   return chart;
 }
 

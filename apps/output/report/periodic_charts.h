@@ -21,6 +21,9 @@ Chart phase_plane_chart(const PhasePlane &plane);
 /// The same of a Poincare section: points alone.
 Chart section_chart(const PhasePlane &plane, int periods);
 
+/// Cells in the colours of the motions to which they settle; discs: where the stable motions begin a period.
+Chart basins_chart(const BasinMap &map);
+
 /// Largest and smallest value of a signal over the parameter; unstable motions dashed.
 Chart response_chart(const PeriodicResult &result, std::size_t signal);
 

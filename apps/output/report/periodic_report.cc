@@ -1,6 +1,7 @@
 #include "apps/output/report/periodic_report.h"
 
 #include "apps/output/report/periodic_charts.h"
+#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -116,6 +117,11 @@ std::string periodic_section(const Result &result, Pictures &pictures)
     show_planes("periodic-section-", periodic.long_run->planes,
                 [&](const PhasePlane &plane) { return section_chart(plane, periodic.long_run->motion.periods); });
   show_planes("periodic-phase-", periodic.planes, phase_plane_chart);
+  if (periodic.basins)
+  {
+    html += "<p>" + sentence(basins_text(*periodic.basins)) + "</p>\n";
+    show("periodic-basins", basins_chart(*periodic.basins));
+  }
   if (!periodic.entries.empty())
   {
     html += "<div class=\"row\">";

@@ -1,5 +1,6 @@
 #include "apps/output/tables/periodic_tables.h"
 
+#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/section_table.h"
 #include "fem/values/number_text.h"
 
@@ -185,6 +186,8 @@ Json periodic_json(const PeriodicResult &result)
         {{"kind", point.kind}, {"parameter", point.parameter}, {"period", point.period}, {"solution", point.solution}});
   if (result.long_run)
     json["recurrence"] = long_run_json(*result.long_run);
+  if (result.basins)
+    json["basins"] = basins_json(*result.basins);
   json["checks"] = Json::array();
   for (const PeriodicCheck &check : result.checks)
   {

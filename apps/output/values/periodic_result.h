@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/periodic/basins.h"
 #include "coupling/periodic/periodic_solution.h"
 #include "coupling/periodic/recurrence.h"
 
@@ -69,6 +70,13 @@ struct LongRun
   std::vector<PhasePlane>  planes;  ///< the section in a few signals
 };
 
+/// Which start settles to which motion; motions by their numbers.
+struct BasinMap
+{
+  std::string      x_name, y_name; ///< of coordinates, with ' of rates
+  coupling::Basins basins;
+};
+
 /// What `gestell periodic` finds.
 struct PeriodicResult
 {
@@ -81,6 +89,7 @@ struct PeriodicResult
   std::vector<PeriodicEntry> backbone; ///< of free vibration, where the parameter is a load's frequency
   std::vector<PhasePlane>    planes;   ///< the first solutions in some signals whose rates are known exactly
   std::optional<LongRun>     long_run;
+  std::optional<BasinMap>    basins;
   coupling::PeriodicWork     work;
   std::vector<std::string>   notes;   ///< of branches
   std::string                failure; ///< not empty: why it ended early

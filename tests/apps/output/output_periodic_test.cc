@@ -1,4 +1,5 @@
 #include "apps/output/report/periodic_charts.h"
+#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/section_table.h"
 
 #include <gmock/gmock.h>
@@ -56,6 +57,25 @@ TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
   EXPECT_EQ(chart.panels[0].curves[1].line, LineStyle::dashed);
   EXPECT_EQ(chart.panels[0].curves[1].y.back(), 3.);
   EXPECT_EQ(chart.panels[0].curves[2].line, LineStyle::dotted);
+}
+
+/// Cells of one motion that lie side by side are one tile; those not looked at are left white and out of the table.
+TEST(BasinsChart, JoinsCellsAndLeavesOutWhatWasNotLookedAt)
+{
+  BasinMap map{"x", "x'", {{0, 1, 0., 2., 0., 4., 2}, {{3, 0.5, 0.5}}, {}, {}, {}}};
+  map.basins.motion  = (Eigen::Matrix2i() << 3, 0, 3, -1).finished();
+  map.basins.periods = (Eigen::Matrix2i() << 7, 8, 9, 0).finished();
+  const Chart chart  = basins_chart(map);
+  ASSERT_EQ(chart.panels[0].tiles.size(), 1u);
+  EXPECT_NEAR(chart.panels[0].tiles[0].x_end, 2., 0.1); // cells overlap a little
+  EXPECT_NEAR(chart.panels[0].tiles[0].y_end, 2., 0.2);
+  EXPECT_THAT(chart.panels[0].curves[0].name, StartsWith("no. 3, 66.7 %"));
+  PeriodicResult result;
+  EXPECT_EQ(basins_csv(result), "");
+  result.basins = map;
+  EXPECT_EQ(basins_csv(result), "x,x',solution,periods\n0.5,1,3,7\n1.5,1,3,9\n0.5,3,0,8\n");
+  EXPECT_THAT(basins_text(map), HasSubstr("interrupted"));
+  EXPECT_EQ(basins_json(map)["complete"], false);
 }
 
 TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)

@@ -98,6 +98,16 @@ TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
   EXPECT_LT((section.row(0).array() - result.entries[0].solution.q[0]).abs().minCoeff(&nearest), 1e-5);
 }
 
+/// One unstable motion may be all that was asked for: the way to the rest is told.
+TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
+{
+  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), by("shooting"));
+  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+  EXPECT_FALSE(result.long_run);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_THAT(result.notes[0], testing::HasSubstr("--section 256"));
+}
+
 TEST(LongRun, IsToldWhereItIsAskedFor)
 {
   PeriodicRequest request = by("shooting");
@@ -124,6 +134,53 @@ TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
   EXPECT_EQ(curve.begins, std::vector<std::size_t>{0});
   for (std::size_t i = 0; i < curve.x.size(); ++i)
     EXPECT_NEAR(std::hypot(curve.x[i], curve.rate[i] / 1.4), a, 1e-8 * a);
+}
+
+/// The plane reaches twice as far as the motions; both stable ones have their share of it.
+TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
+{
+  PeriodicRequest request     = by("minimise");
+  request.starts              = 12;
+  request.basins              = "slide, slide'";
+  request.basin_points        = 6;
+  const std::string    scene  = cubic_slide(0.1, 1., 0.5, 0.3, hertz(1.4));
+  const PeriodicResult result = motions_of(scene, request);
+  ASSERT_EQ(result.entries.size(), 3u);
+  ASSERT_TRUE(result.basins);
+  const coupling::Basins &basins = result.basins->basins;
+  double                  x = 0., v = 0.;
+  for (const apps::PhasePlane::Curve &curve : result.planes.at(0).curves)
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+    {
+      x = std::max(x, curve.x[i]);
+      v = std::max(v, curve.rate[i]);
+    }
+  // Symmetric motions; the largest of 256 samples of a period is less than the peak by up to (pi/256)^2/2 = 8e-5 of it,
+  // times the curvature there, of the first harmonic's up to 2 with a cubic spring.
+  EXPECT_NEAR(basins.plane.x_end, 2. * x, 4e-4 * x);
+  EXPECT_NEAR(basins.plane.y_begin, -2. * v, 4e-4 * v);
+  double sum = 0.;
+  for (int k = 1; k <= 3; ++k)
+  {
+    EXPECT_EQ(basins.share(k) > 0., result.entries[std::size_t(k) - 1].solution.stable());
+    sum += basins.share(k);
+  }
+  EXPECT_EQ(sum, 1.);
+
+  request.basins    = "slide from -10 mm to 1 m, slide' from 0 to 2";
+  const auto &plane = motions_of(scene, request).basins->basins.plane;
+  EXPECT_EQ(plane.x_begin, -0.01);
+  EXPECT_EQ(plane.y_end, 2.);
+  const auto words = [&](const std::string &text)
+  {
+    request.basins = text;
+    return refusal([&] { motions_of(scene, request); });
+  };
+  EXPECT_THAT(words("slid, slide'"), testing::HasSubstr("'slide'"));
+  EXPECT_THAT(words("slide"), testing::HasSubstr("two sides"));
+  EXPECT_THAT(words("slide, slide"), testing::HasSubstr("the same"));
+  EXPECT_THAT(words("slide from 1 to -1, slide'"), testing::HasSubstr("larger value comes second"));
+  EXPECT_THAT(words("slide from 1, slide'"), testing::HasSubstr("from -1 to 1"));
 }
 
 /// omega^2 = 1 + 3/4 beta a^2 of a cubic spring, over the parameter that the load's frequency is.

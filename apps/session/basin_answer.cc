@@ -1,0 +1,174 @@
+#include "apps/session/basin_answer.h"
+
+#include "apps/session/option_value.h"
+#include "coupling/periodic/trace_orbit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+using Eigen::VectorXd;
+
+constexpr int    usual_points = 60, samples = 256;
+constexpr double excursions = 2.; ///< of the motions, that the plane reaches to either side
+
+/// A side of the plane, as it is typed.
+struct PlaneSide
+{
+  std::string                              name;
+  int                                      index = 0; ///< in (q, q')
+  std::optional<std::pair<double, double>> ends;
+};
+
+std::string trimmed(const std::string &text)
+{
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// Numbers are SI; with a unit a length or an angle, of rates a speed of either.
+double end_value(const std::string &text, bool is_rate)
+{
+  try
+  {
+    return option_value("--basins", text, is_rate ? kind::speed : kind::length);
+  }
+  catch (const std::invalid_argument &)
+  {
+    return option_value("--basins", text, is_rate ? kind::angular_speed : kind::angle);
+  }
+}
+
+PlaneSide side_of(const coupling::Machine &machine, const std::string &text)
+{
+  PlaneSide  side;
+  const auto from = text.find(" from "), to = text.find(" to ");
+  side.name = trimmed(text.substr(0, from));
+  if (side.name.empty() || (from == std::string::npos) != (to == std::string::npos) || to < from)
+    throw std::invalid_argument("--basins: \"" + trimmed(text) +
+                                "\" is no side of a plane; give a coordinate, such as " + "\"" +
+                                machine.coordinate_name(0) + "\", its rate \"" + machine.coordinate_name(0) +
+                                "'\", or one with its ends, \"" + machine.coordinate_name(0) + " from -1 to 1\"");
+  const bool        is_rate    = side.name.back() == '\'';
+  const std::string coordinate = is_rate ? side.name.substr(0, side.name.size() - 1) : side.name;
+  try
+  {
+    side.index = machine.model().coordinate(coordinate) + (is_rate ? machine.size() : 0);
+  }
+  catch (const std::invalid_argument &unknown)
+  {
+    throw std::invalid_argument(std::string("--basins: ") + unknown.what());
+  }
+  if (from == std::string::npos)
+    return side;
+  side.ends.emplace(end_value(trimmed(text.substr(from + 6, to - from - 6)), is_rate),
+                    end_value(trimmed(text.substr(to + 4)), is_rate));
+  if (!(side.ends->second > side.ends->first))
+    throw std::invalid_argument("--basins: \"" + trimmed(text) +
+                                "\" ends where it begins or before; the larger value " + "comes second");
+  return side;
+}
+
+std::pair<PlaneSide, PlaneSide> sides_of(const coupling::Machine &machine, const std::string &text)
+{
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
+    throw std::invalid_argument("--basins \"" + text + "\": a plane has two sides, such as \"" +
+                                machine.coordinate_name(0) + ", " + machine.coordinate_name(0) + "'\"");
+  const std::pair<PlaneSide, PlaneSide> sides = {side_of(machine, text.substr(0, comma)),
+                                                 side_of(machine, text.substr(comma + 1))};
+  if (sides.first.index == sides.second.index)
+    throw std::invalid_argument("--basins \"" + text + "\": the two sides are the same");
+  return sides;
+}
+
+/// Smallest and largest of (q, q') over all motions, ramps of what turns taken off [2n].
+std::pair<VectorXd, VectorXd> extremes(const coupling::PeriodicProblem               &problem,
+                                       const std::vector<coupling::PeriodicSolution> &solutions)
+{
+  const auto n   = problem.turn.size();
+  VectorXd   low = VectorXd::Constant(2 * n, HUGE_VAL), high = -low;
+  for (const coupling::PeriodicSolution &solution : solutions)
+  {
+    coupling::PeriodicProblem own = problem;
+    own.period                    = solution.period;
+    coupling::trace(own, solution, samples * solution.ratio,
+                    [&](const coupling::OrbitPoint &point)
+                    {
+                      VectorXd x(2 * n);
+                      x << point.q - (point.t - solution.begin) / solution.period * solution.turn, point.v;
+                      low  = low.cwiseMin(x);
+                      high = high.cwiseMax(x);
+                    });
+  }
+  return {low, high};
+}
+
+std::pair<double, double> ends_of(const PlaneSide &side, const std::pair<VectorXd, VectorXd> &motion)
+{
+  if (side.ends)
+    return *side.ends;
+  const double low = motion.first[side.index], high = motion.second[side.index];
+  const double middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
+  if (!(reach > 0.))
+    throw std::invalid_argument("--basins: " + side.name + " does not move in the motions found; give its ends, \"" +
+                                side.name + " from ... to ...\"");
+  return {middle - reach, middle + reach};
+}
+
+} // namespace
+
+void check_basins(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                  const PeriodicRequest &request)
+{
+  if (request.basins.empty())
+    return;
+  sides_of(machine, request.basins);
+  if (!request.along.empty())
+    throw std::invalid_argument("--basins belong to one machine; with --along there are many: leave one of them out");
+  if (problem.period_is_unknown())
+    throw std::invalid_argument("--basins: the period is unknown, so starts differ in their phase alone; they are of "
+                                "machines whose loads tell the period");
+}
+
+coupling::StartPlane start_plane(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                                 const std::vector<coupling::PeriodicSolution> &solutions,
+                                 const PeriodicRequest                         &request)
+{
+  const auto [x, y]           = sides_of(machine, request.basins);
+  const auto motion           = extremes(problem, solutions);
+  const auto [x_begin, x_end] = ends_of(x, motion);
+  const auto [y_begin, y_end] = ends_of(y, motion);
+  const int points            = request.basin_points > 0 ? request.basin_points : usual_points;
+  return {x.index, y.index, x_begin, x_end, y_begin, y_end, points};
+}
+
+void find_basins(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
+                 const coupling::PeriodicGuess &start, const std::vector<coupling::PeriodicSolution> &solutions,
+                 const coupling::PeriodicOptions &options, const PeriodicRequest &request,
+                 const std::function<void(double)> &progress, PeriodicResult &found)
+{
+  if (request.basins.empty() || problem.interrupted())
+    return;
+  if (std::none_of(solutions.begin(), solutions.end(), [](const auto &solution) { return solution.stable(); }))
+  {
+    found.notes.push_back("there are no basins: none of the motions found is stable");
+    return;
+  }
+  BasinMap map;
+  map.basins =
+      basins_of(problem, solutions, start, start_plane(machine, problem, solutions, request), options, progress);
+  const auto [x, y] = sides_of(machine, request.basins);
+  map.x_name        = x.name;
+  map.y_name        = y.name;
+  found.basins      = std::move(map);
+  found.work.add(found.basins->basins.work);
+}
+
+} // namespace gestell::apps
