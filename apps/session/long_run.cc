@@ -185,6 +185,8 @@ void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOpti
 
 void check_long_run(const PeriodicRequest &request)
 {
+  if (request.section > 0 && !request.along.empty())
+    throw std::invalid_argument("--section is of one motion; with --along there are many: leave one of them out");
   if (request.section > 0 && request.section < coupling::least_section)
     throw std::invalid_argument("--section " + std::to_string(request.section) + ": so few periods tell too little; " +
                                 "take at least " + std::to_string(coupling::least_section));
@@ -224,8 +226,9 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   settle_failure(problem, options, run.motion, solutions, found);
   for (const Signal &signal : signals)
     run.columns.push_back(signal.name + " [" + signal.unit + "]");
-  run.rows       = read_section(machine, problem.begin, run.motion.section, signals);
-  run.planes     = section_planes(machine, problem.begin, run.motion, signals);
+  run.rows = read_section(machine, problem.begin, run.motion.section, signals);
+  if (run.motion.kind != "periodic") // of which the section is a point
+    run.planes = section_planes(machine, problem.begin, run.motion, signals);
   found.long_run = std::move(run);
 }
 

@@ -10,7 +10,7 @@
 namespace gestell::apps
 {
 
-/// That enough periods are asked for.  @throws std::invalid_argument
+/// That enough periods are asked for, of one machine.  @throws std::invalid_argument
 void check_long_run(const PeriodicRequest &request);
 
 /**

@@ -105,9 +105,15 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
       coupling::PeriodicOptions again = options;
       again.lead_in                   = 0;
       const coupling::PeriodicGuess near{entry.solution.q, entry.solution.v, entry.solution.period};
-      const auto                    solutions = second.method->solve(repeating.problem, near, again);
-      found.checks.push_back(
-          compared(entry, entry_of(machine, repeating.problem, solutions.front(), signals, orbit_rows), name));
+      coupling::PeriodicProblem     problem = repeating.problem;
+      if (!problem.period_is_unknown()) // it may repeat after several periods only
+      {
+        problem.period = entry.solution.period;
+        problem.ratio  = entry.solution.ratio;
+        problem.turn   = entry.solution.turn;
+      }
+      const auto solutions = second.method->solve(problem, near, again);
+      found.checks.push_back(compared(entry, entry_of(machine, problem, solutions.front(), signals, orbit_rows), name));
     }
     catch (const std::runtime_error &none)
     {

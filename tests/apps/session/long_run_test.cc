@@ -118,8 +118,34 @@ TEST(LongRun, IsToldWhereItIsAskedFor)
   EXPECT_EQ(result.long_run->motion.kind, "periodic");
   EXPECT_EQ(result.long_run->motion.section.cols(), 80);
   EXPECT_EQ(result.entries.size(), 1u);
+  request.along = "parameters.x";
+  request.from = request.to = "1";
+  expect_refusal(
+      [&] { motions_of(test::quoted("[parameters]\nx = 1\n") + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); },
+      "one motion");
+  request.along   = "";
   request.section = 10;
   expect_refusal([&] { motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");
+}
+
+/// A motion of three periods is computed a second way as one of three periods, too.
+TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
+{
+  const std::string start = test::quoted("[start]\nv = { slide = 4 }\n");
+  PeriodicRequest   request;
+  request.method  = "shooting";
+  request.ratio   = 3;
+  request.lead_in = 30;
+  request.check   = "harmonic-balance";
+  auto result     = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
+  ASSERT_EQ(result.checks.size(), 1u);
+  EXPECT_EQ(result.checks[0].failure, "");
+  EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
+  request       = by("settling");
+  request.check = "shooting";
+  result        = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
+  ASSERT_EQ(result.checks.size(), 1u);
+  EXPECT_LT(result.checks[0].distances[0].second, 1e-8) << result.checks[0].failure;
 }
 
 /// x = a cos(Omega t) is an ellipse in its plane: x^2 + (x'/Omega)^2 = a^2.
