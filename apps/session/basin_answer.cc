@@ -1,6 +1,7 @@
 #include "apps/session/basin_answer.h"
 
 #include "apps/session/option_value.h"
+#include "coupling/machine/configuration/assembly.h"
 #include "coupling/periodic/trace_orbit.h"
 
 #include <algorithm>
@@ -132,6 +133,9 @@ void check_basins(const coupling::Machine &machine, const coupling::PeriodicProb
   sides_of(machine, request.basins);
   if (!request.along.empty())
     throw std::invalid_argument("--basins belong to one machine; with --along there are many: leave one of them out");
+  if (coupling::has_joints(machine))
+    throw std::invalid_argument("--basins: starts that differ in single coordinates would open the ideal joints of the "
+                                "machine; settle from starts of your own, [start] closes the joints");
   if (problem.period_is_unknown())
     throw std::invalid_argument("--basins: the period is unknown, so starts differ in their phase alone; they are of "
                                 "machines whose loads tell the period");

@@ -10,7 +10,30 @@ namespace gestell::apps
 namespace
 {
 constexpr std::size_t most_planes = 4, most_curves = 6;
-constexpr int         rows_of_planes = 512; ///< of a period
+constexpr int         rows_of_planes = 4096; ///< of a period: shocks are short
+constexpr double      seen = 1e-3; ///< distance of points, of the widths of the plane, below which they are one
+
+/// Column j against its rate, n columns further; points that lie on one another are left out.
+PhasePlane::Curve curve_of(const PeriodicEntry &traced, std::size_t j, std::size_t n)
+{
+  const SignalOrbit &x = traced.signals[j], &rate = traced.signals[n + j];
+  const double       width = seen * (x.max - x.min), height = seen * (rate.max - rate.min);
+  PhasePlane::Curve  curve;
+  const std::size_t  columns = 2 * n + 1, rows = traced.rows.size() / columns;
+  curve.stable = traced.solution.stable() || !traced.solution.stability_is_known();
+  for (std::size_t i = 0; i < rows; ++i)
+  {
+    const double at = traced.rows[i * columns + 1 + j], fast = traced.rows[i * columns + 1 + n + j];
+    const bool   begins = i % rows_of_planes == 0;
+    if (!begins && std::abs(at - curve.x.back()) <= width && std::abs(fast - curve.rate.back()) <= height)
+      continue;
+    if (begins && i + 1 < rows)
+      curve.begins.push_back(curve.x.size());
+    curve.x.push_back(at);
+    curve.rate.push_back(fast);
+  }
+  return curve;
+}
 } // namespace
 
 std::optional<coupling::Signal> rate_of(const coupling::Signal &signal)
@@ -60,15 +83,8 @@ std::vector<PhasePlane> phase_planes(coupling::Machine &machine, const coupling:
     const PeriodicEntry traced = entry_of(machine, problem, solution, read, rows_of_planes * solution.ratio);
     for (std::size_t j = 0; j < planes.size(); ++j)
     {
-      PhasePlane::Curve curve{int(k) + 1, solution.stable() || !solution.stability_is_known(), {}, {}, {}};
-      for (int period = 0; period < solution.ratio; ++period)
-        curve.begins.push_back(std::size_t(period) * rows_of_planes);
-      for (std::size_t i = 0; i < traced.rows.size(); i += read.size() + 1)
-      {
-        curve.x.push_back(traced.rows[i + 1 + j]);
-        curve.rate.push_back(traced.rows[i + 1 + planes.size() + j]);
-      }
-      planes[j].curves.push_back(std::move(curve));
+      planes[j].curves.push_back(curve_of(traced, j, planes.size()));
+      planes[j].curves.back().solution = int(k) + 1;
     }
   }
   return planes;

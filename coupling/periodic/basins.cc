@@ -57,7 +57,9 @@ double distance(const std::vector<VectorXd> &some, const std::vector<VectorXd> &
   return least;
 }
 
-std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vector<PeriodicSolution> &solutions)
+/// @param widest  size of a start, for a motion that is rest
+std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vector<PeriodicSolution> &solutions,
+                                     double widest)
 {
   std::vector<std::vector<VectorXd>> states;
   for (const PeriodicSolution &solution : solutions)
@@ -70,6 +72,7 @@ std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vect
     double reach = 0.;
     for (const VectorXd &state : states[k])
       reach = std::max(reach, state.norm());
+    reach = reach > 0. ? reach : widest;
     for (std::size_t other = 0; other < solutions.size(); ++other)
       if (other != k)
         reach = std::min(reach, distance(states[k], states[other]));
@@ -78,6 +81,14 @@ std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vect
   if (attractors.empty())
     throw std::invalid_argument("basins: none of the periodic motions found is stable, so nothing settles to them");
   return attractors;
+}
+
+/// Of the starts' two numbers, in (Omega q, q').
+double widest_of(const StartPlane &plane, Index n, double omega)
+{
+  const auto scale = [&](int i) { return i < n ? omega : 1.; };
+  return std::hypot(scale(plane.x) * std::max(std::abs(plane.x_begin), std::abs(plane.x_end)),
+                    scale(plane.y) * std::max(std::abs(plane.y_begin), std::abs(plane.y_end)));
 }
 
 std::vector<Basins::Place> places_of(const std::vector<Attractor> &attractors, const StartPlane &plane, double omega)
@@ -183,10 +194,11 @@ Basins basins_of(const PeriodicProblem &problem, const std::vector<PeriodicSolut
   MethodOptions integration = options.integration;
   if (!(integration.step > 0.))
     integration.tolerance = std::max(integration.tolerance, settled_finely);
-  const std::vector<Attractor> attractors = attractors_of(one, solutions);
+  const Index                  n          = rest.q.size();
+  const double                 omega      = 2. * M_PI / one.period;
+  const std::vector<Attractor> attractors = attractors_of(one, solutions, widest_of(plane, n, omega));
   Settler                      settler(one, attractors, integration, options.periods);
-  const Index                  n = rest.q.size();
-  Basins                       basins{plane, places_of(attractors, plane, 2. * M_PI / one.period), {}, {}, {}};
+  Basins                       basins{plane, places_of(attractors, plane, omega), {}, {}, {}};
   basins.motion.setConstant(plane.points, plane.points, Basins::not_looked_at);
   basins.periods.setZero(plane.points, plane.points);
   VectorXd start(2 * n);

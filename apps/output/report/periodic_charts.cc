@@ -13,10 +13,11 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int         circle_points = 180;
-constexpr std::size_t most_barred = 4, most_left_out = 6; ///< signals
-constexpr double      bars_of_harmonic = 0.8;             ///< width of all bars of a harmonic
-constexpr double      cell_overlap     = 0.05;            ///< of a cell, over which the next one is drawn: no gaps
+constexpr int         circle_points    = 180;
+constexpr std::size_t most_barred      = 4;    ///< signals
+constexpr double      bars_of_harmonic = 0.8;  ///< width of all bars of a harmonic
+constexpr double      cell_overlap     = 0.05; ///< of a cell, over which the next one is drawn: no gaps
+constexpr double      all_but_one      = 1e-3; ///< span of values, of their size
 constexpr double      nan_here         = std::numeric_limits<double>::quiet_NaN();
 
 void square_plane(Chart &chart)
@@ -30,21 +31,31 @@ std::string with_unit(const std::string &name, const std::string &unit)
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-/// A plane with room about what is drawn in it.
+/// The axis with room about the values; of those that are all but one, a thousandth of it.
+ChartAxis axis_about(const std::string &label, double low, double high)
+{
+  const double least = all_but_one * std::max(std::abs(low), std::abs(high));
+  const double more  = 0.5 * std::max(0., least - (high - low));
+  ChartAxis    axis;
+  axis.label = label;
+  return fitted(axis, low - more, high + more, 0.05);
+}
+
 Chart plane_of(const PhasePlane &plane)
 {
   Chart chart;
   square_plane(chart);
-  chart.x.label = with_unit(plane.name, plane.unit);
-  chart.y.label = with_unit(plane.name + "'", plane.unit.empty() ? "" : plane.unit + "/s");
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low[2]  = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double high[2] = {-low[0], -low[1]};
   for (const PhasePlane::Curve &curve : plane.curves)
-    for (const double x : curve.x)
-    {
-      low  = std::min(low, x);
-      high = std::max(high, x);
-    }
-  chart.x = fitted(chart.x, low, high, 0.05);
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+      for (const int k : {0, 1})
+      {
+        low[k]  = std::min(low[k], k == 0 ? curve.x[i] : curve.rate[i]);
+        high[k] = std::max(high[k], k == 0 ? curve.x[i] : curve.rate[i]);
+      }
+  chart.x = axis_about(with_unit(plane.name, plane.unit), low[0], high[0]);
+  chart.y = axis_about(with_unit(plane.name + "'", plane.unit.empty() ? "" : plane.unit + "/s"), low[1], high[1]);
   return chart;
 }
 
@@ -97,18 +108,6 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
   }
   std::sort(taken.begin(), taken.end());
   return taken;
-}
-
-std::string left_out_text(const std::vector<SignalOrbit> &signals, const std::vector<std::size_t> &taken)
-{
-  std::string names;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < signals.size(); ++i)
-    if (!std::binary_search(taken.begin(), taken.end(), i) && ++count <= most_left_out)
-      names += (names.empty() ? "" : ", ") + signals[i].name;
-  if (count > most_left_out)
-    names += " and " + std::to_string(count - most_left_out) + " more";
-  return names.empty() ? "" : "; not drawn: " + names;
 }
 
 /// A value of the solutions over the parameter, stable ones alone or the others; branches are not joined.
@@ -205,7 +204,7 @@ Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
   const std::vector<std::size_t> barred = most_different(entry.signals);
   Chart                          chart;
   chart.title              = "Harmonics of solution " + std::to_string(number);
-  chart.note               = "amplitudes, each signal against its largest one" + left_out_text(entry.signals, barred);
+  chart.note               = "amplitudes, each signal against its largest one";
   chart.width              = 480.;
   chart.height             = 320.;
   chart.x.label            = "multiple of the drive's frequency";
@@ -233,6 +232,16 @@ Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
   for (std::size_t k = 1; k <= n_harmonics; ++k)
     chart.x.ticks.push_back(double(k));
   return chart;
+}
+
+std::string not_barred(const PeriodicEntry &entry)
+{
+  const std::vector<std::size_t> barred = most_different(entry.signals);
+  std::string                    names;
+  for (std::size_t i = 0; i < entry.signals.size(); ++i)
+    if (!std::binary_search(barred.begin(), barred.end(), i))
+      names += (names.empty() ? "" : ", ") + entry.signals[i].name;
+  return names.empty() ? "" : "Not drawn: " + names + ".";
 }
 
 Chart phase_plane_chart(const PhasePlane &plane)

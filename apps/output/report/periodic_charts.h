@@ -15,6 +15,9 @@ Chart multiplier_chart(const std::vector<PeriodicEntry> &entries, std::size_t mo
 /// four whose spectra differ most.
 Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number);
 
+/// The signals that it leaves out, in a sentence; empty: none.
+std::string not_barred(const PeriodicEntry &entry);
+
 /// Solutions in the plane of a signal and its rate; a disc where a period of the excitation begins.
 Chart phase_plane_chart(const PhasePlane &plane);
 

@@ -92,17 +92,19 @@ std::string periodic_section(const Result &result, Pictures &pictures)
     return "";
   const PeriodicResult &periodic = *result.periodic;
   std::string           html     = "<p>By " + periodic.method + ": " + escape_xml(periodic.reason) + ".</p>\n";
-  const auto            show     = [&](const std::string &name, const Chart &chart)
+  const auto            show     = [&](const std::string &name, const Chart &chart, const std::string &caption = "")
   {
     pictures.emplace_back(name, chart_svg(chart));
-    html += figure(pictures.back().second);
+    html += figure(pictures.back().second, caption);
   };
   const auto show_planes = [&](const std::string &name, const std::vector<PhasePlane> &planes, const auto &chart)
   {
-    html += planes.empty() ? "" : "<div class=\"row\">";
     for (std::size_t j = 0; j < planes.size(); ++j)
+    {
+      html += j % 2 == 0 ? "<div class=\"row\">" : "";
       show(name + std::to_string(j + 1), chart(planes[j]));
-    html += planes.empty() ? "" : "</div>\n";
+      html += j % 2 == 1 || j + 1 == planes.size() ? "</div>\n" : "";
+    }
   };
   if (!periodic.parameter.empty() && !periodic.entries.empty())
     for (std::size_t j = 0; j < std::min(periodic.entries.front().signals.size(), most_response_charts); ++j)
@@ -127,7 +129,7 @@ std::string periodic_section(const Result &result, Pictures &pictures)
     html += "<div class=\"row\">";
     show("periodic-multipliers", multiplier_chart(periodic.entries, most_solutions));
     if (!periodic.entries.front().signals.empty())
-      show("periodic-harmonics", harmonics_chart(periodic.entries.front(), 1));
+      show("periodic-harmonics", harmonics_chart(periodic.entries.front(), 1), not_barred(periodic.entries.front()));
     html += "</div>\n";
   }
   return section("periodic", "Periodic motions", html);

@@ -68,6 +68,21 @@ Json entry_json(const PeriodicResult &result, const PeriodicEntry &entry)
   return json;
 }
 
+Json backbone_json(const std::vector<PeriodicEntry> &backbone)
+{
+  Json points = Json::array();
+  for (const PeriodicEntry &entry : backbone)
+  {
+    Json amplitudes = Json::object();
+    for (const SignalOrbit &signal : entry.signals)
+      amplitudes[signal.name] = signal.amplitude.at(0);
+    points.push_back({{"parameter", entry.parameter},
+                      {"frequency_hz", 1. / entry.solution.period},
+                      {"amplitudes", std::move(amplitudes)}});
+  }
+  return points;
+}
+
 } // namespace
 
 std::string kind_of(const coupling::PeriodicSolution &solution)
@@ -188,6 +203,8 @@ Json periodic_json(const PeriodicResult &result)
     json["recurrence"] = long_run_json(*result.long_run);
   if (result.basins)
     json["basins"] = basins_json(*result.basins);
+  if (!result.backbone.empty())
+    json["backbone"] = backbone_json(result.backbone);
   json["checks"] = Json::array();
   for (const PeriodicCheck &check : result.checks)
   {

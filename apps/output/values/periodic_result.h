@@ -67,7 +67,7 @@ struct LongRun
   coupling::Recurrence     motion;
   std::vector<std::string> columns; ///< of the signals, "name [unit]"
   std::vector<double>      rows;    ///< signals at the begins of the periods; row major
-  std::vector<PhasePlane>  planes;  ///< the section in a few signals
+  std::vector<PhasePlane>  planes;  ///< the section in a few signals; none where it is a point
 };
 
 /// Which start settles to which motion; motions by their numbers.

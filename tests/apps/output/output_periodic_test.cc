@@ -1,5 +1,6 @@
 #include "apps/output/report/periodic_charts.h"
 #include "apps/output/tables/basins_table.h"
+#include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/section_table.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +32,7 @@ TEST(HarmonicsChart, DrawsFourSignalsWhoseSpectraDifferMostSideBySide)
                        spectrum("c", {0., 0., 1.}), spectrum("rest", {0., 0., 0.}),    spectrum("all", {1., 1., 1.})};
   const Chart chart = harmonics_chart(entry, 1);
   EXPECT_EQ(chart.panels[0].curves.size(), 4u);
-  EXPECT_THAT(chart.note, HasSubstr("not drawn: twice a, rest"));
+  EXPECT_EQ(not_barred(entry), "Not drawn: twice a, rest.");
   for (const Tile &one : chart.panels[0].tiles)
     for (const Tile &other : chart.panels[0].tiles)
       EXPECT_TRUE(&one == &other || one.x_end < other.x_begin || other.x_end < one.x_begin);
@@ -51,7 +52,11 @@ TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
     result.entries.push_back(entry);
   }
   EXPECT_EQ(amplitude_chart(result, 0).panels[0].curves.size(), 2u);
-  result.backbone   = {result.entries[0]};
+  result.backbone                    = {result.entries[0]};
+  result.backbone[0].solution.period = 4.;
+  const Json json                    = periodic_json(result)["backbone"][0];
+  EXPECT_EQ(json["frequency_hz"], 0.25);
+  EXPECT_EQ(json["amplitudes"]["F"], 1.);
   const Chart chart = amplitude_chart(result, 0);
   ASSERT_EQ(chart.panels[0].curves.size(), 3u);
   EXPECT_EQ(chart.panels[0].curves[1].line, LineStyle::dashed);

@@ -68,6 +68,19 @@ TEST(Basins, OfALinearOscillatorIsThePlane)
   EXPECT_LE(basins.periods.maxCoeff(), 1.5 + std::log((8.6 + size) / (0.01 * size)) / (0.1 * problem.period));
 }
 
+/// Nothing drives it: the only motion is rest, to which the size of the plane is the measure.
+TEST(Basins, OfRestAreMeasuredByThePlane)
+{
+  const DuffingCase linear{0.1, 0., 0., 1.4};
+  CubicSystem       system   = duffing_system(linear);
+  PeriodicProblem   problem  = problem_of(system, linear);
+  const auto        solution = shooting_method().solve(problem, at_rest, {});
+  const Basins      basins   = basins_of(problem, solution, at_rest, {0, 1, -5., 5., -5., 5., 3}, {}, silent);
+  EXPECT_TRUE((basins.motion.array() == 1).all());
+  EXPECT_EQ(basins.periods(1, 1), 0);
+  EXPECT_GT(basins.periods(0, 0), 5);
+}
+
 /// Two stable motions share the plane; each start is found where it settles by itself.
 TEST(Basins, OfDuffingsOscillatorAreThoseOfSettlingItself)
 {
