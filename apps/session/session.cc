@@ -54,12 +54,11 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                  coupling::InitialState &state)
 {
-  RepeatingMachine repeating  = repeating_machine(scene, prepared.machine, state, {});
-  repeating.problem.stop      = stop;
-  const ChosenMethod chosen   = chosen_method(repeating, "");
-  const auto         options  = periodic_options(scene, {}, repeating.problem);
-  const auto         found    = chosen.method->solve(repeating.problem, {state.q, state.v, 0.}, options);
-  const auto         solution = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
+  const RepeatingMachine repeating = repeating_machine(scene, prepared.machine, state, {}, stop);
+  const ChosenMethod     chosen    = chosen_method(repeating, "");
+  const auto             options   = periodic_options(scene, {}, prepared.machine);
+  const auto             found     = chosen.method->solve(repeating.problem, repeating.guess, options);
+  const auto             solution  = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
   if (solution == found.end())
     throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic motions found are unstable");
   state.q       = solution->q;
@@ -281,12 +280,11 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   const auto         signals = scene_signals(scene_, machine);
   progress()("start", -1.);
   const coupling::InitialState start     = prepare_start(scene_, *machine_);
-  RepeatingMachine             repeating = repeating_machine(scene_, machine, start, request);
-  repeating.problem.stop                 = watch_.interruption;
+  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request, watch_.interruption);
   check_long_run(request);
   check_basins(machine, repeating.problem, request);
   const ChosenMethod chosen  = chosen_method(repeating, request.method);
-  const auto         options = periodic_options(scene_, request, repeating.problem);
+  const auto         options = periodic_options(scene_, request, machine);
   PeriodicResult     found;
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
@@ -296,8 +294,8 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   if (!request.along.empty())
     family.emplace(path_, overrides_, scripts_, *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
-  const coupling::PeriodicGuess guess{start.q, start.v, 0.};
-  auto                          solutions = searched(chosen, repeating.problem, guess, options, found);
+  const coupling::PeriodicGuess &guess     = repeating.guess;
+  auto                           solutions = searched(chosen, repeating.problem, guess, options, found);
   follow_long_run(machine, repeating.problem, guess, options, request, signals, solutions, found);
   for (const auto &solution : solutions)
     found.work.add(solution.work);
@@ -313,7 +311,11 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   else
   {
     for (const auto &solution : solutions)
-      found.entries.push_back(entry_of(machine, repeating.problem, solution, signals, orbit_rows));
+    {
+      const bool shown = !result.run && solution.stable();
+      found.entries.push_back(
+          entry_of(machine, repeating.problem, solution, signals, orbit_rows, shown ? &result.run : nullptr));
+    }
     found.planes   = phase_planes(machine, repeating.problem, found.entries, signals);
     const auto now = progress();
     find_basins(
@@ -325,11 +327,10 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   found.interrupted = repeating.problem.interrupted();
   const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
                                    [](const PeriodicEntry &entry) { return entry.solution.stable(); });
-  if (stable != found.entries.end() && request.along.empty())
-  {
+  if (stable != found.entries.end() && request.along.empty() && !result.run)
     result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
+  if (result.run)
     states_for_pictures(*machine_, *result.run);
-  }
   return found;
 }
 
