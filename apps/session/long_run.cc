@@ -206,7 +206,8 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   }
   if (const std::string why = coupling::why_not_propagated(machine, "settling"); !why.empty())
   {
-    found.notes.push_back("what the motion does in the long run is not told: " + why);
+    found.notes.push_back("what the motion does in the long run is not told; it needs tangents: " +
+                          why.substr(0, why.find("; --method")));
     return;
   }
   LongRun run;
