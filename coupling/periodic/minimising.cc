@@ -1,5 +1,6 @@
 #include "coupling/periodic/minimising.h"
 
+#include "coupling/periodic/deflation.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting.h"
 #include "coupling/periodic/trace_orbit.h"
@@ -24,29 +25,34 @@ constexpr int    most_steps    = 60;   ///< of one minimisation
 constexpr double astray        = 4.;   ///< distance from the middle of the box, in its size, at which a start is lost
 constexpr double promising     = 0.01; ///< closing error below which Newton's method takes over
 constexpr double coarse        = 1e-6; ///< tolerance of the steps far from a solution
+constexpr int    one_in        = 4;    ///< of so many starts one keeps off the motions that are known
+constexpr double off           = 0.3;  ///< of the largest excursions: so far
 
-/// r of (5.5.4/2) for Eigen's minimiser.
+/// M r, r of (5.5.4/2), for Eigen's minimiser.
 class LeastSquares : public Eigen::DenseFunctor<double>
 {
 public:
   /// Motions farther than `far` from `middle` are not looked at.
-  LeastSquares(ShootingEquations &equations, const VectorXd &middle, double far)
+  LeastSquares(ShootingEquations &equations, const VectorXd &middle, double far, const Deflation &deflation)
       : Eigen::DenseFunctor<double>(int(middle.size()), int(middle.size())), equations_(equations), middle_(middle),
-        far_(far)
+        far_(far), deflation_(deflation)
   {
   }
   int operator()(const VectorXd &z, VectorXd &r) const
   {
     if (!evaluate(z, false))
       return -1;
-    r = equations_.residual();
+    VectorXd slope;
+    r = deflation_.factor(z, slope) * equations_.residual();
     return 0;
   }
   int df(const VectorXd &z, Eigen::MatrixXd &J) const
   {
     if (!evaluate(z, true))
       return -1;
-    J = equations_.jacobian();
+    VectorXd     slope;
+    const double factor = deflation_.factor(z, slope);
+    J                   = factor * (equations_.jacobian() + equations_.residual() * slope.transpose());
     return 0;
   }
 
@@ -69,6 +75,7 @@ private:
   ShootingEquations &equations_;
   VectorXd           middle_;
   double             far_;
+  const Deflation   &deflation_;
 };
 
 /// Number k of Halton's sequence to the base b, in (0, 1).
@@ -94,6 +101,12 @@ int prime(Index i)
     if (is_prime && count++ == i)
       return found;
   }
+}
+
+/// Starts that search freely; the rest keeps off what is known.
+int free_starts(const PeriodicOptions &options)
+{
+  return options.starts - options.starts / one_in;
 }
 
 /// Largest excursions of a motion about its mean.
@@ -145,74 +158,146 @@ public:
   }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
-
-private:
-  static void search(const PeriodicProblem &problem, const Box &box, const PeriodicOptions &options,
-                     std::vector<PeriodicSolution> &found);
-  static bool known(const PeriodicProblem &problem, const PeriodicSolution &solution,
-                    std::vector<PeriodicSolution> &found);
 };
 
-/// Whether a solution is one of those, begun in another period of the excitation, which then counts one start more.
-bool Minimising::known(const PeriodicProblem &problem, const PeriodicSolution &solution,
-                       std::vector<PeriodicSolution> &found)
+/// States of a solution at the begins of its periods of the excitation, what turns taken off.
+std::vector<std::pair<VectorXd, VectorXd>> phases_of(const PeriodicProblem &once, const PeriodicSolution &solution)
 {
-  const double omega = 2. * M_PI / (problem.period / problem.ratio);
-  const auto   apart = [&](const PeriodicSolution &a, const VectorXd &q, const VectorXd &v)
-  { return std::sqrt(omega * omega * (a.q - q).squaredNorm() + (a.v - v).squaredNorm()); };
-  std::vector<std::pair<VectorXd, VectorXd>> phases; // of the solution, at the begins of all periods
-  trace(problem, solution, problem.ratio,
+  const int                                  periods = solution.ratio / once.ratio;
+  std::vector<std::pair<VectorXd, VectorXd>> phases;
+  trace(once, solution, periods,
         [&](const OrbitPoint &point)
         {
-          const double gone = std::round((point.t - problem.begin) / problem.period * problem.ratio);
-          phases.emplace_back(point.q - gone / problem.ratio * problem.turn, point.v);
+          const double gone = (point.t - solution.begin) / solution.period;
+          phases.emplace_back(point.q - gone * solution.turn, point.v);
         });
-  for (PeriodicSolution &other : found)
-    for (const auto &phase : phases)
-    {
-      const double size = std::sqrt(omega * omega * other.q.squaredNorm() + other.v.squaredNorm());
-      if (apart(other, phase.first, phase.second) <= same_orbit * std::max(size, 1e-300))
-      {
-        other.share += 1.;
-        return true;
-      }
-    }
-  return false;
+  phases.pop_back();
+  return phases;
 }
 
-void Minimising::search(const PeriodicProblem &problem, const Box &box, const PeriodicOptions &options,
-                        std::vector<PeriodicSolution> &found)
+double apart(double omega, const PeriodicSolution &a, const VectorXd &q, const VectorXd &v)
 {
-  MethodOptions far_from = options.integration;
-  far_from.tolerance     = std::max(far_from.tolerance, coarse);
-  ShootingEquations equations(problem, options.integration), roughly(problem, far_from);
-  PeriodicOptions   newton = options;
-  newton.iterations        = 15;
-  const VectorXd middle    = equations.unknowns(box.q, box.v, problem.period);
-  const double   far       = astray * equations.unknowns(box.q_half, box.v_half, problem.period).norm();
-  for (int k = 1; k <= options.starts && !problem.interrupted(); ++k)
+  return std::sqrt(omega * omega * (a.q - q).squaredNorm() + (a.v - v).squaredNorm());
+}
+
+/// The search of motions that repeat after some periods of the problem, from one start after the other.
+class MotionSearch
+{
+public:
+  MotionSearch(const PeriodicProblem &once, int periods, const Box &box, const PeriodicOptions &options,
+               std::vector<PeriodicSolution> &found);
+
+  void from_all_starts();
+
+private:
+  bool             descend(int k, VectorXd &z);
+  void             take(PeriodicSolution solution, double share);
+  void             keep_off(const PeriodicSolution &solution);
+  PeriodicSolution shortest(const PeriodicSolution &solution) const;
+
+  static PeriodicProblem repeated(PeriodicProblem problem, int periods)
+  {
+    problem.period *= periods;
+    problem.turn *= periods;
+    problem.ratio *= periods;
+    return problem;
+  }
+  static MethodOptions rough(MethodOptions integration)
+  {
+    integration.tolerance = std::max(integration.tolerance, coarse);
+    return integration;
+  }
+
+  const PeriodicProblem         &once_;
+  PeriodicProblem                problem_;
+  const Box                     &box_;
+  PeriodicOptions                options_;
+  std::vector<PeriodicSolution> &found_;
+  ShootingEquations              equations_, roughly_;
+  VectorXd                       middle_;
+  double                         far_, omega_;
+  Deflation                      nothing_, known_;
+};
+
+MotionSearch::MotionSearch(const PeriodicProblem &once, int periods, const Box &box, const PeriodicOptions &options,
+                           std::vector<PeriodicSolution> &found)
+    : once_(once), problem_(repeated(once, periods)), box_(box), options_(options), found_(found),
+      equations_(problem_, options.integration), roughly_(problem_, rough(options.integration)),
+      middle_(equations_.unknowns(box.q, box.v, problem_.period)),
+      far_(astray * equations_.unknowns(box.q_half, box.v_half, problem_.period).norm()),
+      omega_(2. * M_PI / (problem_.period / problem_.ratio)), nothing_(1.), known_(off * far_ / (astray * box_reach))
+{
+  options_.iterations = 15;
+  for (const PeriodicSolution &solution : found_)
+    keep_off(solution);
+}
+
+void MotionSearch::keep_off(const PeriodicSolution &solution)
+{
+  const double period = problem_.period_is_unknown() ? solution.period : problem_.period;
+  for (const auto &phase : phases_of(once_, solution))
+    known_.add(equations_.unknowns(phase.first, phase.second, period));
+}
+
+void MotionSearch::from_all_starts()
+{
+  for (int k = 1; k <= options_.starts && !problem_.interrupted(); ++k)
     try
     {
-      PeriodicGuess at{box.at(k, 0, box.q, box.q_half), box.at(k, box.q.size(), box.v, box.v_half), problem.period};
-      if (k % 2 == 0)
-        lead_in(roughly.flow(), problem, options, at);
-      VectorXd                                z = equations.unknowns(at.q, at.v, at.period);
-      LeastSquares                            squares(roughly, middle, far);
-      Eigen::LevenbergMarquardt<LeastSquares> minimiser(squares);
-      minimiser.setMaxfev(most_steps);
-      minimiser.minimize(z);
-      if (!(roughly.closing() < promising))
-        continue;
-      PeriodicSolution solution = shoot(equations, problem, z, newton);
-      solution.method           = "minimise";
-      solution.share            = 1.;
-      if (!known(problem, solution, found))
-        found.push_back(solution);
+      VectorXd z;
+      if (descend(k, z))
+        take(shortest(shoot(equations_, problem_, z, options_)), k <= free_starts(options_) ? 1. : 0.);
     }
     catch (const std::runtime_error &)
     {
       // a start that leads nowhere
     }
+}
+
+/// From start k to where F is small; false: it is not.
+bool MotionSearch::descend(int k, VectorXd &z)
+{
+  const bool    freely = k <= free_starts(options_);
+  PeriodicGuess at{box_.at(k, 0, box_.q, box_.q_half), box_.at(k, box_.q.size(), box_.v, box_.v_half), problem_.period};
+  if (freely && k % 2 == 0)
+    lead_in(roughly_.flow(), problem_, options_, at);
+  z = equations_.unknowns(at.q, at.v, at.period);
+  LeastSquares                            squares(roughly_, middle_, far_, freely ? nothing_ : known_);
+  Eigen::LevenbergMarquardt<LeastSquares> minimiser(squares);
+  minimiser.setMaxfev(most_steps);
+  minimiser.minimize(z);
+  return roughly_.closing() < promising;
+}
+
+/// A motion that repeats after one period already is one of one period.
+PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
+{
+  if (solution.ratio == once_.ratio)
+    return solution;
+  const auto   phases = phases_of(once_, solution);
+  const double size   = std::sqrt(omega_ * omega_ * solution.q.squaredNorm() + solution.v.squaredNorm());
+  if (apart(omega_, solution, phases[1].first, phases[1].second) > same_orbit * size)
+    return solution;
+  ShootingEquations equations(once_, options_.integration);
+  return shoot(equations, once_, equations.unknowns(solution.q, solution.v, once_.period), options_);
+}
+
+/// Each motion once, begun in whatever period of the excitation.
+void MotionSearch::take(PeriodicSolution solution, double share)
+{
+  for (const auto &phase : phases_of(once_, solution))
+    for (PeriodicSolution &other : found_)
+    {
+      const double size = std::sqrt(omega_ * omega_ * other.q.squaredNorm() + other.v.squaredNorm());
+      if (apart(omega_, other, phase.first, phase.second) > same_orbit * std::max(size, 1e-300))
+        continue;
+      other.share += share;
+      return;
+    }
+  solution.method = "minimise";
+  solution.share  = share;
+  keep_off(solution);
+  found_.push_back(std::move(solution));
 }
 
 std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
@@ -226,20 +311,14 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
   const Box                     box = box_about(problem, near, options);
   std::vector<PeriodicSolution> found;
   const int                     highest = problem.period_is_unknown() || problem.ratio > 1 ? 1 : highest_ratio;
-  for (int ratio = 1; ratio <= highest; ++ratio)
-  {
-    PeriodicProblem longer = problem;
-    longer.period *= ratio;
-    longer.turn *= ratio;
-    longer.ratio *= ratio;
-    search(longer, box, options, found);
-  }
+  for (int periods = 1; periods <= highest; ++periods)
+    MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())
     throw NoPeriodicMotion(
         "no periodic motion was found from " + std::to_string(highest * options.starts) +
         " starts in the box about the start; give --starts a larger number, or a start nearer to it");
   for (PeriodicSolution &solution : found)
-    solution.share /= highest * options.starts;
+    solution.share /= highest * free_starts(options);
   return found;
 }
 

@@ -13,6 +13,9 @@ namespace gestell::coupling
  * Levenberg and Marquardt's method (Eigen's, which takes exact derivatives and needs no library of its own), then
  * Newton's.  Solutions are told apart at any phase of the excitation; sub-harmonic motions of up to `highest_ratio`
  * periods are looked for by the way.
+ *
+ * The last quarter of the starts keeps off the motions that are known (Deflation), and so finds others whose basins are
+ * small; shares are those of the other starts alone.
  */
 const PeriodicMethod &minimising_method();
 
