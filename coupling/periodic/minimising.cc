@@ -25,6 +25,7 @@ constexpr int    most_steps    = 60;   ///< of one minimisation
 constexpr double astray        = 4.;   ///< distance from the middle of the box, in its size, at which a start is lost
 constexpr double promising     = 0.01; ///< closing error below which Newton's method takes over
 constexpr double coarse        = 1e-6; ///< tolerance of the steps far from a solution
+constexpr double rest_speed    = 1e-6; ///< of the speeds of the box
 constexpr int    one_in        = 4;    ///< of so many starts one keeps off the motions that are known
 constexpr double off           = 0.3;  ///< of the largest excursions: so far
 
@@ -194,6 +195,7 @@ private:
   void             take(PeriodicSolution solution, double share);
   void             keep_off(const PeriodicSolution &solution);
   PeriodicSolution shortest(const PeriodicSolution &solution) const;
+  PeriodicSolution rising(const PeriodicSolution &solution) const;
 
   static PeriodicProblem repeated(PeriodicProblem problem, int periods)
   {
@@ -269,9 +271,12 @@ bool MotionSearch::descend(int k, VectorXd &z)
   return roughly_.closing() < promising;
 }
 
-/// A motion that repeats after one period already is one of one period.
+/// A motion that repeats after one period already is one of one period; one that nothing tells the time begins where it
+/// rises.  @throws NoPeriodicMotion if that is rest
 PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
 {
+  if (once_.period_is_unknown() && once_.turn.isZero(0.))
+    return rising(solution);
   if (solution.ratio == once_.ratio)
     return solution;
   const auto   phases = phases_of(once_, solution);
@@ -280,6 +285,19 @@ PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
     return solution;
   ShootingEquations equations(once_, options_.integration);
   return shoot(equations, once_, equations.unknowns(solution.q, solution.v, once_.period), options_);
+}
+
+/// Of the passages of a self-excited motion through its phase the next rising one.
+PeriodicSolution MotionSearch::rising(const PeriodicSolution &solution) const
+{
+  if (!(solution.v.norm() > rest_speed * box_.v_half.norm()))
+    throw NoPeriodicMotion("the motion is rest");
+  if (solution.v[once_.phase] > 0.)
+    return solution;
+  PeriodFlow           flow(once_, options_.integration);
+  const PeriodPassage &passage = flow.pass_turn(solution.q, solution.v, 1.5 * solution.period);
+  ShootingEquations    equations(once_, options_.integration);
+  return shoot(equations, once_, equations.unknowns(passage.q, passage.v, solution.period), options_);
 }
 
 /// Each motion once, begun in whatever period of the excitation.
