@@ -28,6 +28,13 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine);
 
+/// The motion as one of its own period, computed anew, if it repeats earlier than after `solution.ratio` periods of the
+/// excitation.
+coupling::PeriodicSolution of_own_period(const coupling::PeriodicMethod   &method,
+                                         const coupling::PeriodicProblem  &problem,
+                                         const coupling::PeriodicSolution &solution,
+                                         const coupling::PeriodicOptions  &options);
+
 /// What is kept of a run over a period besides the signals.
 enum class OrbitRun
 {

@@ -14,9 +14,11 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int    usual_points = 100, rows_of_branches = 128;
-constexpr int    generations = 2;    ///< of branches that leave branches
-constexpr double same        = 1e-5; ///< distance of two motions, of their size
+constexpr int         usual_points = 100, rows_of_branches = 128;
+constexpr int         generations = 2;    ///< of branches that leave branches
+constexpr std::size_t most_left   = 16;   ///< points at which branches leave that are followed
+constexpr double      same_place  = 1e-6; ///< of the range, of the period
+constexpr double      same        = 1e-5; ///< distance of two motions, of their size
 
 using coupling::PeriodicSolution;
 
@@ -59,6 +61,29 @@ bool known(const PeriodicResult &result, const PeriodicSolution &solution, doubl
                               omega * (s.q - solution.q).norm() + (s.v - solution.v).norm() <= same * size;
                      });
 }
+
+/// Points at which branches left that are followed already: branches meet each other at both their ends.
+class LeftBranches
+{
+public:
+  explicit LeftBranches(double range) : range_(range) {}
+
+  bool full() const { return points_.size() >= most_left; }
+  /// Whether none left there before; it does from now on.
+  bool is_new(const coupling::SpecialMotion &special)
+  {
+    for (const coupling::SpecialMotion &known : points_)
+      if (known.kind == special.kind && std::abs(known.parameter - special.parameter) <= same_place * range_ &&
+          std::abs(known.solution.period - special.solution.period) <= same_place * known.solution.period)
+        return false;
+    points_.push_back(special);
+    return true;
+  }
+
+private:
+  double                               range_;
+  std::vector<coupling::SpecialMotion> points_;
+};
 
 /// Writes a branch into the result, with the signals of every point.
 class BranchTable
@@ -132,11 +157,12 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
       result.failure = result.notes.back();
   };
   // What leaves a branch, and what leaves that one.
+  LeftBranches                                                  left(std::abs(along.to - along.from));
   const std::function<void(const coupling::Branch &, int, int)> shed =
       [&](const coupling::Branch &branch, int repeats, int generation)
   {
     for (const coupling::SpecialMotion &special : branch.special)
-      if (special.kind == "period doubling" || special.kind == "branch")
+      if ((special.kind == "period doubling" || special.kind == "branch") && left.is_new(special) && !left.full())
       {
         const int times = special.kind == "branch" ? repeats : 2 * repeats;
         for (const auto &other : new_branches(family, special, options, along, times, on_point))
@@ -151,7 +177,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
     if (!known(result, first, along.from, std::abs(along.to - along.from)))
       try
       {
-        const int  repeats   = std::max(1, first.ratio / std::max(1, request.ratio));
+        const int  repeats   = std::max(1, first.ratio / family.ratio());
         const auto equations = equations_for(family, first, options, first.series ? 1 : repeats);
         const auto branch    = follow_branch(*equations, first, along, on_point);
         keep(branch);

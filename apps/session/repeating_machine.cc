@@ -18,11 +18,12 @@ namespace
 using coupling::BodyKind;
 using Eigen::VectorXd;
 
-constexpr double equal_speeds = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
-constexpr double equal_turns  = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
-constexpr double turns_tried  = 3.;   ///< of the fastest angle
-constexpr double no_stiffness = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
-constexpr double same_force   = 1e-9; ///< of forces a period later, against the largest change
+constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
+constexpr double equal_periods = 1e-9; ///< of loads and a period that is given
+constexpr double equal_turns   = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
+constexpr double turns_tried   = 3.;   ///< of the fastest angle
+constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
+constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
 /// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
 struct MovingAngles
@@ -168,6 +169,20 @@ std::string joined(const std::vector<std::string> &names)
   return all;
 }
 
+/// How many periods of the loads a given period is; 1 without loads.
+/// @throws std::invalid_argument where it is no whole number of them
+int periods_of_loads(double period, const std::vector<double> &omega, const Scene &scene)
+{
+  if (omega.empty())
+    return 1;
+  const double own = common_period_of(omega, scene), times = period / own;
+  if (std::round(times) >= 1. && std::abs(times - std::round(times)) <= equal_periods * times)
+    return int(std::round(times));
+  throw std::invalid_argument(scene.file + ": --period: the loads do not repeat after " + short_text(period, 8) +
+                              " s, but after " + short_text(own, 8) +
+                              " s; give that or a multiple of it, or leave it out");
+}
+
 double asked_period(const PeriodicRequest &request)
 {
   if (request.period.empty())
@@ -246,7 +261,10 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   const std::vector<double> omega    = load_frequencies(machine);
   const int                 turning  = slowest_of(problem.turn);
   if (problem.period > 0.)
+  {
+    problem.ratio *= periods_of_loads(problem.period, omega, scene);
     repeating.reason = "the period is given";
+  }
   else if (!omega.empty())
   {
     problem.period   = common_period_of(omega, scene);

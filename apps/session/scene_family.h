@@ -36,6 +36,7 @@ public:
   double             from() const { return from_; }
   double             to() const { return to_; }
   const std::string &unit() const { return unit_; }
+  int                ratio() const { return like_.ratio; } ///< periods of the excitation in that of a member
 
   /// The machine at a value; what is to repeat is that of `like`, with the period of its own loads.
   std::shared_ptr<MachineMember> member(double value) const;

@@ -127,7 +127,10 @@ std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, con
 {
   try
   {
-    return chosen.method->solve(problem, guess, options);
+    auto solutions = chosen.method->solve(problem, guess, options);
+    for (auto &solution : solutions)
+      solution = of_own_period(*chosen.method, problem, solution, options);
+    return solutions;
   }
   catch (const std::runtime_error &none)
   {
@@ -283,9 +286,11 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request, watch_.interruption);
   check_long_run(request);
   check_basins(machine, repeating.problem, request);
-  const ChosenMethod chosen  = chosen_method(repeating, request.method);
-  const auto         options = periodic_options(scene_, request, machine);
-  PeriodicResult     found;
+  const ChosenMethod chosen = chosen_method(repeating, request.method);
+  if (!request.check.empty())
+    chosen_method(repeating, request.check);
+  const auto     options = periodic_options(scene_, request, machine);
+  PeriodicResult found;
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)

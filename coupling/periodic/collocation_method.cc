@@ -78,7 +78,7 @@ public:
   std::string refuses(const PeriodicProblem &problem) const override
   {
     if (problem.period_is_unknown())
-      return "collocation: the period is unknown; take shooting";
+      return "the period is unknown; take shooting";
     return why_not_propagated(*problem.system, "settling");
   }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,

@@ -12,6 +12,19 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// @throws ConvergenceFailure where there is no machine at lambda, as at a frequency below zero to which a step has led
+FamilyMember member_at(const ProblemFamily &family, double lambda)
+{
+  try
+  {
+    return family(lambda);
+  }
+  catch (const std::invalid_argument &none)
+  {
+    throw ConvergenceFailure(none.what());
+  }
+}
+
 class ShootingBranch final : public BranchEquations
 {
 public:
@@ -39,7 +52,7 @@ public:
     if (!equations_ || lambda != lambda_)
     {
       equations_.reset();
-      member_ = family_(lambda);
+      member_ = member_at(family_, lambda);
       member_.problem.period *= ratio_;
       member_.problem.turn *= ratio_;
       member_.problem.ratio *= ratio_;
@@ -105,7 +118,7 @@ private:
     if (balance_ && lambda == lambda_)
       return;
     balance_.reset();
-    member_  = family_(lambda);
+    member_  = member_at(family_, lambda);
     balance_ = std::make_unique<HarmonicBalance>(member_.problem, options_.harmonics);
     lambda_  = lambda;
   }

@@ -23,6 +23,7 @@ constexpr int    most_windows  = 64;
 constexpr double settled       = 1e-3; ///< change of the largest excursions, of themselves
 constexpr double rests         = 1e-6; ///< of the largest excursions since the start
 constexpr double at_rest       = 1e-6; ///< [m/s], [rad/s]
+constexpr double runs_away     = 1e9;  ///< of the excursions of the first window
 constexpr double larger        = 0.1;  ///< share by which a motion is made larger, to see whether it comes back
 constexpr double push          = 1e-3; ///< [m/s], [rad/s] of what rests
 constexpr int    most_passages = 16;   ///< of a coordinate through its middle in one period
@@ -199,12 +200,17 @@ void FreeMotion::follow()
     pushed_ = true;
     window_ = next_window(flow_, at_, length_);
   }
-  double largest = excursion().norm();
+  const double first   = excursion().norm();
+  double       largest = first;
   for (int w = 1; w < most_windows; ++w)
   {
     const VectorXd before = excursion();
     window_               = next_window(flow_, at_, length_);
     largest               = std::max(largest, excursion().norm());
+    if (!(excursion().norm() < runs_away * first))
+      throw NoPeriodicMotion(
+          "nothing drives the machine, and from its start it swings more and more without end: it is "
+          "unstable, and nothing limits its motion; give it what does, such as a stop or friction");
     if (excursion().norm() <= rests * largest)
       throw NoPeriodicMotion("nothing drives the machine: it comes to rest" +
                              std::string(pushed_ ? " from a push of 0.001 m/s and rad/s" : "") +

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/integration_methods.h"
 #include "coupling/integration/propagation/modal_blocks.h"
+#include "coupling/integration/system/acceleration_forces.h"
 #include "coupling/periodic/raised_damping.h"
 
 #include <algorithm>
@@ -183,6 +184,10 @@ std::string why_not_propagated(const SecondOrderSystem &system, const std::strin
   try
   {
     modal_blocks(system);
+    LocalState local;
+    local.resize(system);
+    if (local.u.size() > 0)
+      refuse_acceleration_forces(system, local, "exact propagation");
     return "";
   }
   catch (const std::invalid_argument &reason)

@@ -267,6 +267,24 @@ TEST(PeriodicScene, ARunThatStartsOnTheOrbitRepeatsAtOnce)
     }
 }
 
+/// Asked for a motion of two periods, or for twice the period, one of one period is told as such.
+TEST(PeriodicScene, AMotionIsToldByItsOwnPeriod)
+{
+  PeriodicRequest twice, longer;
+  twice.method = longer.method = "shooting";
+  twice.ratio                  = 2;
+  longer.period                = number(4. * M_PI / 1.4) + " s";
+  for (const PeriodicRequest &request : {twice, longer})
+  {
+    const PeriodicResult result = periodic_of(duffing(0.05, 0.5, 0.3, 1.4), request);
+    ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+    EXPECT_EQ(result.entries[0].solution.ratio, 1);
+    EXPECT_NEAR(result.entries[0].solution.period, 2. * M_PI / 1.4, 1e-12);
+  }
+  longer.period = "3 s";
+  EXPECT_THAT(refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.4), longer); }), testing::HasSubstr("do not repeat"));
+}
+
 TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
 {
   const std::string slide = slider_body("slide", "1", "[1, 0, 0]") +

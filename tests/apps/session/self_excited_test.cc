@@ -77,6 +77,13 @@ TEST(SelfExcitedScene, AMachineThatComesToRestIsSaidTo)
   expect_refusal([] { steady(van_der_pol("-0.1 N*s/m*v")); }, "comes to rest");
 }
 
+/// Negative damping that nothing limits has no periodic motion; no damping has one of any size.
+TEST(SelfExcitedScene, WhatGrowsWithoutEndOrKeepsAnySizeIsSaidTo)
+{
+  expect_refusal([] { steady(van_der_pol("0.1 N*s/m*v")); }, "without end");
+  expect_refusal([] { steady(van_der_pol("0 N*s/m*v")); }, "whatever size");
+}
+
 /// Crank and rod are planar bodies, of which one turns and one swings; backwards the machine is its own mirror image,
 /// at the same speed.  Steps of 0.5 ms leave a relative 1e-6 of the period.
 TEST(SelfExcitedScene, APlanarCrankComesRoundInBothDirections)
