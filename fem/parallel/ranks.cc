@@ -220,7 +220,10 @@ void Ranks::receive_bytes(void *values, std::size_t count, std::size_t size, int
 
 void Ranks::abort(const std::string &message) const
 {
-  std::cerr << "gestell: the computation failed on rank " << rank_ << " of " << size_ << ": " << message << std::endl;
+  // At one go: std::cerr writes piece by piece, between which the words of other ranks and of the launcher fall.
+  const std::string line = "gestell: the computation failed on rank " + std::to_string(rank_) + " of " +
+                           std::to_string(size_) + ": " + message + '\n';
+  std::cerr << line << std::flush;
   MPI_Abort(comm(), exit_failed);
   std::abort(); // MPI_Abort does not return
 }
