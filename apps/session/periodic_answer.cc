@@ -18,7 +18,6 @@ namespace
 {
 constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
 constexpr int    harmonics_told  = 10;    ///< of the drive
-constexpr double same_state      = 1e-7;  ///< of two states of one motion, of their size
 constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
 
 using coupling::PeriodicSolution;
@@ -111,8 +110,8 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;
   options.integration = periodic_integration(scene, machine);
-  // Steps that exact propagation does not make leave more than it closes to.
-  if (!(request.tolerance > 0.) && !coupling::why_not_propagated(machine, "settling").empty())
+  // Steps of other methods leave more than those of exact propagation.
+  if (!(request.tolerance > 0.) && options.integration.method != coupling::PeriodicOptions().integration.method)
     options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
   return options;
 }
@@ -120,30 +119,17 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
 PeriodicSolution of_own_period(const coupling::PeriodicMethod &method, const coupling::PeriodicProblem &problem,
                                const PeriodicSolution &solution, const coupling::PeriodicOptions &options)
 {
-  if (solution.ratio == 1)
+  const int k = coupling::own_ratio(problem, solution);
+  if (k == solution.ratio)
     return solution;
-  std::vector<Eigen::VectorXd> states;
-  const double                 omega = 2. * M_PI / solution.period * solution.ratio;
-  coupling::trace(problem, solution, solution.ratio,
-                  [&](const coupling::OrbitPoint &point)
-                  {
-                    const double gone = (point.t - solution.begin) / solution.period;
-                    states.emplace_back(2 * point.q.size());
-                    states.back() << omega * (point.q - gone * solution.turn), point.v;
-                  });
-  for (int k = 1; k < solution.ratio; ++k)
-    if (solution.ratio % k == 0 && (states[std::size_t(k)] - states[0]).norm() <= same_state * states[0].norm())
-    {
-      const double              part    = double(k) / solution.ratio;
-      coupling::PeriodicProblem shorter = problem;
-      shorter.period                    = part * solution.period;
-      shorter.turn                      = part * solution.turn;
-      shorter.ratio                     = k;
-      coupling::PeriodicOptions near    = options;
-      near.lead_in                      = 0;
-      return method.solve(shorter, {solution.q, solution.v, shorter.period}, near).front();
-    }
-  return solution;
+  const double              part    = double(k) / solution.ratio;
+  coupling::PeriodicProblem shorter = problem;
+  shorter.period                    = part * solution.period;
+  shorter.turn                      = part * solution.turn;
+  shorter.ratio                     = k;
+  coupling::PeriodicOptions near    = options;
+  near.lead_in                      = 0;
+  return method.solve(shorter, {solution.q, solution.v, shorter.period}, near).front();
 }
 
 coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution &solution,

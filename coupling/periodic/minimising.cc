@@ -277,11 +277,7 @@ PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
 {
   if (once_.period_is_unknown() && once_.turn.isZero(0.))
     return rising(solution);
-  if (solution.ratio == once_.ratio)
-    return solution;
-  const auto   phases = phases_of(once_, solution);
-  const double size   = std::sqrt(omega_ * omega_ * solution.q.squaredNorm() + solution.v.squaredNorm());
-  if (apart(omega_, solution, phases[1].first, phases[1].second) > same_orbit * size)
+  if (solution.ratio == once_.ratio || own_ratio(once_, solution) > once_.ratio)
     return solution;
   ShootingEquations equations(once_, options_.integration);
   return shoot(equations, once_, equations.unknowns(solution.q, solution.v, once_.period), options_);

@@ -302,11 +302,7 @@ void PeriodFlow::at_event()
 
 Eigen::VectorXcd multipliers_of(const MatrixXd &monodromy)
 {
-  Eigen::VectorXcd values = GeneralEigenSolver(monodromy, WithVectors::no).eigenvalues();
-  std::sort(values.data(), values.data() + values.size(),
-            [](const auto &a, const auto &b)
-            { return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag(); });
-  return values;
+  return largest_first(GeneralEigenSolver(monodromy, WithVectors::no).eigenvalues());
 }
 
 } // namespace gestell::coupling

@@ -60,7 +60,7 @@ Window next_window(PeriodFlow &flow, PeriodicGuess &at, double length)
   return window;
 }
 
-/// A period of the lowest frequency [s].
+/// A period of the lowest frequency [s]; without any, 2 pi s: windows of a system in units of its own.
 double slowest_period(const SecondOrderSystem &system)
 {
   double omega = 0.;

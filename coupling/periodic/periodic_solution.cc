@@ -52,4 +52,12 @@ double closing_error(const Eigen::VectorXd &dq, const Eigen::VectorXd &dv, doubl
   return F == 0. ? 0. : std::sqrt(F) / fastest;
 }
 
+Eigen::VectorXcd largest_first(Eigen::VectorXcd multipliers)
+{
+  std::sort(multipliers.data(), multipliers.data() + multipliers.size(),
+            [](const auto &a, const auto &b)
+            { return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag(); });
+  return multipliers;
+}
+
 } // namespace gestell::coupling

@@ -70,6 +70,9 @@ struct PeriodicSolution
  */
 double closing_error(const Eigen::VectorXd &dq, const Eigen::VectorXd &dv, double omega, double fastest);
 
+/// In the order in which multipliers are listed.
+Eigen::VectorXcd largest_first(Eigen::VectorXcd multipliers);
+
 /// An instant of a motion; the history of the elements is that of the instant.
 struct OrbitPoint
 {

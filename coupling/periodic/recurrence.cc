@@ -34,8 +34,8 @@ public:
       : problem_(problem), flow_(problem, integration), omega_(2. * M_PI / problem.period), q_(guess.q), v_(guess.v)
   {
     if (!flow_.has_tangents())
-      throw std::invalid_argument(method_name(integration) + " carries no tangents, without which nobody knows how "
-                                                             "neighbouring motions part");
+      throw std::invalid_argument(method_name(integration) + " carries no tangents; the exponent of "
+                                                             "neighbouring motions needs them");
     // No symmetry of a machine is one of this direction: it has a share in all that grows.
     direction_ = VectorXd::NullaryExpr(2 * q_.size(), [](Index i) { return std::cos(1. + double(i * i)); });
     direction_.normalize();

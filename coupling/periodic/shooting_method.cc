@@ -102,7 +102,7 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
   {
     ++iterations_;
     const double left = step(z, here);
-    if (left < good)
+    if (left < good || equations_.closing() <= goal)
     {
       here = false;
       continue;
@@ -111,8 +111,7 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
       return false;
     if (here && !slow_.all())
       slow_.choose(slow_.share() > least_share ? fewer * slow_.share() : 0., problem_.period);
-    if (equations_.closing() > goal)
-      form(z);
+    form(z);
     here = true;
   }
   return equations_.closing() <= goal;

@@ -11,8 +11,8 @@ const PeriodicMethod &shooting_method();
 
 /**
  * Newton's method with SlowMotions, at first with coarse steps; its matrix is kept while the motion closes well.  Where
- * it does not, more motions are slow; where all are, this is shoot().  Multipliers are those above the share of what is
- * fast, by Rayleigh and Ritz from the images of their motions, and how well these are kept is told.
+ * it does not, more motions are slow; where all are, this is shoot().  The largest multipliers are found by Rayleigh
+ * and Ritz; a note gives their number, and their residual where it has not converged.
  *
  * @throws NoPeriodicMotion, ConvergenceFailure as shoot()
  */

@@ -1,6 +1,7 @@
 #include "coupling/periodic/slow_motions.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/periodic_solution.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -47,13 +48,17 @@ SlowMotions::SlowMotions(const PeriodicProblem &problem)
 void SlowMotions::choose(double share, double period)
 {
   share_ = share;
+  // The slowest motion has tangents in any case: where all die away, its multiplier is the largest.
+  double slowest = 0.;
+  for (Index b = 0; b < modes_.n_modal; ++b)
+    slowest = std::max(slowest, kept(modes_.blocks[std::size_t(b)], period));
   slow_.clear();
   fast_.clear();
   phi_.setZero(2 * modes_.n_modal, 2 * modes_.n_modal);
   for (Index b = 0; b < modes_.n_modal; ++b)
   {
     const ModalBlock &block = modes_.blocks[std::size_t(b)];
-    const bool        fast  = kept(block, period) < share;
+    const bool        fast  = kept(block, period) < std::min(share, slowest);
     for (const Index i : {2 * b, 2 * b + 1})
       (fast ? fast_ : slow_).push_back(i);
     const Block2 E = carried(block, period);
@@ -109,11 +114,12 @@ MatrixXd SlowMotions::dominant() const
 {
   const GeneralEigenSolver eigen(phi_(slow_, slow_));
   const MatrixXd           phi_fs = phi_(fast_, slow_), phi_ff = phi_(fast_, fast_);
+  const double             large_ones = std::min(share_, eigen.eigenvalues().cwiseAbs().maxCoeff());
   MatrixXd                 z(2 * modes_.Q.rows(), 0);
   for (Index k = 0; k < eigen.eigenvalues().size(); ++k)
   {
     const std::complex<double> mu = eigen.eigenvalues()[k];
-    if (std::abs(mu) < share_ || mu.imag() < 0.)
+    if (std::abs(mu) < large_ones || mu.imag() < 0.)
       continue;
     const Eigen::VectorXcd y = eigen.eigenvectors().col(k);
     Eigen::VectorXcd       x(phi_.rows());
@@ -164,10 +170,7 @@ Eigen::VectorXcd LargestMultipliers::values() const
   for (Index k = 0; k < values_.size(); ++k)
     if (residuals_[k] <= std::max(ritz_told, leaves_))
       kept.push_back(values_[k]);
-  std::sort(kept.begin(), kept.end(),
-            [](const auto &a, const auto &b)
-            { return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag(); });
-  return Eigen::Map<const Eigen::VectorXcd>(kept.data(), Index(kept.size()));
+  return largest_first(Eigen::Map<const Eigen::VectorXcd>(kept.data(), Index(kept.size())));
 }
 
 } // namespace gestell::coupling

@@ -29,7 +29,7 @@ public:
   /// @throws std::invalid_argument as modal_blocks()
   explicit SlowMotions(const PeriodicProblem &problem);
 
-  /// Motions that keep less than `share` of themselves over `period` are fast.
+  /// Motions that keep less than `share` of themselves over `period` are fast, but for the slowest of all.
   void   choose(double share, double period);
   bool   formed() const { return newton_.size() > 0; }
   bool   all() const { return int(slow_.size()) == 2 * modes_.n_modal; }
@@ -44,7 +44,8 @@ public:
   void take(const Eigen::MatrixXd &images, const Eigen::VectorXd &rate);
   /// dz by which Newton's method goes back, for the residual r(z) of ShootingEquations.
   Eigen::VectorXd correction(const Eigen::VectorXd &residual) const;
-  /// Orthonormal in z: what belongs to the multipliers of Phi_ss that are above the share [2n x k].
+  /// Orthonormal in z: what belongs to the multipliers of Phi_ss that are above the share, at least to the largest
+  /// [2n x k].
   Eigen::MatrixXd dominant() const;
 
 private:

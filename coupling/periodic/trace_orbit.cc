@@ -2,6 +2,9 @@
 
 #include "coupling/periodic/period_flow.h"
 
+#include <cmath>
+#include <vector>
+
 namespace gestell::coupling
 {
 
@@ -46,6 +49,27 @@ void trace(const PeriodicProblem &problem, const PeriodicSolution &solution, int
   PeriodFlow flow(problem, solution.integration);
   flow.look_on(samples, look);
   flow.pass(solution.q, solution.v, solution.period, false);
+}
+
+int own_ratio(const PeriodicProblem &problem, const PeriodicSolution &solution)
+{
+  constexpr double             same  = 1e-6; // distance of two states of one motion, of their size
+  const double                 omega = 2. * M_PI / solution.period * solution.ratio;
+  std::vector<Eigen::VectorXd> states;
+  if (solution.ratio == 1)
+    return 1;
+  trace(problem, solution, solution.ratio,
+        [&](const OrbitPoint &point)
+        {
+          const double gone = (point.t - solution.begin) / solution.period;
+          states.emplace_back(2 * point.q.size());
+          states.back() << omega * (point.q - gone * solution.turn), point.v;
+        });
+  int k = 1;
+  while (k < solution.ratio &&
+         (solution.ratio % k != 0 || (states[std::size_t(k)] - states[0]).norm() > same * states[0].norm()))
+    ++k;
+  return k;
 }
 
 } // namespace gestell::coupling

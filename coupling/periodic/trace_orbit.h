@@ -12,4 +12,7 @@ namespace gestell::coupling
 void trace(const PeriodicProblem &problem, const PeriodicSolution &solution, int samples,
            const std::function<void(const OrbitPoint &)> &look);
 
+/// After how many periods of the excitation a motion repeats already: a divisor of `solution.ratio`.
+int own_ratio(const PeriodicProblem &problem, const PeriodicSolution &solution);
+
 } // namespace gestell::coupling

@@ -96,3 +96,23 @@ TEST(SlowMotions, CloseALinearMotionInOneStep)
     slowest = std::max(slowest, modes.blocks[std::size_t(b)].s);
   EXPECT_NEAR(found.largest_multiplier(), std::exp(slowest * problem.period), 1e-9);
 }
+
+/// Driven so slowly that all motions die away within a period: none is above the share, and the slowest is carried
+/// still.
+TEST(SlowMotions, CarryTheSlowestWhereAllDieAway)
+{
+  SmallSystem     system  = chain(0.7);
+  PeriodicProblem problem = problem_of(system);
+  problem.period *= 40.; // forty periods of the load
+  problem.ratio = 40;
+  SlowMotions motions(problem);
+  ASSERT_TRUE(mostly_fast(motions, problem));
+  EXPECT_EQ(motions.size(), 2);
+  const VectorXd    rest  = VectorXd::Zero(n_masses);
+  const auto        found = shoot_slow(problem, motions, {rest, rest, 0.}, {});
+  ShootingEquations equations(problem, PeriodicOptions().integration);
+  equations.evaluate(equations.unknowns(found.q, found.v, 0.), true);
+  EXPECT_LT(equations.closing(), 1e-9);
+  ASSERT_GE(found.multipliers.size(), 1);
+  EXPECT_NEAR(found.largest_multiplier(), equations.solution("").largest_multiplier(), 1e-7);
+}
