@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -20,8 +22,9 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    most_points = 1000000;
-constexpr double slow        = 1e-3; ///< beside the fastest mode: a drive that weights hold, or a foundation
+constexpr std::size_t most_told   = 3; ///< motions that grow
+constexpr int         most_points = 1000000;
+constexpr double      slow        = 1e-3; ///< beside the fastest mode: a drive that weights hold, or a foundation
 
 void require_choice(const std::string &option, const std::string &value, const std::vector<std::string> &choices)
 {
@@ -134,6 +137,37 @@ std::vector<double> asked_frequencies(const FrfOptions &options, const std::vect
   return grid(lowest, highest, options.points, options.spacing == "log");
 }
 
+/// "a vibration of 3.2 Hz that grows with 0.5 1/s (damping ratio -0.02)"
+std::string growth_text(const std::complex<double> &s)
+{
+  const std::string rate = " grows with " + short_text(s.real()) + " 1/s";
+  if (s.imag() == 0.)
+    return "a departure that" + rate;
+  return "a vibration of " + short_text(s.imag() / two_pi) + " Hz that" + rate + " (damping ratio " +
+         short_text(-s.real() / std::abs(s)) + ")";
+}
+
+/// Warns where the machine leaves the operating point by itself.
+void warn_of_growth(const coupling::LinearResponse &linear, std::vector<std::string> &warnings)
+{
+  const auto growing = linear.growing();
+  if (!growing)
+  {
+    warnings.push_back("whether the machine is stable at this operating point is not known: it has too many "
+                       "coordinates for its eigenvalues; a frequency response is reached in time only if it is");
+    return;
+  }
+  if (growing->empty())
+    return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(growing->size(), most_told); ++i)
+    text += (i > 0 ? ", " : "") + growth_text((*growing)[i]);
+  if (growing->size() > most_told)
+    text += " and " + std::to_string(growing->size() - most_told) + " more";
+  warnings.push_back("the machine linearised at this operating point is unstable: " + text +
+                     "; the response computed is never reached in time");
+}
+
 } // namespace
 
 void check_frf_options(const FrfOptions &options)
@@ -167,7 +201,9 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.closed_contacts = point.closed;
   response.open_contacts   = point.open;
   response.logarithmic     = options.spacing == "log";
-  ResponseSweep sweep(coupling::LinearResponse(machine, point.point), coupling::dense_mass(machine).diagonal());
+  coupling::LinearResponse linear(machine, point.point);
+  warn_of_growth(linear, warnings);
+  ResponseSweep                 sweep(std::move(linear), coupling::dense_mass(machine).diagonal());
   std::vector<coupling::Signal> answers;
   for (const std::string &to : options.to)
   {

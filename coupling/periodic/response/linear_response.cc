@@ -1,6 +1,7 @@
 #include "coupling/periodic/response/linear_response.h"
 
 #include "coupling/periodic/base_receptance.h"
+#include "coupling/periodic/response/growing_motions.h"
 
 #include <Eigen/LU>
 
@@ -323,6 +324,15 @@ LinearResponse::LinearResponse(LinearResponse &&) noexcept = default;
 const std::string &LinearResponse::not_condensed() const
 {
   return parts_->not_condensed;
+}
+
+std::optional<std::vector<Complex>> LinearResponse::growing() const
+{
+  const MatrixXd W    = parts_->W;
+  const auto     with = [&](const MatrixXd &base, const MatrixXd &elements)
+  { return MatrixXd(base + W * elements * W.transpose()); };
+  return growing_motions(with(parts_->M, parts_->M_u), with(parts_->B, parts_->B_u), with(parts_->C, parts_->K_u),
+                         parts_->E * W.transpose());
 }
 
 Vibration LinearResponse::at(double omega, const MatrixXd &forces) const

@@ -6,7 +6,9 @@
 
 #include <complex>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -75,6 +77,10 @@ public:
 
   /// Why the whole equations are solved at every frequency; empty: they are condensed.
   const std::string &not_condensed() const;
+
+  /// Motions exp(s t) about the operating point that grow by themselves; nothing where that is not known, see
+  /// growing_motions().
+  std::optional<std::vector<std::complex<double>>> growing() const;
 
 private:
   std::unique_ptr<LinearisedSystem> parts_;

@@ -305,6 +305,62 @@ TEST(FrequencyResponse, IsTheSteadyVibrationOfTheTimeIntegration)
   }
 }
 
+// --- an operating point that the machine leaves by itself
+
+std::vector<std::string> warnings_of_text(const std::string &text, const FrfOptions &options)
+{
+  const test::SceneFolder folder;
+  return Session(folder.write("scene.toml", text), {}).frequency_response(options).warnings;
+}
+
+std::string spring_damper(const std::string &stiffness, const std::string &damping)
+{
+  return slider_body("slide", "2", "[1, 0, 0]") +
+         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", stiffness}, {"damping", damping}});
+}
+
+/// The warnings that speak of stability.
+std::vector<std::string> told_of_stability(const std::string &text)
+{
+  std::vector<std::string> told;
+  for (const std::string &warning : warnings_of_text(text, options_of({"slide"}, {"slide"})))
+    if (warning.find("stable") != std::string::npos)
+      told.push_back(warning);
+  return told;
+}
+
+/// A force on the slide that is a formula of u and v.
+std::string formula_force(const std::string &force)
+{
+  return element("push", "formula force", {{"from", "slide"}, {"force", force}});
+}
+
+TEST(FrequencyResponse, OfAStableMachineSaysNothingOfStability)
+{
+  EXPECT_THAT(told_of_stability(oscillator), ::testing::IsEmpty());
+  EXPECT_THAT(told_of_stability(spring_damper("800", "0")), ::testing::IsEmpty());
+  EXPECT_THAT(told_of_stability(spring_damper("800", "7") + formula_force("3 N*s/m * v")), ::testing::IsEmpty());
+}
+
+// s^2 - 1.5 s + 400 = 0:  s = 0.75 +- 19.9859 i
+TEST(FrequencyResponse, WarnsOfAVibrationThatGrows)
+{
+  using ::testing::HasSubstr;
+  const auto told = told_of_stability(spring_damper("800", "0") + formula_force("3 N*s/m * v"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0], HasSubstr("is unstable: a vibration of 3.18"));
+  EXPECT_THAT(told[0], HasSubstr("Hz that grows with 0.75 1/s (damping ratio -0.0375)"));
+  EXPECT_THAT(told[0], HasSubstr("never reached in time"));
+}
+
+// s^2 = 100
+TEST(FrequencyResponse, WarnsOfADepartureFromAnUnstablePosition)
+{
+  const auto told = told_of_stability(spring_damper("800", "0") + formula_force("1000 N/m * u"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0], ::testing::HasSubstr("a departure that grows with 10 1/s"));
+}
+
 // --- what cannot be answered is told
 
 TEST(FrequencyResponse, RefusesWhatItCannotAnswer)

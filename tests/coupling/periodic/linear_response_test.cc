@@ -287,6 +287,69 @@ TEST(LinearResponse, RefusesTheFrequencyOfAnUndampedMode)
   expect_refusal([&] { response_of(machine).at(0., Matrix::Identity(1, 1)); }, "must be above zero");
 }
 
+TEST(GrowingMotions, OfAMachineWithPositiveMatricesAreNone)
+{
+  for (const unsigned seed : {1u, 2u, 3u})
+    EXPECT_THAT(*response_of(random_machine(seed)).growing(), testing::IsEmpty());
+}
+
+// Gyroscopic forces do no work; a free motion rests.
+TEST(GrowingMotions, AreNoneOfAGyroscopicMachineWithAFreeMotion)
+{
+  LinearMachine machine(3, 0);
+  machine.M.setIdentity();
+  machine.B << 0., 30., 0., -30., 0., 0., 0., 0., 0.;
+  machine.C.diagonal() << 4e4, 9e4, 0.;
+  machine.finish();
+  EXPECT_THAT(*response_of(machine).growing(), testing::IsEmpty());
+}
+
+// s^2 + 1e4 + i k = 0 in q0 + i q1
+TEST(GrowingMotions, OfACirculatoryForceHaveTheRateOfTheClosedSolution)
+{
+  LinearMachine machine(2, 0);
+  machine.M.setIdentity();
+  machine.C << 1e4, 300., -300., 1e4;
+  machine.finish();
+  const auto growing = *response_of(machine).growing();
+  ASSERT_EQ(growing.size(), 1u);
+  const Complex s = std::sqrt(Complex(-1e4, 300.));
+  EXPECT_NEAR(growing[0].real(), s.real(), 1e-11 * std::abs(s));
+  EXPECT_NEAR(growing[0].imag(), s.imag(), 1e-11 * std::abs(s));
+}
+
+// Upside down pendulums, the first beside a body of high frequency, the second held by a joint.
+TEST(GrowingMotions, AreThoseThatJointsLeaveFree)
+{
+  LinearMachine machine(3, 3);
+  machine.M.setIdentity();
+  machine.C.diagonal() << -9., 1e10, -16.;
+  machine.W.setIdentity();
+  machine.G.resize(1, 3);
+  machine.G << 0., 0., 1.;
+  machine.finish();
+  const auto growing = *response_of(machine).growing();
+  ASSERT_EQ(growing.size(), 1u);
+  EXPECT_NEAR(growing[0].real(), 3., 1e-9);
+  EXPECT_EQ(growing[0].imag(), 0.);
+}
+
+// T x' + x = -g q' feeds back: s^2 + 100 - k x = 0 with x = -g s q/(1 + T s).
+TEST(GrowingMotions, AreFoundBesideCoordinatesWithoutMass)
+{
+  LinearMachine machine(2, 0);
+  const double  T = 0.01, g = 2.;
+  machine.M(0, 0) = 1.;
+  machine.B << 0., 0., g, T;
+  machine.C << 100., 1., 0., 1.;
+  machine.finish();
+  const auto growing = *response_of(machine).growing();
+  ASSERT_EQ(growing.size(), 1u);
+  const Complex s = growing[0];
+  EXPECT_LT(std::abs((s * s + 100.) * (1. + T * s) - g * s), 1e-8 * std::abs(s * s));
+  EXPECT_GT(s.real(), 0.5);
+}
+
 TEST(LinearAnswer, AddsUpDerivativesForcesAndMultipliers)
 {
   Vibration x;
