@@ -85,6 +85,18 @@ private:
   std::vector<coupling::SpecialMotion> points_;
 };
 
+/// Why a branch ended; where a load comes to stand just beyond its last motion, that.
+std::string end_of(const coupling::Branch &branch, const SceneFamily &family, double step)
+{
+  if (!branch.failed)
+    return branch.ended;
+  const double last = branch.points.back().parameter;
+  for (const double beyond : {last + step, last - step})
+    if (const std::string why = family.standstill(last, beyond); !why.empty())
+      return why;
+  return branch.ended;
+}
+
 /// Writes a branch into the result, with the signals of every point.
 class BranchTable
 {
@@ -152,7 +164,8 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
       return;
     table.add(branch);
     if (!branch.ended.empty())
-      result.notes.push_back("branch " + std::to_string(result.entries.back().branch) + ": " + branch.ended);
+      result.notes.push_back("branch " + std::to_string(result.entries.back().branch) + ": " +
+                             end_of(branch, family, (along.to - along.from) / along.points));
     if (branch.failed)
       result.failure = result.notes.back();
   };

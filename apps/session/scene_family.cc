@@ -7,7 +7,11 @@
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -39,10 +43,58 @@ std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame
   return copy;
 }
 
+constexpr int    halvings = 50;
+constexpr double stands   = 1e-9; ///< frequency of a load that counts as zero, of that where the search begins
+
+/// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
+double lowest_frequency(const Scene &scene)
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const LoadRequest &load : scene.loads)
+    for (const auto &oscillation : load.oscillations)
+      lowest = std::min(lowest, std::abs(oscillation.omega));
+  return lowest;
+}
+
+/// What the tables of a scene hold from which no motion differs.
+const std::map<std::string, std::string> &without_effect()
+{
+  static const std::map<std::string, std::string> tables = {{"name", "the name of the scene"},
+                                                            {"description", "the description of the scene"},
+                                                            {"extends", "the scene that this one extends"},
+                                                            {"run", "how a run is integrated and how long it takes"},
+                                                            {"start", "the state from which motions are looked for"},
+                                                            {"modes", "which modes are listed, and where"},
+                                                            {"output", "what is written"},
+                                                            {"reduction", "how the frame is reduced"}};
+  return tables;
+}
+
+/// The first part of a key: "run" of "run.step".
+std::string table_of(const std::string &key)
+{
+  std::string table = key.substr(0, key.find('.'));
+  table.erase(std::remove_if(table.begin(), table.end(), [](char c) { return c == ' ' || c == '"' || c == '\''; }),
+              table.end());
+  return table;
+}
+
+void require_effect(const std::string &key)
+{
+  const auto found = without_effect().find(table_of(key));
+  if (found == without_effect().end())
+    return;
+  throw std::invalid_argument("--along " + key + ": this entry says " + found->second +
+                              "; it does not change the equations of motion, and all motions along it would be the "
+                              "same. Follow a parameter (parameters.NAME), or a number of an element, a load, a "
+                              "drive or a body, such as element.NAME.stiffness");
+}
+
 } // namespace
 
 void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key)
 {
+  require_effect(key);
   const std::string table = "parameters.";
   if (key.compare(0, table.size(), table) != 0)
     return;
@@ -75,7 +127,7 @@ SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string>
     throw std::invalid_argument("--from " + request.from + " and --to " + request.to + ": give both in one unit");
   if (from_ == to_)
     throw std::invalid_argument("--from and --to are both " + request.from + "; there is no way between them");
-  const Scene first = scene_at(from_), last = scene_at(to_);
+  const Scene first = scene_at(from_), last = last_scene();
   if (frame_path(first) != FramePath::reduce && frame_path(first) != FramePath::from_file)
     return;
   if (frame_path(first) == FramePath::reduce &&
@@ -95,6 +147,50 @@ Scene SceneFamily::scene_at(double value) const
   SceneNode root = root_;
   apply_override(root, key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"'));
   return read_scene(root, path_, scripts_);
+}
+
+Scene SceneFamily::last_scene() const
+{
+  try
+  {
+    return scene_at(to_);
+  }
+  catch (const std::invalid_argument &)
+  {
+    const std::string why = standstill(from_, to_);
+    if (why.empty())
+      throw;
+    throw std::invalid_argument("--to " + request_.to + ": " + why +
+                                ", where the load no longer oscillates; let the branch end before");
+  }
+}
+
+std::string SceneFamily::standstill(double within, double beyond) const
+{
+  const double range = std::abs(beyond - within);
+  const double first = lowest_frequency(scene_at(within));
+  double       last  = first;
+  bool         ends  = false;
+  const auto   probe = [&](double value)
+  {
+    try
+    {
+      last   = lowest_frequency(scene_at(value));
+      within = value;
+    }
+    catch (const std::invalid_argument &)
+    {
+      beyond = value;
+      ends   = true;
+    }
+  };
+  probe(beyond);
+  for (int k = 0; ends && k < halvings; ++k)
+    probe(0.5 * (within + beyond));
+  if (!ends || !(last < stands * first))
+    return {};
+  const double where = std::abs(beyond) < stands * range ? 0. : beyond;
+  return "the period becomes infinite at " + key_ + " = " + short_text(where) + (unit_.empty() ? "" : ' ' + unit_);
 }
 
 std::shared_ptr<MachineMember> SceneFamily::member(double value) const

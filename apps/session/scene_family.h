@@ -21,7 +21,9 @@ struct MachineMember
   coupling::PeriodicProblem        problem;
 };
 
-/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads.
+/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads;
+/// and entries that do not change the equations of motion, such as those of [run] and [output].
+/// @throws std::invalid_argument: which entry, what it is, and which serve
 void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key);
 
 /// A scene over the values of one entry, on the frame that was reduced once.
@@ -42,8 +44,14 @@ public:
   std::shared_ptr<MachineMember> member(double value) const;
   coupling::ProblemFamily        problems() const;
 
+  /// "the period becomes infinite at parameters.n = 0": where between two values the frequency of a load falls to zero,
+  /// beyond which there is no scene; empty: it does not.
+  /// @param within  there is a scene at this value
+  std::string standstill(double within, double beyond) const;
+
 private:
   Scene scene_at(double value) const;
+  Scene last_scene() const;
 
   std::string                                   path_, key_, unit_;
   SceneNode                                     root_; ///< of the file with all overrides but that of the entry

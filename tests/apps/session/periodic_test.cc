@@ -320,4 +320,53 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
               testing::HasSubstr("no parameter 'y'"));
 }
 
+/// Duffing's oscillator whose load has the frequency that a formula of the parameter n gives [rad/s].
+std::string duffing_along(const std::string &Omega, const std::string &n)
+{
+  std::string       text = duffing(0.05, 0.5, 0.3, 1.);
+  const std::string own  = number(1. / (2. * M_PI)) + " Hz";
+  text.replace(text.find(own), own.size(), "(" + Omega + ")/(2*pi) * 1 Hz");
+  return "[parameters]\nn = " + n + "\n" + text;
+}
+
+TEST(PeriodicScene, ABranchToTheFrequencyZeroOfTheLoadIsRefusedPlainly)
+{
+  PeriodicRequest along;
+  along.along = "parameters.n";
+  along.from  = "1.5";
+  for (const std::string to : {"0", "-0.7"})
+  {
+    along.to                = to;
+    const std::string words = refusal([&] { periodic_of(duffing_along("n", "1.5"), along); });
+    EXPECT_THAT(words, testing::HasSubstr("--to " + to + ": the period becomes infinite at parameters.n = 0,"));
+  }
+}
+
+TEST(PeriodicScene, ABranchEndsWhereThePeriodBecomesInfinite)
+{
+  PeriodicRequest along;
+  along.along                 = "parameters.n";
+  along.from                  = "1.5";
+  along.to                    = "-1.5";
+  along.points                = 10;
+  const PeriodicResult result = periodic_of(duffing_along("n^2 - 0.25", "1.5"), along);
+  EXPECT_THAT(result.failure, testing::HasSubstr("the period becomes infinite at parameters.n = 0.5"));
+}
+
+TEST(PeriodicScene, EntriesThatDoNotChangeTheMotionAreNoParameterOfABranch)
+{
+  PeriodicRequest along;
+  along.from = "1";
+  along.to   = "2";
+  for (const std::string key : {"run.step", "run.tolerance", "run.end", "output.rows", "reduction.modes",
+                                "start.q.slide", "modes.number", "\"run\".end", "description"})
+  {
+    along.along             = key;
+    const std::string words = refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.4), along); });
+    EXPECT_THAT(words, testing::HasSubstr("--along " + key));
+    EXPECT_THAT(words, testing::HasSubstr("does not change the equations of motion"));
+    EXPECT_THAT(words, testing::HasSubstr("parameters.NAME"));
+  }
+}
+
 } // namespace gestell::tests
