@@ -148,7 +148,7 @@ std::string growth_text(const std::complex<double> &s)
 }
 
 /// Warns where the machine leaves the operating point by itself.
-void warn_of_growth(const coupling::LinearResponse &linear, std::vector<std::string> &warnings)
+void warn_of_growth(const coupling::LinearResponse &linear, bool moves, std::vector<std::string> &warnings)
 {
   const auto growing = linear.growing();
   if (!growing)
@@ -164,7 +164,8 @@ void warn_of_growth(const coupling::LinearResponse &linear, std::vector<std::str
     text += (i > 0 ? ", " : "") + growth_text((*growing)[i]);
   if (growing->size() > most_told)
     text += " and " + std::to_string(growing->size() - most_told) + " more";
-  warnings.push_back("the machine linearised at this operating point is unstable: " + text +
+  const std::string where = moves ? "at this instant of its motion" : "at this operating point";
+  warnings.push_back("the machine linearised " + where + " is unstable: " + text +
                      "; the response computed is never reached in time");
 }
 
@@ -202,7 +203,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.open_contacts   = point.open;
   response.logarithmic     = options.spacing == "log";
   coupling::LinearResponse linear(machine, point.point);
-  warn_of_growth(linear, warnings);
+  warn_of_growth(linear, response.moves, warnings);
   ResponseSweep                 sweep(std::move(linear), coupling::dense_mass(machine).diagonal());
   std::vector<coupling::Signal> answers;
   for (const std::string &to : options.to)

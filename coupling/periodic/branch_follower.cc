@@ -16,6 +16,7 @@ using Eigen::VectorXd;
 
 constexpr int    most_corrections = 16;
 constexpr double difference       = 1e-6; ///< of the range, for dF/dlambda
+constexpr double rests            = 1e-9; ///< length of a motion at rest, of that at the end of the range
 constexpr double slow             = 0.5;  ///< contraction above which the derivatives are taken anew
 
 double least_pivot(const MatrixXd &J)
@@ -49,6 +50,18 @@ void BranchFollower::grow_size(Point &point)
     point.tangent.normalize();
   }
   size_ = norm;
+}
+
+void BranchFollower::size_from_rest(Point &point)
+{
+  const Index    m   = point.z.size();
+  const VectorXd way = range_ * point.derivative.leftCols(m).partialPivLu().solve(point.derivative.col(m));
+  if (!(point.z.norm() < rests * way.norm()) || !way.allFinite())
+    return;
+  size_         = way.norm();
+  point.tangent = VectorXd::Zero(m + 1);
+  point.tangent << -way / size_, 1.;
+  point.tangent.normalize();
 }
 
 double BranchFollower::arclength(const Point &a, const Point &b) const

@@ -254,6 +254,7 @@ Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, 
   if (!follower.at_parameter(z, options.from, Point(here), here))
     throw NoPeriodicMotion("the branch does not begin: Newton's method does not close the motion at the first value of "
                            "the parameter");
+  follower.size_from_rest(here);
   return Tracker(follower, options, progress, false).follow(here);
 }
 

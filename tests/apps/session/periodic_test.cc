@@ -353,6 +353,27 @@ TEST(PeriodicScene, ABranchEndsWhereThePeriodBecomesInfinite)
   EXPECT_THAT(result.failure, testing::HasSubstr("the period becomes infinite at parameters.n = 0.5"));
 }
 
+/// x'' + 0.1 x' + x = n cos(2 t) answers with n/sqrt(3^2 + 0.2^2).
+TEST(PeriodicScene, ABranchBeginsAtRestWhereTheLoadIsZero)
+{
+  PeriodicRequest along;
+  along.along      = "parameters.n";
+  along.from       = "0";
+  along.to         = "0.3";
+  along.points     = 10;
+  std::string text = duffing(0.05, 0., 0.3, 2.);
+  text.replace(text.find("0.29999999999999999 N"), 21, "n * 1 N");
+  const PeriodicResult result = periodic_of("[parameters]\nn = 0\n" + text, along);
+  EXPECT_EQ(result.failure, "");
+  ASSERT_GT(result.entries.size(), 5u);
+  EXPECT_EQ(result.entries.front().parameter, 0.);
+  EXPECT_EQ(result.entries.front().solution.residual, 0.);
+  EXPECT_EQ(result.entries.back().parameter, 0.3);
+  const auto  &end = result.entries.back().solution;
+  const double x   = std::hypot(end.q[0], end.v[0] / 2.);
+  EXPECT_NEAR(x, 0.3 / std::hypot(3., 0.2), 1e-8);
+}
+
 TEST(PeriodicScene, EntriesThatDoNotChangeTheMotionAreNoParameterOfABranch)
 {
   PeriodicRequest along;
