@@ -20,6 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double no_stiffness = 1e-13; ///< eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
+constexpr double negative     = 1e-8;  ///< the same, below zero: no rounding
 constexpr double no_coupling  = 1e-13; ///< off-diagonal of the modal damping against its diagonals
 constexpr double no_damping   = 1e-13; ///< modal damping against the largest
 constexpr double resonance    = 1e-8;  ///< |i Omega - lambda| / Omega below which the forced motion has no digits left
@@ -38,6 +39,8 @@ MatrixXd motions_without_stiffness(const MatrixXd &C)
   const VectorXd             d = C.diagonal().unaryExpr([](double c) { return c > 0. ? 1. / std::sqrt(c) : 1.; });
   const SymmetricEigenSolver modes(d.asDiagonal() * C * d.asDiagonal());
   Eigen::Index               n_r = 0;
+  if (n > 0 && modes.eigenvalues()[0] < -negative)
+    refuse("the stiffness matrix of the base is not positive semidefinite; give what pushes away as an element");
   while (n_r < n && modes.eigenvalues()[n_r] < no_stiffness * double(n))
     ++n_r;
   return d.asDiagonal() * modes.eigenvectors().leftCols(n_r);
