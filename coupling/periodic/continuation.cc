@@ -123,7 +123,7 @@ public:
 
 private:
   bool next_point(const Point &here, Point &next);
-  void end_at(const Point &here, const Point &beyond);
+  bool end_at(const Point &here, const Point &beyond);
   bool add(const Point &point)
   {
     branch_.points.push_back({point.lambda, point.solution});
@@ -182,20 +182,27 @@ bool Tracker::next_point(const Point &here, Point &next)
   return false;
 }
 
-/// The point at the end of the parameter that lies before the one beyond.
-void Tracker::end_at(const Point &here, const Point &beyond)
+/// The point at the end of the parameter that lies before the one beyond; false: it was not found.
+bool Tracker::end_at(const Point &here, const Point &beyond)
 {
   const bool   back = (beyond.lambda - options_.from) / range_ < 0.;
   const double end  = back ? options_.from : options_.to;
   const double part = (end - here.lambda) / (beyond.lambda - here.lambda);
   Point        last;
-  if (follower_.at_parameter(here.z + part * (beyond.z - here.z), end, here, last))
+  try
   {
-    note_special(here, last);
-    add(last);
+    if (!follower_.at_parameter(here.z + part * (beyond.z - here.z), end, here, last))
+      return false;
   }
+  catch (const ConvergenceFailure &)
+  {
+    return false;
+  }
+  note_special(here, last);
+  add(last);
   if (back)
     branch_.ended = "it came back to the first value of the parameter";
+  return true;
 }
 
 Branch Tracker::follow(Point here)
@@ -211,13 +218,16 @@ Branch Tracker::follow(Point here)
       const double share = (next.lambda - options_.from) / range_;
       if (share > 1. || share < 0.)
       {
-        end_at(here, next);
-        return branch_;
+        if (end_at(here, next))
+          return branch_;
+        ds_ *= 0.5;
+        continue;
       }
       if (!new_branch_ || !branch_.points.empty())
         note_special(here, next);
       here = next;
       follower_.grow_size(here);
+      follower_.refit(here);
       goes_on = add(here);
       if (next.iterations <= few_iterations)
         ds_ = std::min(1.3 * ds_, widest * wanted_);
