@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/session/periodic_answer.h"
+#include "coupling/periodic/collocation/collocation_branch.h"
 #include "coupling/periodic/continuation.h"
 
 #include <algorithm>
@@ -30,6 +31,8 @@ std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &fami
     options.harmonics = first.series->harmonics();
     return coupling::balance_branch(family.problems(), options);
   }
+  if (first.method == "collocation")
+    return coupling::collocation_branch(family.problems(), options, doubling);
   return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);
 }
 
@@ -44,8 +47,7 @@ std::vector<coupling::Branch> new_branches(const SceneFamily &family, coupling::
     special.solution.period *= 2.;
     special.solution.turn *= 2.;
   }
-  const double omega     = 2. * M_PI / special.solution.period;
-  const auto   equations = coupling::shooting_branch(family.problems(), options, omega, repeats);
+  const auto equations = equations_for(family, special.solution, options, repeats);
   return follow_new_branches(*equations, special, along, progress);
 }
 

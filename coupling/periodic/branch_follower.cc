@@ -17,7 +17,9 @@ using Eigen::VectorXd;
 constexpr int    most_corrections = 16;
 constexpr double difference       = 1e-6; ///< of the range, for dF/dlambda
 constexpr double rests            = 1e-9; ///< length of a motion at rest, of that at the end of the range
-constexpr double slow             = 0.5;  ///< contraction above which the derivatives are taken anew
+constexpr int    most_moves       = 8;
+constexpr int    most_refits      = 12;
+constexpr double slow             = 0.5; ///< contraction above which the derivatives are taken anew
 
 double least_pivot(const MatrixXd &J)
 {
@@ -62,6 +64,26 @@ void BranchFollower::size_from_rest(Point &point)
   point.tangent = VectorXd::Zero(m + 1);
   point.tangent << -way / size_, 1.;
   point.tangent.normalize();
+}
+
+void BranchFollower::refit(Point &point)
+{
+  for (int k = 0; k < most_refits; ++k)
+  {
+    equations_.evaluate(point.z, point.lambda, false);
+    MatrixXd Z(point.z.size(), 2);
+    Z << point.z, point.tangent.head(point.z.size());
+    if (!equations_.refit(point.solution, Z))
+      return;
+    Point start, fitted;
+    start.tangent.resize(Z.rows() + 1);
+    start.tangent << Z.col(1), point.tangent.tail(1);
+    start.tangent.normalize();
+    if (!correct(Z.col(0), point.lambda, start.tangent, start, fitted) || !finish(start.tangent, fitted))
+      throw ConvergenceFailure("the motion does not close on the mesh that fits it at " + std::to_string(point.lambda));
+    fitted.iterations = point.iterations;
+    point             = fitted;
+  }
 }
 
 double BranchFollower::arclength(const Point &a, const Point &b) const
@@ -109,13 +131,23 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
   MatrixXd    A = near.derivative.size() > 0 ? bordered(near.derivative, across) : MatrixXd();
   VectorXd    dx, r = VectorXd::Zero(m + 1);
   double      before = 0.;
-  for (point.iterations = 0; point.iterations < most_corrections; ++point.iterations)
+  int         moves = 0, last_move = 0;
+  for (point.iterations = 0; point.iterations - last_move < most_corrections; ++point.iterations)
   {
     equations_.evaluate(z, lambda, A.size() == 0);
     const VectorXd F    = equations_.residual();
     const double   here = equations_.closing();
     if (!F.allFinite())
       return false;
+    if (VectorXd other = z; here <= tolerance_ && moves < most_moves && equations_.follow_motion(other))
+    {
+      r[m] -= across.head(m).dot(other - z) / size_; // back across it
+      z = other;
+      ++moves;
+      last_move = point.iterations;
+      dx.resize(0);
+      continue;
+    }
     if (here <= tolerance_)
     {
       point.z          = z;
@@ -135,6 +167,7 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
       A.topRows(m) += F * (dx.transpose() / dx.squaredNorm());
     r.head(m) = -F;
     dx        = A.partialPivLu().solve(r);
+    r[m]      = 0.;
     if (!dx.allFinite())
       return false;
     z += size_ * dx.head(m);

@@ -2,28 +2,31 @@
 
 #include "coupling/integration/propagation/modal_blocks.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
-#include "coupling/periodic/shooting.h"
+#include "coupling/periodic/shooting/shooting.h"
 
 namespace gestell::coupling
 {
 
-namespace
-{
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-/// @throws ConvergenceFailure where there is no machine at lambda, as at a frequency below zero to which a step has led
-FamilyMember member_at(const ProblemFamily &family, double lambda)
+FamilyMember member_at(const ProblemFamily &family, double lambda, int ratio)
 {
   try
   {
-    return family(lambda);
+    FamilyMember member = family(lambda);
+    member.problem.period *= ratio;
+    member.problem.turn *= ratio;
+    member.problem.ratio *= ratio;
+    return member;
   }
   catch (const std::invalid_argument &none)
   {
     throw ConvergenceFailure(none.what());
   }
 }
+
+namespace
+{
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 class ShootingBranch final : public BranchEquations
 {
@@ -52,10 +55,7 @@ public:
     if (!equations_ || lambda != lambda_)
     {
       equations_.reset();
-      member_ = member_at(family_, lambda);
-      member_.problem.period *= ratio_;
-      member_.problem.turn *= ratio_;
-      member_.problem.ratio *= ratio_;
+      member_ = member_at(family_, lambda, ratio_);
       if (member_.problem.period_is_unknown())
         member_.problem.period = z[z.size() - 1];
       equations_ = std::make_unique<ShootingEquations>(member_.problem, options_.integration, omega_);

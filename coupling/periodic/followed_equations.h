@@ -18,6 +18,10 @@ struct FamilyMember
 /// The problem at each value of a parameter.  @throws std::invalid_argument where there is none
 using ProblemFamily = std::function<FamilyMember(double)>;
 
+/// Of `ratio` times its period.
+/// @throws ConvergenceFailure where there is none at lambda, as at a frequency below zero to which a step has led
+FamilyMember member_at(const ProblemFamily &family, double lambda, int ratio = 1);
+
 /// Shooting over `ratio` times the period of the family.
 std::unique_ptr<BranchEquations> shooting_branch(const ProblemFamily &family, const PeriodicOptions &options,
                                                  double omega, int ratio = 1);

@@ -2,7 +2,7 @@
 
 #include "coupling/periodic/deflation.h"
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting.h"
+#include "coupling/periodic/shooting/shooting.h"
 #include "coupling/periodic/trace_orbit.h"
 
 #include <unsupported/Eigen/LevenbergMarquardt>

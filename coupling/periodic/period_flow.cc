@@ -21,6 +21,7 @@ constexpr double fine         = 1e-11;    ///< tolerance of steps where none is 
 constexpr double small_way    = 1e-5;     ///< over which gradients of guards are taken, of the largest motion so far
 constexpr double touching     = 1e-6;     ///< slope of a guard, of what the motion could give it
 constexpr double rounding     = 1e-12;    ///< of a period: the end is reached
+constexpr double same_history = 1e-12;    ///< relative difference of numbers that elements remember
 
 /// What is not said of the integration.
 MethodOptions completed(const MethodOptions &given, double period)
@@ -47,8 +48,16 @@ PeriodFlow::~PeriodFlow() = default;
 
 void PeriodFlow::look_on(int samples, std::function<void(const OrbitPoint &)> look)
 {
-  samples_ = samples;
-  look_    = std::move(look);
+  std::vector<double> shares;
+  for (int k = 0; k <= samples && samples > 0; ++k)
+    shares.push_back(double(k) / samples);
+  look_at(std::move(shares), std::move(look));
+}
+
+void PeriodFlow::look_at(std::vector<double> shares, std::function<void(const OrbitPoint &)> look)
+{
+  looks_ = std::move(shares);
+  look_  = std::move(look);
 }
 
 void PeriodFlow::carry(const MatrixXd &dq, const MatrixXd &dv)
@@ -66,7 +75,7 @@ void PeriodFlow::carry_all()
   dv_begin_ << MatrixXd::Zero(n, n), MatrixXd::Identity(n, n);
 }
 
-void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool tangents)
+void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double begin, double end, bool tangents)
 {
   if (tangents && !tangents_)
     throw std::invalid_argument(method_name(integration_) + " carries no tangents; take exact, collocation");
@@ -78,12 +87,13 @@ void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool ta
   passage_.v_begin = v;
   passage_.fastest = v.norm();
   carries_         = tangents;
+  begin_           = begin;
   end_             = end;
   shown_           = 0;
   t_event_         = -std::numeric_limits<double>::infinity();
   for (VectorXd &largest : largest_)
     largest.setZero(system_.forces().directions().cols());
-  driver_->begin(problem_.begin, q, v);
+  driver_->begin(begin, q, v);
   if (tangents)
   {
     if (dq_begin_.size() == 0)
@@ -97,11 +107,18 @@ void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double end, bool ta
 
 const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, double period, bool tangents)
 {
-  const IntegrationWork before = integrator_->work();
-  begin(q, v, problem_.begin + period, tangents);
-  while (integrator_->time() < end_ - rounding * period)
-    advance(before.steps);
+  pass_part(q, v, problem_.begin, problem_.begin + period, tangents);
   passage_.period = period;
+  return passage_;
+}
+
+const PeriodPassage &PeriodFlow::pass_part(const VectorXd &q, const VectorXd &v, double from, double to, bool tangents)
+{
+  const IntegrationWork before = integrator_->work();
+  begin(q, v, from, to, tangents);
+  while (integrator_->time() < end_ - rounding * (to - from))
+    advance(before.steps);
+  passage_.period = to - from;
   passage_.q      = integrator_->instant().q;
   passage_.v      = integrator_->instant().v;
   finish(before);
@@ -114,7 +131,7 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
   const int             phase  = problem_.phase;
   const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase],
                direction = problem_.turn[phase] < 0. ? -1. : 1.;
-  begin(q, v, problem_.begin + longest, false);
+  begin(q, v, problem_.begin, problem_.begin + longest, false);
   bool there = false;
   driver_->on_step(
       [&]
@@ -173,13 +190,29 @@ void PeriodFlow::finish(const IntegrationWork &before)
   passage_.work.solves         = now.solves - before.solves;
   passage_.work.evaluations    = now.evaluations - before.evaluations;
   if (driver_->chattering_steps() > 0)
-    passage_.chattering = driver_->chattering_time() / (end_ - problem_.begin);
+    passage_.chattering = driver_->chattering_time() / (end_ - begin_);
   if (!carries_)
     return;
   MatrixXd dq, dv;
   tangents_->tangents(dq, dv);
   passage_.monodromy.resize(2 * dq.rows(), dq.cols());
   passage_.monodromy << dq, dv;
+}
+
+bool PeriodFlow::remembers_at_end()
+{
+  if (!system_.forces().held().empty())
+    return true;
+  EventSystem   &elements   = system_.events();
+  const VectorXd remembered = elements.save_history();
+  LocalState     state      = integrator_->local();
+  state.a.setZero(); // as EventDriver::begin()
+  state.p.setZero();
+  elements.follow_history(false);
+  elements.start(state);
+  const VectorXd anew = elements.save_history();
+  return remembered.size() != anew.size() ||
+         !((remembered - anew).cwiseAbs().array() <= same_history * remembered.cwiseAbs().array()).all();
 }
 
 const VectorXd &PeriodFlow::end_acceleration()
@@ -212,16 +245,16 @@ void PeriodFlow::at_step()
   largest_[2]      = largest_[2].cwiseMax(local.a.cwiseAbs());
   largest_[3]      = largest_[3].cwiseMax(local.p.cwiseAbs());
   passage_.fastest = std::max(passage_.fastest, integrator_->instant().v.norm());
-  if (samples_ > 0)
+  if (!looks_.empty())
     show(integrator_->time());
 }
 
 void PeriodFlow::show(double until)
 {
-  for (; shown_ <= samples_; ++shown_)
+  for (; shown_ < looks_.size(); ++shown_)
   {
-    const double t    = problem_.begin + (end_ - problem_.begin) * shown_ / samples_;
-    const bool   last = shown_ == samples_ && until >= end_ - rounding * (end_ - problem_.begin);
+    const double t    = begin_ + (end_ - begin_) * looks_[shown_];
+    const bool   last = looks_[shown_] == 1. && until >= end_ - rounding * (end_ - begin_);
     if (t > until && !last)
       return;
     const double at = std::clamp(t, integrator_->step_begin(), until);

@@ -49,6 +49,10 @@ public:
   /// Over `period`.
   /// @throws ConvergenceFailure, std::invalid_argument if tangents are asked for and the integrator has none
   const PeriodPassage &pass(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period, bool tangents);
+  /// A part of it, from `begin` to `end` [s]; elements begin in the branches of the state.
+  /// @throws as pass()
+  const PeriodPassage &pass_part(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end,
+                                 bool tangents);
   /// Until the coordinate `phase` of the problem has come to its value and its turn; at most `longest` [s].
   /// @throws ConvergenceFailure, NoPeriodicMotion if it does not come there
   const PeriodPassage &pass_turn(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double longest);
@@ -57,11 +61,17 @@ public:
   /// q'' at the end of the last passage [n].
   const Eigen::VectorXd &end_acceleration();
 
+  /// Whether elements remember at the end of the last passage what a start from the state there would not give them: a
+  /// measure that is held, or a history beyond its branch.  They begin anew with the next passage.
+  bool remembers_at_end();
+
   /// `look` is called at samples + 1 instants of every passage.
   void look_on(int samples, std::function<void(const OrbitPoint &)> look);
+  /// `look` is called at these shares of every passage, ascending in [0, 1].
+  void look_at(std::vector<double> shares, std::function<void(const OrbitPoint &)> look);
 
 private:
-  void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double end, bool tangents);
+  void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end, bool tangents);
   void advance(long steps_before);
   void finish(const IntegrationWork &before);
   void carry_all();
@@ -80,15 +90,16 @@ private:
   PeriodPassage                           passage_;
   Eigen::MatrixXd                         dq_begin_, dv_begin_; ///< tangents; empty: all
   bool                                    carries_ = false;
-  bool                                    jumps_   = false; ///< a transition is under way
-  double                                  end_     = 0.;
-  Eigen::RowVectorXd                      dt_; ///< of the event under way
+  bool                                    jumps_   = false;       ///< a transition is under way
+  double                                  begin_ = 0., end_ = 0.; ///< of the passage [s]
+  Eigen::RowVectorXd                      dt_;                    ///< of the event under way
   double                                  t_event_ = 0.;
   Eigen::VectorXd                         before_;     ///< forces before it
   Eigen::VectorXd                         largest_[4]; ///< |u|, |v|, |a|, |p| so far
   std::unique_ptr<LinearSolver>           mass_;
   Eigen::VectorXd                         acceleration_;
-  int                                     samples_ = 0, shown_ = 0;
+  std::vector<double>                     looks_; ///< shares of the passage
+  std::size_t                             shown_ = 0;
   std::function<void(const OrbitPoint &)> look_;
   Eigen::VectorXd                         q_look_, v_look_;
   LocalState                              local_look_;

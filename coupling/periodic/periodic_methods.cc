@@ -1,11 +1,11 @@
 #include "coupling/periodic/periodic_methods.h"
 
 #include "coupling/periodic/averaging.h"
-#include "coupling/periodic/collocation_method.h"
+#include "coupling/periodic/collocation/collocation_method.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 
 #include <stdexcept>
 

@@ -56,6 +56,7 @@ struct PeriodicOptions
   int           iterations    = 40;    ///< of Newton's method
   int           lead_in       = 10;    ///< periods integrated before Newton's method begins
   MethodOptions integration   = options_of("exact", 8).with("force", "collocation");
+  int           segments      = 0;   ///< M of multiple shooting; 0: where one does not close the motion 8, then 32
   int           harmonics     = 0;   ///< H; 0: chosen from the residual
   int           starts        = 64;  ///< of searches from many starts
   int           periods       = 500; ///< most of them that settling integrates

@@ -78,6 +78,21 @@ inline SmallSystem clearance_system(const ClearanceCase &given)
   return system;
 }
 
+/// x'' + x = eps (1 - x^2) x'
+inline SmallSystem van_der_pol(double eps)
+{
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  SmallSystem           system(one, 0. * one, one);
+  system.set_law(Eigen::VectorXd::Ones(1),
+                 [eps](double u, double v, double &p, double &dp_du, double &dp_dv)
+                 {
+                   p     = eps * (1. - u * u) * v;
+                   dp_du = -2. * eps * u * v;
+                   dp_dv = eps * (1. - u * u);
+                 });
+  return system;
+}
+
 inline coupling::PeriodicProblem problem_of_period(coupling::SecondOrderSystem &system, double period)
 {
   coupling::PeriodicProblem problem;

@@ -109,16 +109,8 @@ TEST(Averaging, ReturnsSolutionsWithTheirStability)
 /// x'' + x = eps (1 - x^2) x': amplitude 2, frequency 1, exponent -eps of the first order.
 TEST(Averaging, FindsTheLimitCycleOfVanDerPol)
 {
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  const double   eps = 0.1;
-  SmallSystem    system(one, 0. * one, one);
-  system.set_law(VectorXd::Ones(1),
-                 [eps](double u, double v, double &p, double &dp_du, double &dp_dv)
-                 {
-                   p     = eps * (1. - u * u) * v;
-                   dp_du = -2. * eps * u * v;
-                   dp_dv = eps * (1. - u * u);
-                 });
+  const double    eps     = 0.1;
+  SmallSystem     system  = van_der_pol(eps);
   PeriodicProblem problem = problem_of_period(system, 6.);
   problem.phase           = 0;
   problem.phase_value     = 1.;

@@ -3,7 +3,7 @@
 #include "coupling/periodic/basins.h"
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/period_flow.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/refusal.h"
 

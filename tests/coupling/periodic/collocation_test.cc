@@ -1,16 +1,23 @@
-#include "coupling/periodic/collocation.h"
-#include "coupling/periodic/collocation_method.h"
+#include "coupling/periodic/collocation/collocation.h"
+#include "coupling/periodic/collocation/collocation_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
+#include "tests/support/coupled_system.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 
 #include <gtest/gtest.h>
+
+#include <random>
 
 namespace
 {
 
 using namespace gestell::coupling;
 using namespace gestell::tests;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+const MatrixXd one = MatrixXd::Identity(1, 1);
 
 } // namespace
 
@@ -81,4 +88,92 @@ TEST(Collocation, MeetsTheTableOfPlay)
     ++rows;
   }
   EXPECT_EQ(rows, 6);
+}
+
+/// x'' + x = (1 - x^2) x':  period of the limit cycle to all digits (Andersen and Geer 1982).
+TEST(Collocation, FindsTheLimitCycleOfVanDerPol)
+{
+  SmallSystem     system  = van_der_pol(1.);
+  PeriodicProblem problem = problem_of_period(system, 6.5);
+  problem.phase           = 0;
+  const auto found = collocation_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5}, {});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].period, 6.66328685932313, 1e-9);
+  EXPECT_NEAR(found[0].q[0], 0., 1e-10);
+  EXPECT_LT(found[0].residual, 1e-8);
+  EXPECT_TRUE(found[0].trivial_multiplier);
+  EXPECT_TRUE(found[0].stable());
+}
+
+/// T -> 2 pi (1 + eps^2/16) where the base itself repeats after 2 pi and only the small force chooses the amplitude.
+TEST(Collocation, FindsALimitCycleOfNearlyThePeriodOfTheBase)
+{
+  constexpr double eps     = 0.01;
+  SmallSystem      system  = van_der_pol(eps);
+  PeriodicProblem  problem = problem_of_period(system, 6.3);
+  problem.phase            = 0;
+  PeriodicOptions options;
+  options.lead_in  = 0;
+  const auto found = collocation_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.2), 6.3}, options);
+  EXPECT_NEAR(found.at(0).period, 2. * M_PI * (1. + eps * eps / 16.), 1e-8);
+  EXPECT_NEAR(found.at(0).v[0], 2., 1e-4);
+}
+
+/// phi'' J = M_0 - c phi' - k sin(phi): shooting and collocation find the same speed, with a phase off zero.
+TEST(Collocation, FindsTheSpeedOfARotorThatNothingHolds)
+{
+  for (const double bearing : {0.3, 0.})
+  {
+    SmallSystem system(2. * one, bearing * one, 0. * one);
+    system.set_law(VectorXd::Ones(1),
+                   [](double u, double v, double &p, double &dp_du, double &dp_dv)
+                   {
+                     p     = 9. - 1.2 * v - 4. * std::sin(u);
+                     dp_du = -4. * std::cos(u);
+                     dp_dv = -1.2;
+                   });
+    PeriodicProblem problem = problem_of_period(system, 1.);
+    problem.begin           = 0.7;
+    problem.turn            = VectorXd::Constant(1, 2. * M_PI);
+    problem.phase           = 0;
+    problem.phase_value     = 0.2;
+    const PeriodicGuess guess{VectorXd::Constant(1, 0.2), VectorXd::Constant(1, 6.), 1.};
+    PeriodicOptions     options;
+    options.lead_in    = 0;
+    const auto found   = collocation_method().solve(problem, guess, options).at(0);
+    const auto by_shot = shooting_method().solve(problem, guess, options).at(0);
+    EXPECT_NEAR(found.period, by_shot.period, 1e-9 * by_shot.period);
+    EXPECT_NEAR(found.q[0], 0.2, 1e-10);
+    EXPECT_NEAR(found.v[0], by_shot.v[0], 1e-8);
+  }
+}
+
+/// dr/dy against central quotients, dr/dT too, of a law of two measures with u', in a base with a damped free motion,
+/// an undamped one and a spring, on a mesh of unlike intervals.
+TEST(Collocation, LinearisesExactly)
+{
+  CoupledSystem   system(0., 0.3);
+  PeriodicProblem problem = problem_of_period(system, 3.);
+  problem.turn[1]         = 2. * M_PI;
+  problem.phase           = 1;
+  problem.phase_value     = 0.1;
+  PeriodicCollocation collocation(problem);
+  collocation.set_mesh({0., 0.2, 0.5, 1.});
+
+  std::mt19937                     random(7);
+  std::uniform_real_distribution<> number(-1., 1.);
+  VectorXd y   = VectorXd::NullaryExpr(collocation.n_unknowns(), [&] { return number(random); }), r, above, below;
+  y.tail(1)[0] = 3.2;
+  Eigen::MatrixXd J, other;
+  collocation.linearise(y, r, J);
+  const double e = 1e-5;
+  for (Eigen::Index k = 0; k < y.size(); ++k)
+  {
+    VectorXd moved = y;
+    moved[k] += e;
+    collocation.linearise(moved, above, other);
+    moved[k] -= 2. * e;
+    collocation.linearise(moved, below, other);
+    EXPECT_LT((J.col(k) + (above - below) / (2. * e)).norm(), 1e-7 * (1. + J.col(k).norm())) << k;
+  }
 }

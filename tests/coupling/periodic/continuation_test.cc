@@ -3,7 +3,7 @@
 #include "coupling/integration/propagation/modal_blocks.h"
 #include "coupling/periodic/continuation.h"
 #include "coupling/periodic/followed_equations.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
 #include "tests/support/small_system.h"
 

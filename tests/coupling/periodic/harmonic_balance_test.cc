@@ -1,4 +1,5 @@
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
+#include "tests/support/coupled_system.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
@@ -253,15 +254,7 @@ TEST(HarmonicBalance, FindsTheSpeedOfARotorThatNothingHolds)
 /// x'' + x = (1 - x^2) x':  period and amplitude of the limit cycle to all digits (Andersen and Geer 1982).
 TEST(HarmonicBalance, FindsTheLimitCycleOfVanDerPol)
 {
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  SmallSystem    system(one, 0. * one, one);
-  system.set_law(VectorXd::Ones(1),
-                 [](double u, double v, double &p, double &dp_du, double &dp_dv)
-                 {
-                   p     = (1. - u * u) * v;
-                   dp_du = -2. * u * v;
-                   dp_dv = 1. - u * u;
-                 });
+  SmallSystem     system  = van_der_pol(1.);
   PeriodicProblem problem = problem_of_period(system, 6.5);
   problem.phase           = 0;
   const auto found = harmonic_balance_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5}, {});
@@ -274,34 +267,7 @@ TEST(HarmonicBalance, FindsTheLimitCycleOfVanDerPol)
 /// undamped one and a spring.
 TEST(HarmonicBalance, LinearisesExactly)
 {
-  class Coupled final : public CubicSystem
-  {
-  public:
-    using CubicSystem::CubicSystem;
-    std::vector<ForceBlock> blocks() const override { return {{0, 2}}; }
-    void                    force(const LocalState &x, Vector &p) const override
-    {
-      p[0] = std::sin(x.u[0]) - x.v[0] * x.u[1] - 0.1 * x.a[1];
-      p[1] = x.u[0] * x.u[1] + 0.3 * x.v[1] * x.v[1];
-    }
-    void derivatives(const LocalState &x, Vector &p, Matrix &u, Matrix &v) const override
-    {
-      force(x, p);
-      u << std::cos(x.u[0]), -x.v[0], x.u[1], x.u[0];
-      v << -x.u[1], 0., 0., 0.6 * x.v[1];
-    }
-    void tangent(const LocalState &x, double w_u, double w_v, double w_a, Vector &p, Matrix &dp) const override
-    {
-      Matrix u(2, 2), v(2, 2);
-      derivatives(x, p, u, v);
-      dp = w_u * u + w_v * v;
-      dp(0, 1) -= 0.1 * w_a;
-    }
-  };
-  Coupled system(Eigen::Vector3d(1., 2., 3.).asDiagonal(), Eigen::Vector3d(0.4, 0., 0.2).asDiagonal(),
-                 Eigen::Vector3d(0., 0., 5.).asDiagonal(),
-                 {{0., Eigen::Vector3d(1., 0.5, 0.)}, {0., Eigen::Vector3d(0., -1., 1.)}});
-  system.loads().add_constant(0, 0.3);
+  CoupledSystem   system(0.1);
   PeriodicProblem problem = problem_of_period(system, 3.);
   problem.turn[1]         = 2. * M_PI;
   problem.phase           = 1;

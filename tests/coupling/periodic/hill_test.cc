@@ -60,15 +60,7 @@ TEST(Hill, HasTheMultipliersOfTheTableOfTwoMasses)
 /// A limit cycle has the multiplier 1 of its shift in time, and Liouville's exp(integral of (1 - x^2)) as the other.
 TEST(Hill, HasTheTrivialMultiplierOfALimitCycle)
 {
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  SmallSystem    system(one, 0. * one, one);
-  system.set_law(VectorXd::Ones(1),
-                 [](double u, double v, double &p, double &dp_du, double &dp_dv)
-                 {
-                   p     = (1. - u * u) * v;
-                   dp_du = -2. * u * v;
-                   dp_dv = 1. - u * u;
-                 });
+  SmallSystem     system  = van_der_pol(1.);
   PeriodicProblem problem = problem_of_period(system, 6.5);
   problem.phase           = 0;
   const auto found = harmonic_balance_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5}, {});

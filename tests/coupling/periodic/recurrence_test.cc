@@ -1,7 +1,7 @@
 // What does not repeat after a period: the exponent against what is known of it, the kind of every sort of motion.
 
 #include "coupling/periodic/recurrence.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/refusal.h"
 
@@ -119,11 +119,8 @@ TEST(Recurrence, CountsPeriodsOfTheLoad)
 /// x'' - (1 - x^2) x' + x = 0: the shift in time is left out, neighbours meet with the other multiplier of its cycle.
 TEST(Recurrence, OfAFreeCycleLeavesTheShiftInTimeOut)
 {
-  const MatrixXd one = MatrixXd::Identity(1, 1);
-  SmallSystem    van_der_pol(one, 0. * one, one);
-  van_der_pol.set_law(VectorXd::Ones(1), [](double u, double v, double &p, double &dp_du, double &dp_dv)
-                      { p = (1. - u * u) * v, dp_du = -2. * u * v, dp_dv = 1. - u * u; });
-  PeriodicProblem problem = problem_of_period(van_der_pol, 6.66);
+  SmallSystem     system  = van_der_pol(1.);
+  PeriodicProblem problem = problem_of_period(system, 6.66);
   problem.phase           = 0;
   const PeriodicGuess start{VectorXd::Zero(1), VectorXd::Ones(1), 6.66};
   const Recurrence    motion = recurrence_of(problem, start, {}, 64);

@@ -1,7 +1,7 @@
 #include "coupling/periodic/minimising.h"
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 

@@ -1,6 +1,6 @@
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting.h"
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/small_system.h"
 
 #include <gtest/gtest.h>

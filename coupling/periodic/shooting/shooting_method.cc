@@ -1,7 +1,8 @@
-#include "coupling/periodic/shooting_method.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 
+#include "coupling/periodic/shooting/multiple_shooting.h"
 #include "coupling/periodic/settling.h"
-#include "coupling/periodic/shooting.h"
+#include "coupling/periodic/shooting/shooting.h"
 
 #include <sstream>
 
@@ -157,6 +158,41 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, c
 namespace
 {
 
+PeriodicGuess led_in(const PeriodicProblem &problem, PeriodicGuess guess, const PeriodicOptions &options)
+{
+  PeriodFlow flow(problem, options.integration);
+  lead_in(flow, problem, options, guess);
+  return guess;
+}
+
+/// Over the period in one passage; `near` becomes the state behind the lead-in.
+PeriodicSolution shoot_once(const PeriodicProblem &problem, PeriodicGuess &near, const PeriodicOptions &options)
+{
+  if (SlowMotions motions(problem); mostly_fast(motions, problem))
+    return shoot_slow(problem, motions, near, options);
+  ShootingEquations equations(problem, options.integration);
+  lead_in(equations.flow(), problem, options, near);
+  return shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options);
+}
+
+/// In segments, where `failure` is why one passage does not do.
+PeriodicSolution shoot_again(const PeriodicProblem &problem, const PeriodicGuess &near, const PeriodicOptions &options,
+                             const std::string &failure)
+{
+  try
+  {
+    return shoot_in_segments(problem, near, options);
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const NoPeriodicMotion &again)
+  {
+    throw NoPeriodicMotion(failure + "; " + again.what());
+  }
+}
+
 class Shooting final : public PeriodicMethod
 {
 public:
@@ -174,12 +210,25 @@ public:
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
   {
-    if (SlowMotions motions(problem); mostly_fast(motions, problem))
-      return {shoot_slow(problem, motions, guess, options)};
-    ShootingEquations equations(problem, options.integration);
-    PeriodicGuess     near = guess;
-    lead_in(equations.flow(), problem, options, near);
-    return {shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options)};
+    PeriodicGuess near = guess;
+    if (options.segments > 0)
+      return {shoot_in_segments(problem, led_in(problem, guess, options), options)};
+    try
+    {
+      return {shoot_once(problem, near, options)};
+    }
+    catch (const SearchInterrupted &)
+    {
+      throw;
+    }
+    catch (const NoPeriodicMotion &failure)
+    {
+      return {shoot_again(problem, near, options, failure.what())};
+    }
+    catch (const ConvergenceFailure &failure)
+    {
+      return {shoot_again(problem, near, options, failure.what())};
+    }
   }
 };
 

@@ -1,4 +1,4 @@
-#include "coupling/periodic/collocation.h"
+#include "coupling/periodic/collocation/collocation.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 
@@ -18,6 +18,15 @@ using Eigen::VectorXd;
 constexpr double watched[]         = {0., 0.2, 0.5, 0.8, 1.}; ///< of an interval, where defects are looked at
 constexpr double share_of_point    = 0.1;   ///< of an interval that the defect at one of them stands for
 constexpr double repeats_by_itself = 1e-10; ///< det(E - e^(Lambda T)) of a block
+constexpr double keeps             = 0.3;   ///< of itself, a block that repeats after a period that is still unknown
+constexpr double longest_change    = 0.5;   ///< of T in a Newton step
+
+/// Makes an equation with these coefficients of forces as large as one.
+double scale_of(const Eigen::RowVectorXd &forces)
+{
+  const double largest = forces.size() > 0 ? forces.cwiseAbs().maxCoeff() : 0.;
+  return largest > 0. ? 1. / largest : 1.;
+}
 
 /// E X by blocks, for all columns.
 void carry_columns(const StepTable &table, MatrixXd &X)
@@ -34,16 +43,30 @@ void carry_columns(const StepTable &table, MatrixXd &X)
 }
 } // namespace
 
-PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem)
-    : problem_(problem), modes_(modal_blocks(*problem.system)), measures_(modes_, *problem.system),
-      basis_(ForceBasis::gauss(stages)), n_u_(int(measures_.put.cols()))
+PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem, SharedModes *shared,
+                                         const std::vector<Index> *free)
+    : problem_(problem), modes_(modal_blocks(*problem.system, shared)), measures_(modes_, *problem.system),
+      basis_(ForceBasis::gauss(stages)), n_u_(int(measures_.put.cols())), period_(problem.period)
 {
   node_.resize(*problem.system);
-  whole_.fill(measures_, basis_, problem_.period);
-  for (Index b = 0; b < modes_.n_modal; ++b)
-    if (!(std::abs(closing_determinant(b)) > repeats_by_itself))
+  whole_.fill(measures_, basis_, period_);
+  if (free)
+    free_ = *free;
+  for (Index b = 0; b < modes_.n_modal && !free; ++b)
+    if (may_repeat_by_itself(b))
       for (const Index row : {b, measures_.n_p + b})
         free_.push_back(row);
+}
+
+/// Of a known period whether a block does; of an unknown one whether there is one near the guess after which it does.
+bool PeriodicCollocation::may_repeat_by_itself(Index b) const
+{
+  if (!problem_.period_is_unknown())
+    return !(std::abs(closing_determinant(b)) > repeats_by_itself);
+  const auto e = whole_.E.row(b);
+  return modes_.blocks[std::size_t(b)].kind == ModalBlock::oscillating
+             ? std::sqrt(std::abs(e[0] * e[3] - e[1] * e[2])) > keeps
+             : std::max(std::abs(e[0]), std::abs(e[3])) > keeps;
 }
 
 /// det(E - e^(Lambda T)) of a block.
@@ -56,8 +79,25 @@ void PeriodicCollocation::set_mesh(const std::vector<double> &mesh)
 {
   mesh_ = mesh;
   tables_.assign(mesh.size() - 1, {});
-  for (std::size_t i = 0; i + 1 < mesh.size(); ++i)
-    tables_[i].fill(measures_, basis_, (mesh[i + 1] - mesh[i]) * problem_.period);
+  scale_       = VectorXd::Zero(Index(free_.size()));
+  phase_scale_ = 0.;
+  condense();
+}
+
+void PeriodicCollocation::use_period(double period)
+{
+  if (period == period_)
+    return;
+  period_ = period;
+  whole_.fill(measures_, basis_, period_);
+  condense();
+}
+
+/// All affine functions of the forces, on the mesh and with the period as they are.
+void PeriodicCollocation::condense()
+{
+  for (std::size_t i = 0; i < tables_.size(); ++i)
+    tables_[i].fill(measures_, basis_, (mesh_[i + 1] - mesh_[i]) * period_);
   const Index N = n_intervals(), width = Index(stages) * n_u_, n = N * width, constant = n + Index(free_.size());
   MatrixXd    X = MatrixXd::Zero(2 * measures_.n_p, constant + 1);
   for (std::size_t j = 0; j < modes_.harmonics.size(); ++j) // the load's own states
@@ -78,6 +118,20 @@ void PeriodicCollocation::set_mesh(const std::vector<double> &mesh)
     for (const Index row : {b, measures_.n_p + b})
       start_.row(row) = X.row(row);
   read_measures();
+  if (problem_.period_is_unknown())
+    read_phase();
+}
+
+/// The equation of the phase, of the size of a force where it has forces.
+void PeriodicCollocation::read_phase()
+{
+  phase_of_x_ = reordered(modes_.Q, measures_.n_p).row(problem_.phase);
+  phase_      = phase_of_x_ * start_;
+  phase_.tail(1)[0] -= problem_.phase_value;
+  if (!(phase_scale_ > 0.))
+    phase_scale_ = scale_of(phase_.head(u_0_.size()));
+  phase_ *= phase_scale_;
+  phase_of_x_ *= phase_scale_;
 }
 
 /// G_u, G_v, u_0, v_0 along the motion from start_.
@@ -121,53 +175,93 @@ void PeriodicCollocation::close(MatrixXd &X)
   {
     X(b, constant) -= turn[2 * b];
     X(n_p + b, constant) -= turn[2 * b + 1];
-    const double             a = 1. - whole_.E(b, 0), c = -whole_.E(b, 1), d = -whole_.E(b, 2), e = 1. - whole_.E(b, 3);
-    const double             det = closing_determinant(b);
-    const Eigen::RowVectorXd x_1 = X.row(b), x_2 = X.row(n_p + b);
-    if (std::abs(det) > repeats_by_itself)
+    if (is_free(b, unknown))
     {
-      X.row(b)       = (e * x_1 - c * x_2) / det;
-      X.row(n_p + b) = (a * x_2 - d * x_1) / det;
+      closing_.row(unknown)     = -X.row(b);
+      closing_.row(unknown + 1) = -X.row(n_p + b);
+      closing_.block<2, 2>(unknown, n + unknown) << 1. - whole_.E(b, 0), -whole_.E(b, 1), -whole_.E(b, 2),
+          1. - whole_.E(b, 3);
+      for (const Index row : {unknown, unknown + 1})
+      {
+        if (!(scale_[row] > 0.))
+          scale_[row] = scale_of(closing_.row(row).head(n));
+        closing_.row(row) *= scale_[row];
+      }
+      X.row(b)       = Eigen::RowVectorXd::Unit(X.cols(), n + unknown);
+      X.row(n_p + b) = Eigen::RowVectorXd::Unit(X.cols(), n + unknown + 1);
+      unknown += 2;
       continue;
     }
-    closing_.row(unknown)     = -x_1;
-    closing_.row(unknown + 1) = -x_2;
-    closing_.block<2, 2>(unknown, n + unknown) << a, c, d, e;
-    for (const Index row : {unknown, unknown + 1})
-      if (const double largest = closing_.row(row).head(n).cwiseAbs().maxCoeff(); largest > 0.)
-        closing_.row(row) /= largest;
-    X.row(b)       = Eigen::RowVectorXd::Unit(X.cols(), n + unknown);
-    X.row(n_p + b) = Eigen::RowVectorXd::Unit(X.cols(), n + unknown + 1);
-    unknown += 2;
+    for (Index k = 0; k < X.cols(); ++k)
+    {
+      const Eigen::Vector2d x = closed(b, X(b, k), X(n_p + b, k));
+      X(b, k)                 = x[0];
+      X(n_p + b, k)           = x[1];
+    }
   }
 }
 
-/// r = p(t, u, u') - P and J = E - p_u G_u - p_v G_v; behind them what is left of closing the free states.
+/// (E - e^(Lambda T))^-1 (x_1, x_2) of a block.
+Eigen::Vector2d PeriodicCollocation::closed(Index b, double x_1, double x_2) const
+{
+  const double a = 1. - whole_.E(b, 0), c = -whole_.E(b, 1), d = -whole_.E(b, 2), e = 1. - whole_.E(b, 3);
+  return Eigen::Vector2d(e * x_1 - c * x_2, a * x_2 - d * x_1) / closing_determinant(b);
+}
+
+/// r = p(t, u, u') - P and J = E - p_u G_u - p_v G_v; behind them what is left of closing the free states and of the
+/// phase.
 void PeriodicCollocation::evaluate(const VectorXd &y, VectorXd &r, MatrixXd *J)
 {
-  const LocalForces &forces = problem_.system->forces();
-  const VectorXd     u = u_0_ + G_u_ * y, v = v_0_ + G_v_ * y;
-  MatrixXd           p_u = MatrixXd::Zero(n_u_, n_u_), p_v = p_u;
+  problem_.system->events().follow_history(false);
+  if (problem_.period_is_unknown())
+    use_period(y.tail(1)[0]);
+  const Index n = u_0_.size(), m = G_u_.cols(), n_free = closing_.rows();
   r.resize(y.size());
-  r.tail(closing_.rows()) = -(closing_.leftCols(y.size()) * y + closing_.col(y.size()));
+  r.segment(n, n_free) = -(closing_.leftCols(m) * y.head(m) + closing_.col(m));
+  if (problem_.period_is_unknown())
+    r.tail(1)[0] = -(phase_.head(m).dot(y.head(m)) + phase_[m]);
   if (J)
   {
-    *J                             = MatrixXd::Identity(y.size(), y.size());
-    J->bottomRows(closing_.rows()) = closing_.leftCols(y.size());
+    *J                                   = MatrixXd::Identity(y.size(), y.size());
+    J->middleRows(n, n_free).leftCols(m) = closing_.leftCols(m);
+    if (problem_.period_is_unknown())
+    {
+      J->row(m).head(m) = phase_.head(m);
+      J->col(m).setZero();
+    }
+  }
+  add_forces(y, r, J);
+}
+
+/// The rows of the forces.
+void PeriodicCollocation::add_forces(const VectorXd &y, VectorXd &r, MatrixXd *J)
+{
+  const LocalForces &forces = problem_.system->forces();
+  const Index        m      = G_u_.cols();
+  const VectorXd     u = u_0_ + G_u_ * y.head(m), v = v_0_ + G_v_ * y.head(m);
+  MatrixXd           p_u = MatrixXd::Zero(n_u_, n_u_), p_v = p_u;
+  PeriodSlope        slope;
+  if (J && problem_.period_is_unknown())
+  {
+    slope                                     = period_slope(y);
+    J->col(m).segment(u.size(), free_.size()) = slope.closing;
+    J->col(m).tail(1)                         = phase_of_x_ * slope.start;
   }
   for (Index i = 0; i < n_intervals(); ++i)
     for (int j = 0; j < stages; ++j)
     {
       const Index  at   = (i * stages + j) * n_u_;
       const double from = mesh_[std::size_t(i)], to = mesh_[std::size_t(i) + 1];
-      node_.t = problem_.begin + problem_.period * (from + basis_.points[std::size_t(j)] * (to - from));
+      node_.t = problem_.begin + period_ * (from + basis_.points[std::size_t(j)] * (to - from));
       node_.u = u.segment(at, n_u_);
       node_.v = v.segment(at, n_u_);
       if (J)
       {
         forces.derivatives(node_, node_.p, p_u, p_v);
-        J->middleRows(at, n_u_).noalias() -= p_u * G_u_.middleRows(at, n_u_);
-        J->middleRows(at, n_u_).noalias() -= p_v * G_v_.middleRows(at, n_u_);
+        J->middleRows(at, n_u_).leftCols(m).noalias() -= p_u * G_u_.middleRows(at, n_u_);
+        J->middleRows(at, n_u_).leftCols(m).noalias() -= p_v * G_v_.middleRows(at, n_u_);
+        if (slope.u.size() > 0)
+          J->col(m).segment(at, n_u_) -= p_u * slope.u.segment(at, n_u_) + p_v * slope.v.segment(at, n_u_);
       }
       else
         forces.force(node_, node_.p);
@@ -178,9 +272,8 @@ void PeriodicCollocation::evaluate(const VectorXd &y, VectorXd &r, MatrixXd *J)
 int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
 {
   constexpr double rounding = 1e-13;
-  problem_.system->events().follow_history(false);
-  VectorXd r, next_r;
-  MatrixXd J;
+  VectorXd         r, next_r;
+  MatrixXd         J;
   for (int k = 1; k <= options.iterations; ++k)
   {
     if (problem_.interrupted())
@@ -191,6 +284,8 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
       throw NoPeriodicMotion("collocation: nothing determines the motion: no element acts where the mesh looks; begin "
                              "nearer to the motion (--lead-in), or take shooting");
     double part = 1.;
+    if (problem_.period_is_unknown())
+      part = std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0]));
     for (; part > 1e-4; part *= 0.5)
     {
       evaluate(P + part * dP, next_r, nullptr);
@@ -199,7 +294,9 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     }
     P += part * dP;
     const Index n = u_0_.size(); // forces; free states follow them
-    if (part * dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.))
+    const bool  still =
+        !problem_.period_is_unknown() || part * std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0];
+    if (still && (part * dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)))
       return k;
   }
   std::ostringstream text;
@@ -210,8 +307,9 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
 
 VectorXd PeriodicCollocation::carried_over(const std::vector<double> &mesh, const VectorXd &P) const
 {
-  VectorXd other                  = VectorXd::Zero(n_unknowns());
-  other.tail(Index(free_.size())) = P.tail(Index(free_.size()));
+  VectorXd    other  = VectorXd::Zero(n_unknowns());
+  const Index behind = n_unknowns() - u_0_.size(); // free states and the period
+  other.tail(behind) = P.tail(behind);
   for (Index i = 0; i < n_intervals(); ++i)
     for (int j = 0; j < stages; ++j)
     {
@@ -226,21 +324,34 @@ VectorXd PeriodicCollocation::carried_over(const std::vector<double> &mesh, cons
   return other;
 }
 
-VectorXd PeriodicCollocation::unknowns(const VectorXd &forces, const VectorXd &q, const VectorXd &v) const
+VectorXd PeriodicCollocation::weights() const
+{
+  VectorXd weights = VectorXd::Ones(n_unknowns());
+  for (Index i = 0; i < n_intervals(); ++i)
+    weights.segment(i * stages * n_u_, stages * n_u_)
+        .setConstant(std::sqrt((mesh_[std::size_t(i) + 1] - mesh_[std::size_t(i)]) / stages));
+  return weights;
+}
+
+VectorXd PeriodicCollocation::unknowns(const VectorXd &forces, const VectorXd &q, const VectorXd &v,
+                                       double period) const
 {
   const VectorXd x = modes_.state(problem_.begin, q, v);
   VectorXd       y(n_unknowns());
   y.head(forces.size()) = forces;
   for (std::size_t k = 0; k < free_.size(); ++k)
     y[forces.size() + Index(k)] = free_[k] < measures_.n_p ? x[2 * free_[k]] : x[2 * (free_[k] - measures_.n_p) + 1];
+  if (problem_.period_is_unknown())
+    y.tail(1)[0] = period;
   return y;
 }
 
 VectorXd PeriodicCollocation::errors(const VectorXd &P)
 {
+  problem_.system->events().follow_history(false);
   const LocalForces &forces = problem_.system->forces();
   const Index        width  = Index(stages) * n_u_;
-  const VectorXd     u      = u_0_ + G_u_ * P;
+  const VectorXd     u      = u_0_ + G_u_ * P.head(G_u_.cols());
   VectorXd           low = VectorXd::Constant(n_u_, 1e300), high = -low, errors = VectorXd::Zero(n_intervals());
   for (Index at = 0; at < u.size(); at += n_u_)
   {
@@ -248,7 +359,7 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
     high = high.cwiseMax(u.segment(at, n_u_));
   }
   const VectorXd size = (high - low).cwiseMax(1e-300);
-  VectorXd       x    = start_.leftCols(P.size()) * P + start_.col(P.size()), x_at(x.size());
+  VectorXd       x    = begin_of(P), x_at(x.size());
   for (Index i = 0; i < n_intervals(); ++i)
   {
     const StepTable &table = tables_[std::size_t(i)];
@@ -265,20 +376,18 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
         x_at = x;
         carry_inside(measures_, basis_, part * table.h, table.h, P_i, x_at);
       }
-      node_.t = problem_.begin + problem_.period * mesh_[std::size_t(i)] + part * table.h;
+      node_.t = problem_.begin + period_ * mesh_[std::size_t(i)] + part * table.h;
       node_.u = measures_.read_u.transpose() * x_at;
       node_.v = measures_.read_v.transpose() * x_at;
       forces.force(node_, node_.p);
-      VectorXd defect = node_.p;
-      for (int j = 0; j < stages; ++j)
-        defect -= basis_.value(j, part) * P_i.segment(j * n_u_, n_u_);
+      const VectorXd defect = node_.p - force_at(P_i, part);
       // The defect over the whole interval moves the measures there, and by its impulse in the rest of the period.
       for (int j = 0; j < stages; ++j)
       {
         const auto     moves  = table.S_u.block(stages * n_u_, j * n_u_, n_u_, n_u_);
         const auto     pushes = table.S_v.block(stages * n_u_, j * n_u_, n_u_, n_u_);
-        const VectorXd way = (moves * defect).cwiseAbs() + problem_.period / (2. * M_PI) * (pushes * defect).cwiseAbs();
-        errors[i]          = std::max(errors[i], share_of_point * way.cwiseQuotient(size).maxCoeff());
+        const VectorXd way    = (moves * defect).cwiseAbs() + period_ / (2. * M_PI) * (pushes * defect).cwiseAbs();
+        errors[i]             = std::max(errors[i], share_of_point * way.cwiseQuotient(size).maxCoeff());
       }
     }
     x = x_at;
@@ -288,7 +397,7 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
 
 void PeriodicCollocation::state_at_begin(const VectorXd &P, VectorXd &q, VectorXd &v) const
 {
-  const VectorXd x = start_.leftCols(P.size()) * P + start_.col(P.size());
+  const VectorXd x = begin_of(P);
   q                = reordered(modes_.Q, measures_.n_p) * x;
   v                = reordered(modes_.V, measures_.n_p) * x;
 }

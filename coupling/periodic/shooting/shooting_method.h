@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/periodic/periodic_method.h"
-#include "coupling/periodic/slow_motions.h"
+#include "coupling/periodic/shooting/slow_motions.h"
 
 namespace gestell::coupling
 {

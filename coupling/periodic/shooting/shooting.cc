@@ -1,4 +1,4 @@
-#include "coupling/periodic/shooting.h"
+#include "coupling/periodic/shooting/shooting.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 
@@ -96,20 +96,26 @@ const PeriodPassage &ShootingEquations::evaluate(const VectorXd &z, bool jacobia
 
 PeriodicSolution ShootingEquations::solution(const std::string &method) const
 {
-  const PeriodPassage &passage = flow_.passage();
-  PeriodicSolution     solution;
-  solution.begin              = problem_.begin;
+  PeriodicSolution solution = solution_of(problem_, integration_, flow_.passage(), closing_);
+  solution.method           = method;
+  solution.work             = {0, passages_, work_};
+  return solution;
+}
+
+PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,
+                             const PeriodPassage &passage, double closing)
+{
+  PeriodicSolution solution;
+  solution.begin              = problem.begin;
   solution.period             = passage.period;
-  solution.ratio              = problem_.ratio;
+  solution.ratio              = problem.ratio;
   solution.q                  = passage.q_begin;
   solution.v                  = passage.v_begin;
-  solution.turn               = problem_.turn;
-  solution.residual           = closing_;
+  solution.turn               = problem.turn;
+  solution.residual           = closing;
   solution.events             = passage.events;
-  solution.method             = method;
-  solution.integration        = integration_;
-  solution.trivial_multiplier = problem_.period_is_unknown();
-  solution.work               = {0, passages_, work_};
+  solution.integration        = integration;
+  solution.trivial_multiplier = problem.period_is_unknown();
   if (passage.monodromy.size() > 0 && passage.monodromy.rows() == passage.monodromy.cols())
     solution.multipliers = multipliers_of(passage.monodromy);
   for (const std::string &event : passage.grazing)

@@ -1,4 +1,4 @@
-#include "coupling/periodic/slow_motions.h"
+#include "coupling/periodic/shooting/slow_motions.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/periodic/periodic_solution.h"

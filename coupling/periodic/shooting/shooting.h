@@ -54,6 +54,10 @@ private:
   IntegrationWork        work_;
 };
 
+/// The motion of a passage that closes to `closing`, with the multipliers of its monodromy matrix if it has one.
+PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,
+                             const PeriodPassage &passage, double closing);
+
 /**
  * Newton's method from z, each step halved until the motion closes better.
  *

@@ -1,0 +1,151 @@
+#include "coupling/periodic/collocation/mesh_search.h"
+
+#include "coupling/periodic/shooting/shooting.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int    first_intervals = 16, most_at_first = 128, most_unknowns = 3000, most_rounds = 24;
+constexpr double same_point = 1e-9; ///< of the period
+} // namespace
+
+VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::vector<double> &mesh)
+{
+  const ForceBasis    basis = ForceBasis::gauss(PeriodicCollocation::stages);
+  std::vector<double> points;
+  for (std::size_t i = 0; i + 1 < mesh.size(); ++i)
+    for (int j = 0; j < PeriodicCollocation::stages; ++j)
+      points.push_back(mesh[i] + basis.points[std::size_t(j)] * (mesh[i + 1] - mesh[i]));
+  std::vector<VectorXd> forces;
+  flow.look_at(points, [&](const OrbitPoint &point) { forces.push_back(point.local.p); });
+  flow.pass(start.q, start.v, start.period, false);
+  flow.look_at({}, {});
+  const Index n_u = forces.front().size();
+  VectorXd    P(Index(forces.size()) * n_u);
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    P.segment(Index(k) * n_u, n_u) = forces[k];
+  return P;
+}
+
+std::vector<double> mesh_of(std::vector<double> mesh)
+{
+  std::sort(mesh.begin(), mesh.end());
+  std::vector<double> kept = {0.};
+  for (const double s : mesh)
+    if (s > kept.back() + same_point && s < 1. - same_point)
+      kept.push_back(s);
+  kept.push_back(1.);
+  return kept;
+}
+
+std::vector<double> event_points(const std::vector<Event> &events, double begin, double period)
+{
+  std::vector<double> points;
+  for (const Event &event : events)
+    points.push_back((event.t - begin) / period);
+  return points;
+}
+
+MeshSearch::MeshSearch(const PeriodicProblem &problem, const PeriodicOptions &options)
+    : problem_(problem), options_(options), flow_(problem, options.integration),
+      collocation_(problem, options.integration.modes.get())
+{
+}
+
+void MeshSearch::set_mesh(std::vector<double> points)
+{
+  const std::vector<double> events = event_points(flow_.passage().events, problem_.begin, flow_.passage().period);
+  points.insert(points.end(), events.begin(), events.end());
+  collocation_.set_mesh(mesh_of(points));
+}
+
+void MeshSearch::begin(const PeriodicGuess &guess)
+{
+  PeriodicGuess start = guess;
+  if (!problem_.period_is_unknown() || !(start.period > 0.))
+    start.period = problem_.period;
+  flow_.pass(start.q, start.v, start.period, false);
+  for (int n = first_intervals;; n *= 2)
+    try
+    {
+      grid_.clear();
+      for (int i = 1; i < n; ++i)
+        grid_.push_back(double(i) / n);
+      set_mesh(grid_);
+      P_ = collocation_.unknowns(forces_along(flow_, start, collocation_.mesh()), start.q, start.v, start.period);
+      solve();
+      return;
+    }
+    catch (const SearchInterrupted &)
+    {
+      throw;
+    }
+    catch (const NoPeriodicMotion &)
+    {
+      if (n >= most_at_first)
+        throw;
+    }
+}
+
+void MeshSearch::solve()
+{
+  iterations_ += collocation_.solve(P_, options_);
+  collocation_.state_at_begin(P_, q_, v_);
+  errors_ = collocation_.errors(P_);
+}
+
+bool MeshSearch::refine()
+{
+  const std::vector<double> before = collocation_.mesh();
+  for (Index i = 0; i < errors_.size(); ++i)
+    if (errors_[i] > options_.tolerance)
+      grid_.push_back(0.5 * (before[std::size_t(i)] + before[std::size_t(i) + 1]));
+  flow_.pass(q_, v_, collocation_.period(), false);
+  const Index width = PeriodicCollocation::stages * problem_.system->forces().directions().cols();
+  if (Index(grid_.size() + flow_.passage().events.size()) * width > most_unknowns)
+    return false;
+  set_mesh(grid_);
+  P_ = collocation_.carried_over(before, P_);
+  return true;
+}
+
+void MeshSearch::run(const PeriodicGuess &guess)
+{
+  begin(guess);
+  for (int round = 1; round < most_rounds && error() > options_.tolerance && refine(); ++round)
+    solve();
+}
+
+PeriodicSolution MeshSearch::solution()
+{
+  PeriodicSolution solution =
+      collocated(problem_, options_.integration, flow_, {q_, v_, collocation_.period()}, flow_.has_tangents());
+  solution.work.iterations = iterations_;
+  std::ostringstream note;
+  note << errors_.size() << " intervals; their forces err by what would move the measures by " << error()
+       << " of their excursions";
+  solution.notes.push_back(note.str());
+  return solution;
+}
+
+PeriodicSolution collocated(const PeriodicProblem &problem, const MethodOptions &integration, PeriodFlow &flow,
+                            const PeriodicGuess &start, bool tangents)
+{
+  const PeriodPassage &passage = flow.pass(start.q, start.v, start.period, tangents);
+  const double         closing =
+      closing_error(passage.q - start.q - problem.turn, passage.v - start.v, 2. * M_PI / start.period, passage.fastest);
+  PeriodicSolution solution = solution_of(problem, integration, passage, closing);
+  solution.method           = "collocation";
+  return solution;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,318 @@
+#include "coupling/periodic/shooting/multiple_shooting.h"
+
+#include "coupling/periodic/shooting/shooting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int    most_halved  = 12;
+constexpr int    few_segments = 8, many_segments = 32;
+constexpr long   least_steps            = 1000; ///< that a segment may take
+constexpr double shorter                = 0.25; ///< share of a step's part by which the next must be shorter
+constexpr double longest_step_of_states = 2.;   ///< mean step of a state, of the fastest speed
+constexpr double left_by_steps          = 1e-7; ///< gaps that rounding and the steps' tolerance may leave at worst
+} // namespace
+
+CyclicSystem::CyclicSystem(const std::vector<MatrixXd> &A, const MatrixXd &b, Index phase)
+    : N_(A[0].rows()), extra_(b.cols() > 0 ? 1 : 0)
+{
+  const Index K = N_ + extra_;
+  MatrixXd    begin(N_, K), next = -MatrixXd::Identity(N_, N_);
+  begin.leftCols(N_) = A[0];
+  if (extra_)
+    begin.col(N_) = b.col(0);
+  for (std::size_t i = 1; i < A.size(); ++i)
+  {
+    MatrixXd here(2 * N_, N_), others = MatrixXd::Zero(2 * N_, K + N_);
+    here << next, A[i];
+    others.topLeftCorner(N_, K)      = begin;
+    others.bottomRightCorner(N_, N_) = -MatrixXd::Identity(N_, N_);
+    if (extra_)
+      others.col(N_).tail(N_) = b.col(Index(i));
+    Eigen::HouseholderQR<MatrixXd> rows(here);
+    others.applyOnTheLeft(rows.householderQ().adjoint());
+    eliminations_.push_back({std::move(rows), others.topLeftCorner(N_, K), others.topRightCorner(N_, N_)});
+    begin = others.bottomLeftCorner(N_, K);
+    next  = others.bottomRightCorner(N_, N_);
+  }
+  MatrixXd closing    = MatrixXd::Zero(K, K);
+  closing.topRows(N_) = begin;
+  closing.topLeftCorner(N_, N_) += next;
+  if (extra_)
+    closing(N_, phase) = 1.;
+  closing_.compute(closing);
+}
+
+VectorXd CyclicSystem::solve(const VectorXd &r) const
+{
+  const Index           M = Index(eliminations_.size()) + 1;
+  std::vector<VectorXd> right;
+  VectorXd              rest(N_ + extra_), pair(2 * N_), x(M * N_ + extra_);
+  rest << r.head(N_), r.tail(extra_);
+  for (Index i = 1; i < M; ++i)
+  {
+    pair << rest.head(N_), r.segment(i * N_, N_);
+    pair.applyOnTheLeft(eliminations_[std::size_t(i - 1)].rows.householderQ().adjoint());
+    right.push_back(pair.head(N_));
+    rest.head(N_) = pair.tail(N_);
+  }
+  const VectorXd begin = closing_.solve(rest);
+  x.head(N_)           = begin.head(N_);
+  x.tail(extra_)       = begin.tail(extra_);
+  VectorXd next        = begin.head(N_);
+  for (Index i = M - 1; i > 0; --i)
+  {
+    const auto &[rows, of_begin, of_next] = eliminations_[std::size_t(i - 1)];
+    next                                  = right[std::size_t(i - 1)] - of_begin * begin - of_next * next;
+    rows.matrixQR().topRows(N_).triangularView<Eigen::Upper>().solveInPlace(next);
+    x.segment(i * N_, N_) = next;
+  }
+  return x;
+}
+
+SegmentEquations::SegmentEquations(const PeriodicProblem &problem, const MethodOptions &integration, int segments)
+    : problem_(problem), integration_(integration), M_(segments), omega_(2. * M_PI / problem.period),
+      flow_(problem_, integration)
+{
+  problem_.most_steps = std::max(least_steps, problem.most_steps / std::max(segments, 1));
+  if (segments < 1)
+    throw std::invalid_argument("multiple shooting: " + std::to_string(segments) +
+                                " segments, but 1 at least are needed");
+}
+
+double SegmentEquations::period_of(const VectorXd &z) const
+{
+  const double period = problem_.period_is_unknown() ? z.tail(1)[0] : problem_.period;
+  if (!(period > 0.))
+    throw ConvergenceFailure("Newton's method asks for a period that is not positive");
+  return period;
+}
+
+const PeriodPassage &SegmentEquations::pass(const VectorXd &z, int i, double period, bool tangents)
+{
+  const Index n = problem_.turn.size(), at = 2 * n * i;
+  return flow_.pass_part(z.segment(at, n) / omega_, z.segment(at + n, n), problem_.begin + period * i / M_,
+                         problem_.begin + period * (i + 1) / M_, tangents);
+}
+
+VectorXd SegmentEquations::along_motion(const PeriodicGuess &guess)
+{
+  const Index n   = problem_.turn.size();
+  VectorXd    z   = at_one_place(guess);
+  z.segment(n, n) = guess.v;
+  for (int i = 0; i + 1 < M_; ++i)
+  {
+    const PeriodPassage &passage = pass(z, i, period_of(z), false);
+    z.segment(2 * n * (i + 1), 2 * n) << omega_ * passage.q, passage.v;
+    work_.add({0, 0, passage.work});
+  }
+  return z;
+}
+
+VectorXd SegmentEquations::at_one_place(const PeriodicGuess &guess) const
+{
+  const Index  n      = problem_.turn.size();
+  const double period = problem_.period_is_unknown() && guess.period > 0. ? guess.period : problem_.period;
+  VectorXd     z(2 * n * M_ + (problem_.period_is_unknown() ? 1 : 0));
+  for (int i = 0; i < M_; ++i)
+    z.segment(2 * n * i, 2 * n) << omega_ * (guess.q + problem_.turn * i / M_), problem_.turn / period;
+  if (problem_.period_is_unknown())
+    z.tail(1)[0] = period;
+  return z;
+}
+
+/// Segment i joins those before it.
+void SegmentEquations::take(const PeriodPassage &part, int i)
+{
+  const Index n = problem_.turn.size();
+  MatrixXd   &A = parts_[std::size_t(i)];
+  A             = part.monodromy;
+  A.topRightCorner(n, n) *= omega_;
+  A.bottomLeftCorner(n, n) /= omega_;
+  if (problem_.period_is_unknown())
+    by_time_.col(i) << omega_ * part.v / M_, flow_.end_acceleration() / M_;
+  whole_.monodromy = i == 0 ? part.monodromy : MatrixXd(part.monodromy * whole_.monodromy);
+  whole_.fastest   = std::max(whole_.fastest, part.fastest);
+  whole_.chattering += part.chattering / M_;
+  whole_.events.insert(whole_.events.end(), part.events.begin(), part.events.end());
+  whole_.grazing.insert(whole_.grazing.end(), part.grazing.begin(), part.grazing.end());
+  work_.add({0, 0, part.work});
+}
+
+void SegmentEquations::evaluate(const VectorXd &z)
+{
+  const Index n           = problem_.turn.size();
+  const bool  asks_period = problem_.period_is_unknown();
+  MatrixXd    dq(n, M_), dv(n, M_);
+  whole_         = {};
+  whole_.period  = period_of(z);
+  whole_.q_begin = z.head(n) / omega_;
+  whole_.v_begin = z.segment(n, n);
+  residual_.setZero(z.size());
+  parts_.resize(std::size_t(M_));
+  by_time_.resize(2 * n, asks_period ? M_ : 0);
+  ++work_.periods;
+  for (int i = 0; i < M_; ++i)
+  {
+    const PeriodPassage &part = pass(z, i, whole_.period, true);
+    take(part, i);
+    const Index next = 2 * n * ((i + 1) % M_);
+    dq.col(i)        = part.q - z.segment(next, n) / omega_;
+    dv.col(i)        = part.v - z.segment(next + n, n);
+    if (i + 1 == M_)
+      dq.col(i) -= problem_.turn;
+    else if (flow_.remembers_at_end())
+      throw NoPeriodicMotion("multiple shooting: elements remember more than the state at " +
+                             std::to_string(problem_.begin + whole_.period * (i + 1) / M_) +
+                             " s, where a segment ends; only one segment (shooting) keeps that");
+    residual_.segment(2 * n * i, 2 * n) << omega_ * dq.col(i), dv.col(i);
+  }
+  closing_ = closing_error(dq.reshaped(), dv.reshaped(), 2. * M_PI / whole_.period, whole_.fastest);
+  if (asks_period)
+    residual_.tail(1)[0] = z[problem_.phase] - omega_ * problem_.phase_value;
+}
+
+CyclicSystem SegmentEquations::matrix() const
+{
+  return CyclicSystem(parts_, by_time_, problem_.phase);
+}
+
+PeriodicSolution SegmentEquations::solution() const
+{
+  PeriodicSolution solution = solution_of(problem_, integration_, whole_, closing_);
+  solution.method           = "shooting";
+  solution.work             = work_;
+  return solution;
+}
+
+double SegmentEquations::closing_in_one(const VectorXd &z)
+{
+  const Index          n       = problem_.turn.size();
+  const double         period  = period_of(z);
+  const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, false);
+  work_.add({0, 1, passage.work});
+  return closing_error(passage.q - passage.q_begin - problem_.turn, passage.v - passage.v_begin, 2. * M_PI / period,
+                       passage.fastest);
+}
+
+namespace
+{
+
+/// Length of a Newton step, T as large as the states.
+double length(const SegmentEquations &equations, const PeriodicProblem &problem, VectorXd dz)
+{
+  if (problem.period_is_unknown())
+    dz.tail(1) *= equations.fastest() / problem.period;
+  return dz.norm();
+}
+
+/// z - part dz with the largest part of 1, 1/2, 1/4 ... behind which the same matrix gives a shorter step.
+bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, VectorXd &z, double tolerance)
+{
+  const CyclicSystem matrix = equations.matrix();
+  const VectorXd     dz     = matrix.solve(equations.residual());
+  const double       before = length(equations, problem, dz);
+  const double       most   = longest_step_of_states * std::sqrt(equations.segments()) * equations.fastest();
+  double             part   = dz.allFinite() ? std::min(1., most / before) : 0.;
+  for (int k = 0; k < most_halved && part > 0.; ++k, part *= 0.5)
+    try
+    {
+      const VectorXd next = z - part * dz;
+      equations.evaluate(next);
+      const double behind = length(equations, problem, matrix.solve(equations.residual()));
+      if (equations.closing() <= tolerance || behind <= (1. - shorter * part) * before)
+      {
+        z = next;
+        return true;
+      }
+    }
+    catch (const ConvergenceFailure &)
+    {
+    }
+  return false;
+}
+
+/// What a user should know of a motion that is closed in segments only.
+std::string note_of(SegmentEquations &equations, const VectorXd &z)
+{
+  std::ostringstream text;
+  text << "closed by multiple shooting in " << equations.segments() << " segments; ";
+  try
+  {
+    text << "followed from its start in one go it misses by " << equations.closing_in_one(z) << " of its speed";
+  }
+  catch (const ConvergenceFailure &)
+  {
+    text << "it cannot be followed from its start in one go";
+  }
+  return text.str();
+}
+
+} // namespace
+
+PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicProblem &problem, VectorXd z,
+                                   const PeriodicOptions &options)
+{
+  equations.evaluate(z);
+  int iteration = 0;
+  for (; iteration < options.iterations && equations.closing() > options.tolerance; ++iteration)
+    if (problem.interrupted())
+      throw SearchInterrupted();
+    else if (!step_nearer(equations, problem, z, options.tolerance))
+    {
+      equations.evaluate(z);
+      break;
+    }
+  if (!(equations.closing() <= std::max(options.tolerance, left_by_steps)))
+  {
+    std::ostringstream text;
+    text << equations.segments() << " segments still miss by " << equations.closing() << " after " << iteration
+         << " Newton steps";
+    throw NoPeriodicMotion(text.str());
+  }
+  PeriodicSolution solution = equations.solution();
+  solution.notes.push_back(note_of(equations, z));
+  solution.work            = equations.solution().work;
+  solution.work.iterations = iteration;
+  return solution;
+}
+
+PeriodicSolution shoot_in_segments(const PeriodicProblem &problem, const PeriodicGuess &guess,
+                                   const PeriodicOptions &options)
+{
+  const int few        = options.segments > 0 ? options.segments : few_segments,
+            many       = options.segments > 0 ? options.segments : many_segments;
+  std::string failures = "multiple shooting does not close the motion";
+  for (const auto &[segments, follows] : {std::pair(few, true), std::pair(many, true), std::pair(many, false)})
+    try
+    {
+      SegmentEquations equations(problem, options.integration, segments);
+      const VectorXd   z = follows ? equations.along_motion(guess) : equations.at_one_place(guess);
+      return shoot_in_segments(equations, problem, z, options);
+    }
+    catch (const SearchInterrupted &)
+    {
+      throw;
+    }
+    catch (const NoPeriodicMotion &failure)
+    {
+      failures += std::string("; ") + failure.what();
+    }
+    catch (const ConvergenceFailure &failure)
+    {
+      failures += std::string("; ") + failure.what();
+    }
+  throw NoPeriodicMotion(failures);
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,218 @@
+#include "coupling/periodic/shooting/multiple_shooting.h"
+
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
+#include "coupling/periodic/shooting/shooting.h"
+#include "coupling/periodic/shooting/shooting_method.h"
+#include "tests/support/periodic_cases.h"
+#include "tests/support/play_system.h"
+#include "tests/support/reference_table.h"
+#include "tests/support/refusal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const MatrixXd one = MatrixXd::Identity(1, 1);
+
+PeriodicOptions in_segments(int segments)
+{
+  PeriodicOptions options;
+  options.lead_in   = 0;
+  options.segments  = segments;
+  options.tolerance = 1e-12;
+  return options;
+}
+
+/// What yields keeps the largest way it has seen.
+class Yielding final : public SmallSystem
+{
+public:
+  Yielding() : SmallSystem(one, 0.2 * one, one)
+  {
+    set_law(VectorXd::Ones(1), law_of([](double) { return 0.; }, [](double) { return 0.; }));
+    loads().add_harmonic(0, 1.5, 1., 0.);
+  }
+  Vector save_history() const override { return Vector::Constant(1, reached); }
+  void   restore_history(const Vector &saved) override { reached = saved[0]; }
+  void   start(const LocalState &state) override { reached = state.u[0]; }
+  void   accept(const LocalState &state) override { reached = std::max(reached, state.u[0]); }
+
+private:
+  double reached = 0.;
+};
+
+/// x'' + 2 zeta x' - x + x^3 = F cos(Omega t), about the hilltop x = 0 of its two valleys.
+SmallSystem hilltop(double zeta, double F, double Omega)
+{
+  SmallSystem system(one, 2. * zeta * one, 0. * one);
+  system.set_law(VectorXd::Ones(1),
+                 law_of([](double u) { return u - u * u * u; }, [](double u) { return 1. - 3. * u * u; }));
+  system.loads().add_harmonic(0, Omega, F, 0.);
+  return system;
+}
+
+} // namespace
+
+/// Against the whole matrix at once, with and without the unknown period.
+TEST(CyclicSystem, IsSolvedAsTheWholeMatrixIs)
+{
+  for (const Index extra : {0, 1})
+    for (const int M : {1, 2, 5})
+    {
+      const Index           N = 4, size = N * M + extra;
+      std::vector<MatrixXd> A;
+      const MatrixXd        b     = MatrixXd::Random(N, extra * M);
+      MatrixXd              whole = MatrixXd::Zero(size, size);
+      for (int i = 0; i < M; ++i)
+      {
+        A.push_back(10. * MatrixXd::Random(N, N));
+        whole.block(i * N, i * N, N, N) += A.back();
+        whole.block(i * N, (i + 1) % M * N, N, N) -= MatrixXd::Identity(N, N);
+        if (extra)
+          whole.col(N * M).segment(i * N, N) = b.col(i);
+      }
+      if (extra)
+        whole(N * M, 2) = 1.;
+      const VectorXd r = VectorXd::Random(size), x = CyclicSystem(A, b, 2).solve(r);
+      EXPECT_LT((whole * x - r).norm(), 1e-11 * whole.norm() * x.norm()) << M << " blocks";
+    }
+}
+
+/// Where the product of the blocks is 1e40 it has forgotten the way that shrinks, the cyclic system has not.
+TEST(CyclicSystem, KeepsTheDigitsThatTheProductOfItsBlocksLoses)
+{
+  constexpr int         M = 20;
+  std::vector<MatrixXd> A;
+  VectorXd              x(2 * M), r(2 * M);
+  for (int i = 0; i < M; ++i)
+  {
+    const Eigen::Rotation2Dd turn(0.3 * i);
+    A.push_back(turn.toRotationMatrix() * Eigen::Vector2d(100., 0.01).asDiagonal());
+    x.segment(2 * i, 2) << std::cos(i), std::sin(2. * i);
+  }
+  for (int i = 0; i < M; ++i)
+    r.segment(2 * i, 2) = A[std::size_t(i)] * x.segment(2 * i, 2) - x.segment(2 * ((i + 1) % M), 2);
+  EXPECT_LT((CyclicSystem(A, MatrixXd(2, 0), -1).solve(r) - x).norm(), 1e-12 * x.norm());
+}
+
+/// Every motion of the table, unstable ones too, is the same in one segment, five or sixteen.
+TEST(MultipleShooting, MeetsTheTableOfDuffingsOscillator)
+{
+  int rows = 0;
+  for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
+  {
+    const DuffingCase    &given   = duffing_cases.at(row["case"]);
+    CubicSystem           system  = duffing_system(given);
+    const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / given.Omega);
+    const VectorXd        q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
+    const std::complex<double> mu(row.number("mu1_re"), row.number("mu1_im"));
+    for (const int segments : {1, 5, 16})
+    {
+      const auto found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, in_segments(segments)).at(0);
+      EXPECT_NEAR(found.q[0], q[0], 1e-10) << row["case"] << row["solution"];
+      EXPECT_NEAR(found.v[0], v[0], 1e-10) << row["case"] << row["solution"];
+      EXPECT_LT((found.multipliers.array() - mu).abs().minCoeff(), 1e-8) << row["case"] << row["solution"];
+      EXPECT_EQ(found.stable(), row["stability"] == "stable");
+    }
+    ++rows;
+  }
+  EXPECT_GT(rows, 8);
+}
+
+/// Segments end within branches of the play and within the play; the events between them are those of the table.
+TEST(MultipleShooting, MeetsTheTableOfPlayThroughItsEvents)
+{
+  int rows = 0;
+  for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
+  {
+    const ClearanceCase &given = clearance_cases.at(row["case"]);
+    const int            ratio = int(row.number("period_in_forcing_periods"));
+    PlaySystem           system(clearance_system(given));
+    PeriodicProblem      problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
+    problem.ratio                = ratio;
+    const VectorXd q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
+    const auto     found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, in_segments(7)).at(0);
+    EXPECT_NEAR(found.q[0], q[0], 1e-10) << row["case"] << row["solution"];
+    EXPECT_NEAR(found.v[0], v[0], 1e-10) << row["case"] << row["solution"];
+    const std::complex<double> mu(row.number("mu1_re"), row.number("mu1_im"));
+    EXPECT_LT((found.multipliers.array() - mu).abs().minCoeff(), 1e-8) << row["case"] << row["solution"];
+    EXPECT_EQ(double(found.events.size()), row.number("crossings"));
+    ++rows;
+  }
+  EXPECT_EQ(rows, 6);
+}
+
+/// What is balanced on a hilltop parts by 10^7 and 10^17 in a period.  From a start off by some percent one
+/// passage leaves the hill; segments stay, and find the motion that harmonic balance finds, which follows nothing.
+TEST(MultipleShooting, ClosesAMotionTooUnstableToBeFollowedForAPeriod)
+{
+  constexpr double zeta = 0.05, F = 0.1;
+  for (const auto &[Omega, parts] : {std::pair(0.36, 1e7), std::pair(0.15, 1e17)})
+  {
+    SmallSystem           system  = hilltop(zeta, F, Omega);
+    const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / Omega);
+    const PeriodicGuess   guess   = {VectorXd::Constant(1, -1.05 * F / (1. + Omega * Omega)), VectorXd::Zero(1), 0.};
+    PeriodicOptions       options;
+    options.lead_in = 0;
+    ShootingEquations once(problem, options.integration);
+    EXPECT_THROW(shoot(once, problem, once.unknowns(guess.q, guess.v, problem.period), options), NoPeriodicMotion);
+
+    const auto found    = shooting_method().solve(problem, guess, options).at(0);
+    const auto balanced = harmonic_balance_method().solve(problem, guess, options).at(0);
+    EXPECT_LT(found.residual, 1e-10);
+    EXPECT_NEAR(found.q[0], balanced.q[0], 1e-9);
+    EXPECT_NEAR(found.v[0], balanced.v[0], 1e-9);
+    EXPECT_FALSE(found.stable());
+    EXPECT_GT(found.largest_multiplier(), parts);
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("closed by multiple shooting in")));
+
+    options.segments      = 48;
+    const auto in_smaller = shooting_method().solve(problem, guess, options).at(0);
+    EXPECT_NEAR(in_smaller.largest_multiplier() / found.largest_multiplier(), 1., 1e-9);
+  }
+}
+
+/// x'' + x = (1 - x^2) x':  period of the limit cycle to all digits (Andersen and Geer 1982), the motion of one
+/// segment.
+TEST(MultipleShooting, MeetsTheLimitCycleOfVanDerPol)
+{
+  SmallSystem     system  = van_der_pol(1.);
+  PeriodicProblem problem = problem_of_period(system, 6.5);
+  problem.phase           = 0;
+  const PeriodicGuess guess{VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5};
+  const auto          one_segment = shooting_method().solve(problem, guess, in_segments(0)).at(0);
+  const auto          many        = shooting_method().solve(problem, guess, in_segments(9)).at(0);
+  EXPECT_NEAR(many.period, 6.66328685932313, 1e-10);
+  EXPECT_NEAR(many.period, one_segment.period, 1e-10);
+  EXPECT_NEAR(many.q[0], 0., 1e-12);
+  EXPECT_NEAR(many.v[0], one_segment.v[0], 1e-10);
+  ASSERT_EQ(many.multipliers.size(), 2);
+  EXPECT_LT((many.multipliers - one_segment.multipliers).norm(), 1e-8);
+  EXPECT_TRUE(many.stable());
+}
+
+TEST(MultipleShooting, RefusesElementsThatRememberMoreThanTheirBranch)
+{
+  Yielding              system;
+  const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 1.5);
+  try
+  {
+    shooting_method().solve(problem, {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, in_segments(8));
+    FAIL() << "closes";
+  }
+  catch (const NoPeriodicMotion &reason)
+  {
+    EXPECT_THAT(reason.what(), testing::HasSubstr("elements remember more than the state"));
+  }
+}
+
+} // namespace gestell::tests
