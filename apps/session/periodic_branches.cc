@@ -95,7 +95,7 @@ std::string end_of(const coupling::Branch &branch, const SceneFamily &family, do
   const double last = branch.points.back().parameter;
   for (const double beyond : {last + step, last - step})
     if (const std::string why = family.standstill(last, beyond); !why.empty())
-      return why;
+      return why + " (" + branch.ended + ")";
   return branch.ended;
 }
 

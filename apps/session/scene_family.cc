@@ -56,7 +56,7 @@ double lowest_frequency(const Scene &scene)
   return lowest;
 }
 
-/// What the tables of a scene hold from which no motion differs.
+/// Tables of a scene on which no motion depends, and what they hold.
 const std::map<std::string, std::string> &without_effect()
 {
   static const std::map<std::string, std::string> tables = {{"name", "the name of the scene"},

@@ -58,15 +58,15 @@ void BranchFollower::size_from_rest(Point &point)
 {
   const Index    m   = point.z.size();
   const VectorXd way = range_ * point.derivative.leftCols(m).partialPivLu().solve(point.derivative.col(m));
-  if (!(point.z.norm() < rests * way.norm()) || !way.allFinite())
+  if (!way.allFinite() || !(point.z.norm() <= rests * way.norm()))
     return;
-  size_         = way.norm();
+  size_         = way.norm() > 0. ? way.norm() : 1.; // what grows by higher powers alone shows its size on the way
   point.tangent = VectorXd::Zero(m + 1);
   point.tangent << -way / size_, 1.;
   point.tangent.normalize();
 }
 
-void BranchFollower::refit(Point &point)
+void BranchFollower::refit(Point &point, bool at_parameter)
 {
   for (int k = 0; k < most_refits; ++k)
   {
@@ -78,6 +78,8 @@ void BranchFollower::refit(Point &point)
     Point start, fitted;
     start.tangent.resize(Z.rows() + 1);
     start.tangent << Z.col(1), point.tangent.tail(1);
+    if (at_parameter)
+      start.tangent << VectorXd::Zero(Z.rows()), 1.;
     start.tangent.normalize();
     if (!correct(Z.col(0), point.lambda, start.tangent, start, fitted) || !finish(start.tangent, fitted))
       throw ConvergenceFailure("the motion does not close on the mesh that fits it at " + std::to_string(point.lambda));

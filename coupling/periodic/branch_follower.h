@@ -53,8 +53,9 @@ public:
   double arclength(const Point &a, const Point &b) const;
   /// Lengths of z count against the largest so far; tangents of points that are there follow.
   void grow_size(Point &point);
-  /// Gives a point the unknowns that fit its motion.  @throws ConvergenceFailure if it does not close in them
-  void refit(Point &point);
+  /// Gives a point the unknowns that fit its motion, at its value of the parameter or across its tangent.
+  /// @throws ConvergenceFailure if it does not close in them
+  void refit(Point &point, bool at_parameter = false);
   /// grow_size() from a motion at rest, which has no length: that which it has at the end of the range by its
   /// derivatives.
   void size_from_rest(Point &point);

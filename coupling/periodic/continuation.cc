@@ -124,6 +124,20 @@ public:
 private:
   bool next_point(const Point &here, Point &next);
   bool end_at(const Point &here, const Point &beyond);
+  /// With the unknowns that fit it; where it does not close in them, it is kept before that ends the branch.
+  void fit(Point &point)
+  {
+    const Point as_found = point;
+    try
+    {
+      follower_.refit(point);
+    }
+    catch (const std::exception &)
+    {
+      add(as_found);
+      throw;
+    }
+  }
   bool add(const Point &point)
   {
     branch_.points.push_back({point.lambda, point.solution});
@@ -199,6 +213,7 @@ bool Tracker::end_at(const Point &here, const Point &beyond)
     return false;
   }
   note_special(here, last);
+  follower_.refit(last, true);
   add(last);
   if (back)
     branch_.ended = "it came back to the first value of the parameter";
@@ -227,7 +242,7 @@ Branch Tracker::follow(Point here)
         note_special(here, next);
       here = next;
       follower_.grow_size(here);
-      follower_.refit(here);
+      fit(here);
       goes_on = add(here);
       if (next.iterations <= few_iterations)
         ds_ = std::min(1.3 * ds_, widest * wanted_);

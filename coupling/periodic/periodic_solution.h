@@ -42,6 +42,13 @@ struct PeriodicWork
 };
 
 /// A periodic motion (5.5.4/1).
+/// A state on the way of a motion.
+struct OrbitState
+{
+  double          t; ///< [s]
+  Eigen::VectorXd q, v;
+};
+
 struct PeriodicSolution
 {
   double                       begin = 0., period = 0.; ///< t_0, T [s]
@@ -52,6 +59,7 @@ struct PeriodicSolution
   bool                         trivial_multiplier = false; ///< one of them is 1, of the shift in time
   std::optional<FourierSeries> series;                     ///< where the method has one: it is the motion then
   std::vector<Event>           events;                     ///< of one period
+  std::vector<OrbitState>      states; ///< ascending from t_0, between which it is followed; empty: in one go
   double                       share = std::numeric_limits<double>::quiet_NaN(); ///< of the starts that led there
   std::string                  method;                                           ///< that found it
   MethodOptions                integration{};                                    ///< that traces it

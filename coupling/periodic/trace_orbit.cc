@@ -2,6 +2,7 @@
 
 #include "coupling/periodic/period_flow.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -36,6 +37,29 @@ void trace_series(const PeriodicProblem &problem, const PeriodicSolution &soluti
   }
 }
 
+/// From state to state.
+void trace_parts(PeriodFlow &flow, const PeriodicSolution &solution, int samples,
+                 const std::function<void(const OrbitPoint &)> &look)
+{
+  int k = 0;
+  for (std::size_t i = 0; i < solution.states.size(); ++i)
+  {
+    const OrbitState   &from = solution.states[i];
+    const bool          last = i + 1 == solution.states.size();
+    const double        end  = last ? solution.begin + solution.period : solution.states[i + 1].t;
+    std::vector<double> shares;
+    for (; k <= samples; ++k)
+    {
+      const double t = solution.begin + solution.period * k / samples;
+      if (!last && t >= end)
+        break;
+      shares.push_back(k == samples ? 1. : std::clamp((t - from.t) / (end - from.t), 0., 1.));
+    }
+    flow.look_at(shares, look);
+    flow.pass_part(from.q, from.v, from.t, end, false);
+  }
+}
+
 } // namespace
 
 void trace(const PeriodicProblem &problem, const PeriodicSolution &solution, int samples,
@@ -47,6 +71,11 @@ void trace(const PeriodicProblem &problem, const PeriodicSolution &solution, int
     return;
   }
   PeriodFlow flow(problem, solution.integration);
+  if (!solution.states.empty())
+  {
+    trace_parts(flow, solution, samples, look);
+    return;
+  }
   flow.look_on(samples, look);
   flow.pass(solution.q, solution.v, solution.period, false);
 }

@@ -44,9 +44,10 @@ void carry_columns(const StepTable &table, MatrixXd &X)
 } // namespace
 
 PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem, SharedModes *shared,
-                                         const std::vector<Index> *free)
+                                         const std::vector<Index> *free, bool period_changes)
     : problem_(problem), modes_(modal_blocks(*problem.system, shared)), measures_(modes_, *problem.system),
-      basis_(ForceBasis::gauss(stages)), n_u_(int(measures_.put.cols())), period_(problem.period)
+      basis_(ForceBasis::gauss(stages)), n_u_(int(measures_.put.cols())), period_(problem.period),
+      period_changes_(period_changes || problem.period_is_unknown())
 {
   node_.resize(*problem.system);
   whole_.fill(measures_, basis_, period_);
@@ -58,10 +59,10 @@ PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem, SharedM
         free_.push_back(row);
 }
 
-/// Of a known period whether a block does; of an unknown one whether there is one near the guess after which it does.
+/// Whether a block repeats after the period; where that changes, whether it would after one near it.
 bool PeriodicCollocation::may_repeat_by_itself(Index b) const
 {
-  if (!problem_.period_is_unknown())
+  if (!period_changes_)
     return !(std::abs(closing_determinant(b)) > repeats_by_itself);
   const auto e = whole_.E.row(b);
   return modes_.blocks[std::size_t(b)].kind == ModalBlock::oscillating
@@ -271,9 +272,8 @@ void PeriodicCollocation::add_forces(const VectorXd &y, VectorXd &r, MatrixXd *J
 
 int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
 {
-  constexpr double rounding = 1e-13;
-  VectorXd         r, next_r;
-  MatrixXd         J;
+  VectorXd r, next_r;
+  MatrixXd J;
   for (int k = 1; k <= options.iterations; ++k)
   {
     if (problem_.interrupted())
@@ -283,25 +283,26 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     if (!dP.allFinite())
       throw NoPeriodicMotion("collocation: nothing determines the motion: no element acts where the mesh looks; begin "
                              "nearer to the motion (--lead-in), or take shooting");
+    const Index n    = u_0_.size(); // forces; free states and the period follow them
+    const bool  done = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
+                      (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
     double part = 1.;
     if (problem_.period_is_unknown())
       part = std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0]));
-    for (; part > 1e-4; part *= 0.5)
+    bool nearer = done;
+    for (; !nearer && part > 1e-4; part *= nearer ? 1. : 0.5)
     {
       evaluate(P + part * dP, next_r, nullptr);
-      if (next_r.norm() < (1. - 0.1 * part) * r.norm() || dP.norm() <= rounding * P.norm())
-        break;
+      nearer = next_r.norm() < (1. - 0.1 * part) * r.norm();
     }
+    if (!nearer)
+      break;
     P += part * dP;
-    const Index n = u_0_.size(); // forces; free states follow them
-    const bool  still =
-        !problem_.period_is_unknown() || part * std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0];
-    if (still && (part * dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)))
+    if (done)
       return k;
   }
   std::ostringstream text;
-  text << "collocation: Newton's method does not converge in " << options.iterations
-       << " iterations; begin nearer to the motion (--lead-in), or take shooting";
+  text << "collocation: Newton's method does not converge; begin nearer to the motion (--lead-in), or take shooting";
   throw NoPeriodicMotion(text.str());
 }
 

@@ -41,8 +41,9 @@ public:
 
   /// @throws std::invalid_argument as modal_blocks()
   /// @param free  blocks whose states are unknowns, as of another collocation; null: those that repeat by themselves
+  /// @param period_changes  along a branch: those that would after a period near it, too
   explicit PeriodicCollocation(const PeriodicProblem &problem, SharedModes *shared = nullptr,
-                               const std::vector<Eigen::Index> *free = nullptr);
+                               const std::vector<Eigen::Index> *free = nullptr, bool period_changes = false);
 
   /// Mesh points as shares of the period, 0 and 1 the ends, ascending.
   void                       set_mesh(const std::vector<double> &mesh);
@@ -113,6 +114,7 @@ private:
   ForceBasis                basis_;
   int                       n_u_;
   double                    period_;
+  bool                      period_changes_;
   std::vector<double>       mesh_;
   std::vector<StepTable>    tables_;
   StepTable                 whole_;   ///< of the period

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -20,6 +21,7 @@ constexpr double      another         = 1e-6;           ///< distance of two mes
 constexpr double      located         = 1e-11;          ///< of an event, in periods
 constexpr std::size_t least_intervals = 16, most_of_branch = 1600;
 constexpr int         rounds_of_first_mesh = 12;
+constexpr double      longest_move         = 0.2;  ///< of an event, in periods
 constexpr double      small_share          = 1e-3; ///< of the place of an event in the length of z
 
 bool equal(const std::vector<double> &a, const std::vector<double> &b, double moved)
@@ -46,8 +48,8 @@ std::vector<double> stretched(std::vector<double> mesh, std::vector<double> from
   return mesh;
 }
 
-/// z = (y of PeriodicCollocation, weighted; places of the events in the mesh): these are no unknowns of Newton's
-/// method, which has zeros in their rows; follow_motion() moves them.
+/// z = (y of PeriodicCollocation, weighted; places of the events in the mesh).  Newton's method leaves the places as
+/// they are: F is zero in their rows.  follow_motion() moves them.
 class CollocationBranch final : public BranchEquations
 {
 public:
@@ -88,10 +90,11 @@ public:
     }
     else
       collocation_->residual(y_, r);
-    residual_         = VectorXd::Zero(m);
-    residual_.head(n) = weights_.cwiseProduct(r);
-    closing_          = residual_.norm() / z.head(n).norm();
-    tangents_         = jacobian;
+    residual_           = VectorXd::Zero(m);
+    residual_.head(n)   = weights_.cwiseProduct(r);
+    const double r_norm = residual_.norm();
+    closing_            = r_norm > 0. ? r_norm / z.head(n).norm() : 0.; // rest has no size
+    tangents_           = jacobian;
   }
 
   const VectorXd  &residual() const override { return residual_; }
@@ -100,7 +103,15 @@ public:
   PeriodicSolution solution() override
   {
     const PeriodicGuess start = start_of_motion();
-    return collocated(member_.problem, options_.integration, *flow_, start, tangents_ && flow_->has_tangents());
+    PeriodicSolution    solution =
+        collocated(member_.problem, options_.integration, *flow_, start, tangents_ && flow_->has_tangents());
+    if (const double error = tangents_ ? collocation_->errors(y_).maxCoeff() : 0.; error > 10. * mesh_tolerance)
+    {
+      std::ostringstream note;
+      note << "the mesh of collocation errs by what would move the measures by " << error << " of their excursions";
+      solution.notes.push_back(note.str());
+    }
+    return solution;
   }
 
   bool follow_motion(VectorXd &z) override;
@@ -163,7 +174,7 @@ void CollocationBranch::form(double lambda, double period)
     member_.problem.period = period;
   flow_        = std::make_unique<PeriodFlow>(member_.problem, options_.integration);
   collocation_ = std::make_unique<PeriodicCollocation>(member_.problem, options_.integration.modes.get(),
-                                                       mesh_.empty() ? nullptr : &free_);
+                                                       mesh_.empty() ? nullptr : &free_, true);
   free_        = collocation_->free();
   if (!mesh_.empty())
     collocation_->set_mesh(mesh_);
@@ -181,8 +192,9 @@ void CollocationBranch::use_mesh(const std::vector<double> &mesh, const std::vec
 /// One that fits a motion, by its forces.
 void CollocationBranch::begin_mesh(const PeriodicSolution &solution)
 {
-  const std::vector<double> events = event_points(solution.events, solution.begin, solution.period);
-  std::vector<double>       points = events;
+  const PeriodPassage      &passage = flow_->pass(solution.q, solution.v, solution.period, false);
+  const std::vector<double> events  = event_points(passage.events, member_.problem.begin, solution.period);
+  std::vector<double>       points  = events;
   for (std::size_t i = 1; i < least_intervals; ++i)
     points.push_back(double(i) / double(least_intervals));
   use_mesh(mesh_of(points), events);
@@ -224,6 +236,11 @@ void CollocationBranch::move_events(const std::vector<double> &events)
 {
   if (events == events_)
     return;
+  if (events.size() != events_.size())
+    throw ConvergenceFailure("the number of events changes");
+  for (std::size_t k = 0; k < events.size(); ++k)
+    if (std::abs(events[k] - events_[k]) > longest_move)
+      throw ConvergenceFailure("an event of the motion passes the begin of the period");
   if (!std::is_sorted(events.begin(), events.end()) || !(events.front() > 0.) || !(events.back() < 1.))
     throw ConvergenceFailure("events of the motion change their order");
   mesh_   = stretched(mesh_, events_, events);
@@ -253,6 +270,8 @@ bool CollocationBranch::refit(const PeriodicSolution &solution, MatrixXd &Z)
     return false;
   const MatrixXd Y = weights_.cwiseInverse().asDiagonal() * Z.topRows(weights_.size());
   use_mesh(next, events);
+  if (!(event_scale_ > 0.))
+    event_scale_ = small_share * Z.col(0).norm();
   const Index n = weights_.size();
   Z             = MatrixXd::Zero(n + Index(events.size()), Y.cols());
   for (Index k = 0; k < Y.cols(); ++k)

@@ -16,6 +16,7 @@ using Eigen::VectorXd;
 
 constexpr int    first_intervals = 16, most_at_first = 128, most_unknowns = 3000, most_rounds = 24;
 constexpr double same_point = 1e-9; ///< of the period
+constexpr double far_off    = 1e-3; ///< error of a mesh that is no answer
 } // namespace
 
 VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::vector<double> &mesh)
@@ -123,6 +124,18 @@ void MeshSearch::run(const PeriodicGuess &guess)
   begin(guess);
   for (int round = 1; round < most_rounds && error() > options_.tolerance && refine(); ++round)
     solve();
+  PeriodicSolution found;
+  found.period = collocation_.period();
+  found.q      = q_;
+  found.v      = v_;
+  refuse_rest(problem_, guess, found);
+  if (!(error() <= far_off))
+  {
+    std::ostringstream text;
+    text << "collocation: on the finest mesh the forces still err by what would move the measures by " << error()
+         << " of their excursions; take shooting";
+    throw NoPeriodicMotion(text.str());
+  }
 }
 
 PeriodicSolution MeshSearch::solution()
@@ -132,7 +145,9 @@ PeriodicSolution MeshSearch::solution()
   solution.work.iterations = iterations_;
   std::ostringstream note;
   note << errors_.size() << " intervals; their forces err by what would move the measures by " << error()
-       << " of their excursions";
+       << " of their excursions" << (error() > options_.tolerance ? ", not the " : "");
+  if (error() > options_.tolerance)
+    note << options_.tolerance << " asked for: the mesh is as fine as it may become";
   solution.notes.push_back(note.str());
   return solution;
 }

@@ -24,7 +24,8 @@ SignalHarmonics signal_harmonics(const std::vector<double> &samples, double begi
   result.ramp = samples.back() - samples.front();
   std::vector<double> rest(samples.begin(), samples.end() - 1);
   for (int i = 0; i < n; ++i)
-    rest[std::size_t(i)] -= result.mean + result.ramp * i / n; // so that a large mean or ramp costs the harmonics no digits
+    rest[std::size_t(i)] -=
+        result.mean + result.ramp * i / n; // so that a large mean or ramp costs the harmonics no digits
   Eigen::VectorXcd c;
   transform.coefficients(rest.data(), c);
   for (int k = 1; k <= count; ++k)

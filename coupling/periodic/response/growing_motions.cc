@@ -22,7 +22,8 @@ constexpr Index  most_coordinates = 400;
 constexpr double rounding         = 1e-11; ///< eigenvalue of a matrix of unit diagonal that is no less than zero
 constexpr double symmetric        = 1e-12; ///< difference from the transpose, of the largest entry
 constexpr double dependent        = 1e-10; ///< rows of G that others contain
-constexpr double at_rest          = 1e-6;  ///< |s| / sigma; 1/theta of what has no mass
+constexpr double at_rest          = 1e-6;  ///< |s| / sigma
+constexpr double no_mass          = 3e-5;  ///< |theta|: infinite s, of which rounding leaves its cube root in chains of three
 constexpr double least_growth     = 1e-7;  ///< Re s / |s|
 constexpr double beside_nothing   = 1.234; ///< keeps sigma off the eigenvalues of plain examples
 
@@ -133,7 +134,7 @@ std::optional<std::vector<Complex>> growing_motions(const MatrixXd &M, const Mat
   if (!solver.converged())
     return std::nullopt;
   for (const Complex &theta : solver.eigenvalues())
-    if (std::abs(theta) > at_rest)
+    if (std::abs(theta) > no_mass)
       if (const Complex s = sigma * (1. + 1. / theta); grows(s, sigma))
         found.push_back(s);
   std::sort(found.begin(), found.end(), [](const Complex &a, const Complex &b) { return a.real() > b.real(); });

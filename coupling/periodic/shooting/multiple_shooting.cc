@@ -17,10 +17,13 @@ using Eigen::VectorXd;
 
 constexpr int    most_halved  = 12;
 constexpr int    few_segments = 8, many_segments = 32;
-constexpr long   least_steps            = 1000; ///< that a segment may take
-constexpr double shorter                = 0.25; ///< share of a step's part by which the next must be shorter
-constexpr double longest_step_of_states = 2.;   ///< mean step of a state, of the fastest speed
-constexpr double left_by_steps          = 1e-7; ///< gaps that rounding and the steps' tolerance may leave at worst
+constexpr long   least_steps            = 1000;   ///< that a segment may take
+constexpr double shorter                = 0.25;   ///< the next step must be, by this share of the part taken
+constexpr double longest_step_of_states = 2.;     ///< mean step of a state, of the fastest speed
+constexpr double left_by_steps          = 1e-7;   ///< gaps that rounding and the steps' tolerance may leave at worst
+constexpr long   runs_away              = 16;     ///< steps of a segment astray, of those at the start
+constexpr long   all_steps              = 4;      ///< of a period in one go, of those that the segments took
+constexpr double off_round              = 0.0377; ///< of a segment, see SegmentEquations::share()
 } // namespace
 
 CyclicSystem::CyclicSystem(const std::vector<MatrixXd> &A, const MatrixXd &b, Index phase)
@@ -98,11 +101,17 @@ double SegmentEquations::period_of(const VectorXd &z) const
   return period;
 }
 
+/// Off the round shares at which symmetric motions have their events: an event where two segments meet belongs to none.
+double SegmentEquations::share(int i) const
+{
+  return i == 0 ? 0. : i == M_ ? 1. : (i - off_round) / M_;
+}
+
 const PeriodPassage &SegmentEquations::pass(const VectorXd &z, int i, double period, bool tangents)
 {
   const Index n = problem_.turn.size(), at = 2 * n * i;
-  return flow_.pass_part(z.segment(at, n) / omega_, z.segment(at + n, n), problem_.begin + period * i / M_,
-                         problem_.begin + period * (i + 1) / M_, tangents);
+  return flow_.pass_part(z.segment(at, n) / omega_, z.segment(at + n, n), problem_.begin + period * share(i),
+                         problem_.begin + period * share(i + 1), tangents);
 }
 
 VectorXd SegmentEquations::along_motion(const PeriodicGuess &guess)
@@ -125,28 +134,28 @@ VectorXd SegmentEquations::at_one_place(const PeriodicGuess &guess) const
   const double period = problem_.period_is_unknown() && guess.period > 0. ? guess.period : problem_.period;
   VectorXd     z(2 * n * M_ + (problem_.period_is_unknown() ? 1 : 0));
   for (int i = 0; i < M_; ++i)
-    z.segment(2 * n * i, 2 * n) << omega_ * (guess.q + problem_.turn * i / M_), problem_.turn / period;
+    z.segment(2 * n * i, 2 * n) << omega_ * (guess.q + problem_.turn * share(i)), problem_.turn / period;
   if (problem_.period_is_unknown())
     z.tail(1)[0] = period;
   return z;
 }
 
 /// Segment i joins those before it.
-void SegmentEquations::take(const PeriodPassage &part, int i)
+void SegmentEquations::take(const PeriodPassage &passage, int i)
 {
   const Index n = problem_.turn.size();
   MatrixXd   &A = parts_[std::size_t(i)];
-  A             = part.monodromy;
+  A             = passage.monodromy;
   A.topRightCorner(n, n) *= omega_;
   A.bottomLeftCorner(n, n) /= omega_;
   if (problem_.period_is_unknown())
-    by_time_.col(i) << omega_ * part.v / M_, flow_.end_acceleration() / M_;
-  whole_.monodromy = i == 0 ? part.monodromy : MatrixXd(part.monodromy * whole_.monodromy);
-  whole_.fastest   = std::max(whole_.fastest, part.fastest);
-  whole_.chattering += part.chattering / M_;
-  whole_.events.insert(whole_.events.end(), part.events.begin(), part.events.end());
-  whole_.grazing.insert(whole_.grazing.end(), part.grazing.begin(), part.grazing.end());
-  work_.add({0, 0, part.work});
+    by_time_.col(i) << omega_ * passage.v * part(i), flow_.end_acceleration() * part(i);
+  whole_.monodromy = i == 0 ? passage.monodromy : MatrixXd(passage.monodromy * whole_.monodromy);
+  whole_.fastest   = std::max(whole_.fastest, passage.fastest);
+  whole_.chattering += passage.chattering * part(i);
+  whole_.events.insert(whole_.events.end(), passage.events.begin(), passage.events.end());
+  whole_.grazing.insert(whole_.grazing.end(), passage.grazing.begin(), passage.grazing.end());
+  work_.add({0, 0, passage.work});
 }
 
 void SegmentEquations::evaluate(const VectorXd &z)
@@ -158,28 +167,37 @@ void SegmentEquations::evaluate(const VectorXd &z)
   whole_.period  = period_of(z);
   whole_.q_begin = z.head(n) / omega_;
   whole_.v_begin = z.segment(n, n);
+  states_.clear();
+  steps_ = 0;
   residual_.setZero(z.size());
   parts_.resize(std::size_t(M_));
   by_time_.resize(2 * n, asks_period ? M_ : 0);
   ++work_.periods;
   for (int i = 0; i < M_; ++i)
   {
-    const PeriodPassage &part = pass(z, i, whole_.period, true);
-    take(part, i);
+    const PeriodPassage &passage = pass(z, i, whole_.period, true);
+    take(passage, i);
+    steps_ += passage.work.steps;
+    states_.push_back({problem_.begin + whole_.period * share(i), passage.q_begin, passage.v_begin});
     const Index next = 2 * n * ((i + 1) % M_);
-    dq.col(i)        = part.q - z.segment(next, n) / omega_;
-    dv.col(i)        = part.v - z.segment(next + n, n);
+    dq.col(i)        = passage.q - z.segment(next, n) / omega_;
+    dv.col(i)        = passage.v - z.segment(next + n, n);
     if (i + 1 == M_)
       dq.col(i) -= problem_.turn;
     else if (flow_.remembers_at_end())
-      throw NoPeriodicMotion("multiple shooting: elements remember more than the state at " +
-                             std::to_string(problem_.begin + whole_.period * (i + 1) / M_) +
-                             " s, where a segment ends; only one segment (shooting) keeps that");
+      throw ConvergenceFailure("elements remember more than the state at " +
+                               std::to_string(problem_.begin + whole_.period * share(i + 1)) +
+                               " s, where a segment ends; only one segment (shooting) keeps that");
     residual_.segment(2 * n * i, 2 * n) << omega_ * dq.col(i), dv.col(i);
   }
   closing_ = closing_error(dq.reshaped(), dv.reshaped(), 2. * M_PI / whole_.period, whole_.fastest);
   if (asks_period)
     residual_.tail(1)[0] = z[problem_.phase] - omega_ * problem_.phase_value;
+}
+
+void SegmentEquations::expect_no_more()
+{
+  problem_.most_steps = std::max(least_steps, runs_away * steps_ / M_);
 }
 
 CyclicSystem SegmentEquations::matrix() const
@@ -191,15 +209,19 @@ PeriodicSolution SegmentEquations::solution() const
 {
   PeriodicSolution solution = solution_of(problem_, integration_, whole_, closing_);
   solution.method           = "shooting";
+  solution.states           = states_;
   solution.work             = work_;
   return solution;
 }
 
 double SegmentEquations::closing_in_one(const VectorXd &z)
 {
-  const Index          n       = problem_.turn.size();
-  const double         period  = period_of(z);
+  const Index  n               = problem_.turn.size();
+  const double period          = period_of(z);
+  const long   most            = problem_.most_steps;
+  problem_.most_steps          = std::max(least_steps, all_steps * steps_);
   const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, false);
+  problem_.most_steps          = most;
   work_.add({0, 1, passage.work});
   return closing_error(passage.q - passage.q_begin - problem_.turn, passage.v - passage.v_begin, 2. * M_PI / period,
                        passage.fastest);
@@ -208,11 +230,11 @@ double SegmentEquations::closing_in_one(const VectorXd &z)
 namespace
 {
 
-/// Length of a Newton step, T as large as the states.
-double length(const SegmentEquations &equations, const PeriodicProblem &problem, VectorXd dz)
+/// Length of a Newton step, T as large as the states where the motion is as fast as `speed`.
+double length(const PeriodicProblem &problem, double speed, VectorXd dz)
 {
   if (problem.period_is_unknown())
-    dz.tail(1) *= equations.fastest() / problem.period;
+    dz.tail(1) *= speed / problem.period;
   return dz.norm();
 }
 
@@ -221,15 +243,16 @@ bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, Ve
 {
   const CyclicSystem matrix = equations.matrix();
   const VectorXd     dz     = matrix.solve(equations.residual());
-  const double       before = length(equations, problem, dz);
-  const double       most   = longest_step_of_states * std::sqrt(equations.segments()) * equations.fastest();
+  const double       speed  = equations.fastest();
+  const double       before = length(problem, speed, dz);
+  const double       most   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
   double             part   = dz.allFinite() ? std::min(1., most / before) : 0.;
   for (int k = 0; k < most_halved && part > 0.; ++k, part *= 0.5)
     try
     {
       const VectorXd next = z - part * dz;
       equations.evaluate(next);
-      const double behind = length(equations, problem, matrix.solve(equations.residual()));
+      const double behind = length(problem, speed, matrix.solve(equations.residual()));
       if (equations.closing() <= tolerance || behind <= (1. - shorter * part) * before)
       {
         z = next;
@@ -251,6 +274,10 @@ std::string note_of(SegmentEquations &equations, const VectorXd &z)
   {
     text << "followed from its start in one go it misses by " << equations.closing_in_one(z) << " of its speed";
   }
+  catch (const SearchInterrupted &)
+  {
+    text << "whether it can be followed in one go was not tried";
+  }
   catch (const ConvergenceFailure &)
   {
     text << "it cannot be followed from its start in one go";
@@ -264,6 +291,7 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
                                    const PeriodicOptions &options)
 {
   equations.evaluate(z);
+  equations.expect_no_more();
   int iteration = 0;
   for (; iteration < options.iterations && equations.closing() > options.tolerance; ++iteration)
     if (problem.interrupted())
@@ -281,6 +309,8 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
     throw NoPeriodicMotion(text.str());
   }
   PeriodicSolution solution = equations.solution();
+  if (const std::string note = closing_note(solution.residual, options.tolerance); !note.empty())
+    solution.notes.push_back(note);
   solution.notes.push_back(note_of(equations, z));
   solution.work            = equations.solution().work;
   solution.work.iterations = iteration;
@@ -296,9 +326,13 @@ PeriodicSolution shoot_in_segments(const PeriodicProblem &problem, const Periodi
   for (const auto &[segments, follows] : {std::pair(few, true), std::pair(many, true), std::pair(many, false)})
     try
     {
+      if (!follows && problem.period_is_unknown() && problem.turn.isZero(0.))
+        continue; // at one place it would be at rest
       SegmentEquations equations(problem, options.integration, segments);
-      const VectorXd   z = follows ? equations.along_motion(guess) : equations.at_one_place(guess);
-      return shoot_in_segments(equations, problem, z, options);
+      const VectorXd   z     = follows ? equations.along_motion(guess) : equations.at_one_place(guess);
+      PeriodicSolution found = shoot_in_segments(equations, problem, z, options);
+      refuse_rest(problem, guess, found);
+      return found;
     }
     catch (const SearchInterrupted &)
     {

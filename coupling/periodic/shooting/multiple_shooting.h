@@ -50,7 +50,7 @@ private:
 };
 
 /**
- * The equations of multiple shooting: unknowns z are the states x_i = (Omega q, q') at M instants t_i = t_0 + i T/M
+ * The equations of multiple shooting: unknowns z are the states x_i = (Omega q, q') at M instants t_i
  * [2n M], and T behind them [s] where it is unknown; what is to vanish are the gaps
  *
  *     r_i(z) = phi_i(x_i) - x_(i+1),   i = 0 ... M - 2,      r_(M-1)(z) = phi_(M-1)(x_(M-1)) - x_0 - turn,
@@ -73,8 +73,11 @@ public:
   Eigen::VectorXd at_one_place(const PeriodicGuess &guess) const;
 
   /// Integrates all segments with their tangents.
-  /// @throws ConvergenceFailure; NoPeriodicMotion if elements remember at an end of a segment more than its state
+  /// @throws ConvergenceFailure, also if elements remember at an end of a segment more than its state
   void evaluate(const Eigen::VectorXd &z);
+
+  /// Takes segments of many more steps than those of the last evaluation for motions astray.
+  void expect_no_more();
 
   int                    segments() const { return M_; }
   const Eigen::VectorXd &residual() const { return residual_; }     ///< r(z)
@@ -90,6 +93,8 @@ public:
 
 private:
   double               period_of(const Eigen::VectorXd &z) const;
+  double               share(int i) const; ///< of the period, at which segment i begins
+  double               part(int i) const { return share(i + 1) - share(i); }
   const PeriodPassage &pass(const Eigen::VectorXd &z, int i, double period, bool tangents);
   void                 take(const PeriodPassage &part, int i);
 
@@ -100,8 +105,10 @@ private:
   PeriodFlow                   flow_;
   PeriodPassage                whole_; ///< all segments together
   Eigen::VectorXd              residual_;
-  std::vector<Eigen::MatrixXd> parts_;   ///< d phi_i/dx_i [2n x 2n]
-  Eigen::MatrixXd              by_time_; ///< d phi_i/dT
+  std::vector<Eigen::MatrixXd> parts_;       ///< d phi_i/dx_i [2n x 2n]
+  Eigen::MatrixXd              by_time_;     ///< d phi_i/dT
+  std::vector<OrbitState>      states_;      ///< of the last evaluation
+  long                         steps_   = 0; ///< that it took
   double                       closing_ = 0.;
   PeriodicWork                 work_;
 };

@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr int    most_halvings = 12;
 constexpr double as_integrated = 1e-7;  ///< closing error that rounding and the steps' tolerance may leave at worst
+constexpr double at_rest       = 1e-6;  ///< speed of a motion, of its guess
 constexpr double free_to_move  = 1e-11; ///< singular value of Phi - E, of the largest
 } // namespace
 
@@ -128,6 +129,28 @@ PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions
   return solution;
 }
 
+void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicSolution &found)
+{
+  if (!problem.period_is_unknown() || !problem.turn.isZero(0.))
+    return;
+  const double omega = 2. * M_PI / found.period, moves = found.v.norm(),
+               meant = guess.v.norm() + omega * guess.q.norm();
+  if (!(moves > at_rest * meant))
+    throw NoPeriodicMotion(
+        "the search fell to rest, which repeats after any time; begin on a motion, nearer to the one "
+        "that is meant (--lead-in)");
+}
+
+std::string closing_note(double closing, double tolerance)
+{
+  if (!(closing > tolerance))
+    return "";
+  std::ostringstream text;
+  text << "the motion closes to " << closing << " of its speed, not to " << tolerance
+       << ": what the integration leaves; give it a smaller tolerance";
+  return text.str();
+}
+
 namespace
 {
 
@@ -150,7 +173,8 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
        << equations.closing() << " of its speed";
   if (equations.jacobian().size() > 0)
     if (const std::string free = free_motion(equations.jacobian(), problem.system->linear()); !free.empty())
-      text << "; nothing determines the motion of " << free << ": hold it by a spring, or give it a drive";
+      throw UndeterminedMotion(text.str() + "; nothing determines the motion of " + free +
+                               ": hold it by a spring, or give it a drive");
   text << "; begin nearer to it (more periods of lead-in), or try --method settling or minimise";
   throw NoPeriodicMotion(text.str());
 }
@@ -202,13 +226,8 @@ PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &prob
     give_up(equations, problem, iteration);
   PeriodicSolution solution = equations.solution("shooting");
   solution.work.iterations  = iteration;
-  if (equations.closing() > options.tolerance)
-  {
-    std::ostringstream text;
-    text << "the motion closes to " << equations.closing() << " of its speed, not to " << options.tolerance
-         << ": what the integration leaves; give it a smaller tolerance";
-    solution.notes.push_back(text.str());
-  }
+  if (const std::string note = closing_note(equations.closing(), options.tolerance); !note.empty())
+    solution.notes.push_back(note);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/periodic/period_flow.h"
+#include "coupling/periodic/periodic_method.h"
 
 namespace gestell::coupling
 {
@@ -53,6 +54,19 @@ private:
   long                   passages_ = 0;
   IntegrationWork        work_;
 };
+
+/// Rest is a motion of any period, which is not meant where the period is unknown and nothing turns.
+/// @throws NoPeriodicMotion if what was found moves less than 1e-6 of the guess
+void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicSolution &found);
+
+/// Nothing determines the motion of a coordinate: no start helps.
+struct UndeterminedMotion : NoPeriodicMotion
+{
+  using NoPeriodicMotion::NoPeriodicMotion;
+};
+
+/// What is told of a motion that closes to `closing`, which is above the tolerance; empty: it is not.
+std::string closing_note(double closing, double tolerance);
 
 /// The motion of a passage that closes to `closing`, with the multipliers of its monodromy matrix if it has one.
 PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,

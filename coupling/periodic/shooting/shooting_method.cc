@@ -1,7 +1,7 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 
-#include "coupling/periodic/shooting/multiple_shooting.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/multiple_shooting.h"
 #include "coupling/periodic/shooting/shooting.h"
 
 #include <sstream>
@@ -120,14 +120,13 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
 
 } // namespace
 
-PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, const PeriodicGuess &guess,
+PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, PeriodicGuess near,
                             const PeriodicOptions &options)
 {
   MethodOptions coarse = options.integration;
   coarse.tolerance     = std::max(coarse.tolerance, coarse_steps);
-  const double  omega  = 2. * M_PI / problem.period;
-  ChordNewton   roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
-  PeriodicGuess near = guess;
+  const double omega   = 2. * M_PI / problem.period;
+  ChordNewton  roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
   lead_in(roughly.equations().flow(), problem, options, near);
   VectorXd   z      = roughly.equations().unknowns(near.q, near.v, near.period);
   const bool closes = roughly.close(z, coarse_goal, options.iterations);
@@ -158,23 +157,6 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, c
 namespace
 {
 
-PeriodicGuess led_in(const PeriodicProblem &problem, PeriodicGuess guess, const PeriodicOptions &options)
-{
-  PeriodFlow flow(problem, options.integration);
-  lead_in(flow, problem, options, guess);
-  return guess;
-}
-
-/// Over the period in one passage; `near` becomes the state behind the lead-in.
-PeriodicSolution shoot_once(const PeriodicProblem &problem, PeriodicGuess &near, const PeriodicOptions &options)
-{
-  if (SlowMotions motions(problem); mostly_fast(motions, problem))
-    return shoot_slow(problem, motions, near, options);
-  ShootingEquations equations(problem, options.integration);
-  lead_in(equations.flow(), problem, options, near);
-  return shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options);
-}
-
 /// In segments, where `failure` is why one passage does not do.
 PeriodicSolution shoot_again(const PeriodicProblem &problem, const PeriodicGuess &near, const PeriodicOptions &options,
                              const std::string &failure)
@@ -190,6 +172,35 @@ PeriodicSolution shoot_again(const PeriodicProblem &problem, const PeriodicGuess
   catch (const NoPeriodicMotion &again)
   {
     throw NoPeriodicMotion(failure + "; " + again.what());
+  }
+}
+
+/// From a state behind the lead-in over the period in one passage, else in segments.
+PeriodicSolution shoot_any_way(const PeriodicProblem &problem, const PeriodicGuess &near,
+                               const PeriodicOptions &options)
+{
+  try
+  {
+    ShootingEquations equations(problem, options.integration);
+    PeriodicSolution  found = shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options);
+    refuse_rest(problem, near, found);
+    return found;
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const UndeterminedMotion &)
+  {
+    throw;
+  }
+  catch (const NoPeriodicMotion &failure)
+  {
+    return shoot_again(problem, near, options, failure.what());
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    return shoot_again(problem, near, options, failure.what());
   }
 }
 
@@ -210,25 +221,17 @@ public:
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
   {
+    // Of large frames segments would need the tangents of all motions.
+    if (SlowMotions motions(problem); options.segments == 0 && mostly_fast(motions, problem))
+      return {shoot_slow(problem, motions, guess, options)};
     PeriodicGuess near = guess;
+    {
+      PeriodFlow flow(problem, options.integration);
+      lead_in(flow, problem, options, near);
+    }
     if (options.segments > 0)
-      return {shoot_in_segments(problem, led_in(problem, guess, options), options)};
-    try
-    {
-      return {shoot_once(problem, near, options)};
-    }
-    catch (const SearchInterrupted &)
-    {
-      throw;
-    }
-    catch (const NoPeriodicMotion &failure)
-    {
-      return {shoot_again(problem, near, options, failure.what())};
-    }
-    catch (const ConvergenceFailure &failure)
-    {
-      return {shoot_again(problem, near, options, failure.what())};
-    }
+      return {shoot_in_segments(problem, near, options)};
+    return {shoot_any_way(problem, near, options)};
   }
 };
 

@@ -16,7 +16,7 @@ const PeriodicMethod &shooting_method();
  *
  * @throws NoPeriodicMotion, ConvergenceFailure as shoot()
  */
-PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, const PeriodicGuess &guess,
+PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, PeriodicGuess guess,
                             const PeriodicOptions &options);
 
 } // namespace gestell::coupling

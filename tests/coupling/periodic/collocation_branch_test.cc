@@ -102,6 +102,25 @@ TEST(CollocationBranch, FollowsTheEventsOfPlay)
   expect_same_ends(branches, 1e-7);
 }
 
+/// The amplitude of the load rises from zero: a branch that begins at rest has no size at first.
+TEST(CollocationBranch, BeginsAtRest)
+{
+  ContinuationOptions options;
+  options.from        = 0.;
+  options.to          = 0.3;
+  options.points      = 6;
+  const auto branches = follow(
+      [](double F)
+      {
+        DuffingCase given = duffing_cases.at("duffing1");
+        given.F           = F;
+        return member_of<CubicSystem>(duffing_system(given), 2. * M_PI / given.Omega);
+      },
+      {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, options);
+  expect_same_ends(branches, 1e-7);
+  EXPECT_GT(branches.by_collocation.points.size(), 5u);
+}
+
 /// The period changes along the branch and is an unknown of it.
 TEST(CollocationBranch, FollowsALimitCycle)
 {

@@ -1,8 +1,10 @@
 #include "coupling/periodic/shooting/multiple_shooting.h"
 
+#include "coupling/periodic/collocation/collocation_method.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/shooting/shooting.h"
 #include "coupling/periodic/shooting/shooting_method.h"
+#include "coupling/periodic/trace_orbit.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/play_system.h"
 #include "tests/support/reference_table.h"
@@ -213,6 +215,53 @@ TEST(MultipleShooting, RefusesElementsThatRememberMoreThanTheirBranch)
   {
     EXPECT_THAT(reason.what(), testing::HasSubstr("elements remember more than the state"));
   }
+}
+
+/// Rest repeats after any time: from starts of a wrong period no method gives it for the limit cycle.
+TEST(UnknownPeriod, IsNotThatOfRest)
+{
+  for (const auto &[eps, v, T] : {std::tuple(1., 0.3, 1.), std::tuple(5., 2., 3.), std::tuple(5., 0.3, 15.)})
+  {
+    SmallSystem     system  = van_der_pol(eps);
+    PeriodicProblem problem = problem_of_period(system, T);
+    problem.phase           = 0;
+    PeriodicOptions options;
+    options.lead_in = 0;
+    for (const PeriodicMethod *method : {&shooting_method(), &collocation_method()})
+      try
+      {
+        const auto found = method->solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, v), T}, options).at(0);
+        EXPECT_GT(std::abs(found.v[0]), 0.1) << method->name() << " eps " << eps << " v " << v << " T " << T;
+      }
+      catch (const NoPeriodicMotion &)
+      {
+      }
+  }
+}
+
+/// Signals of a motion that one passage does not close are those of its segments, which stay on the hilltop.
+TEST(MultipleShooting, IsTracedFromSegmentToSegment)
+{
+  constexpr double      Omega   = 0.15;
+  SmallSystem           system  = hilltop(0.05, 0.1, Omega);
+  const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / Omega);
+  PeriodicOptions       options;
+  options.lead_in = 0;
+  const auto found =
+      shooting_method().solve(problem, {VectorXd::Constant(1, -0.1), VectorXd::Zero(1), 0.}, options).at(0);
+  int    points  = 0;
+  double largest = 0., last = 0.;
+  trace(problem, found, 100,
+        [&](const OrbitPoint &point)
+        {
+          EXPECT_NEAR(point.t, found.begin + found.period * points / 100., 1e-9);
+          largest = std::max(largest, std::abs(point.q[0]));
+          last    = point.q[0];
+          ++points;
+        });
+  EXPECT_EQ(points, 101);
+  EXPECT_LT(largest, 0.11);
+  EXPECT_NEAR(last, found.q[0], 1e-8);
 }
 
 } // namespace gestell::tests
