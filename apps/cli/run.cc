@@ -3,11 +3,14 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/budget_table.h"
 #include "apps/session/session.h"
+#include "apps/sizing/error_budget.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 
 namespace gestell::apps
 {
@@ -31,19 +34,32 @@ void print_answer(const coupling::RunResult &run)
               << energy.input << " J supplied\n";
 }
 
-int run_scene(const CommonOptions &options)
+struct BudgetOptions
+{
+  bool        budget = false;
+  std::string outputs;
+};
+
+int run_scene(const CommonOptions &options, const BudgetOptions &asked)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
   session.check_run();
+  std::vector<OutputName> outputs;
+  if (asked.budget)
+    outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
-  const Result result = session.run();
+  Result result = session.run();
+  if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
+    result.budget = error_budget(session.scene(), outputs, answer_of(result, outputs), &interruption());
   prepare_folder(folder);
   progress.done();
   write_results(folder, result);
 
   print_answer(*result.run);
+  if (result.budget)
+    std::cout << budget_text(*result.budget);
   if (!result.model.damping.empty())
     std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto *warnings : {&result.warnings, &result.run->warnings})
@@ -63,12 +79,20 @@ int run_scene(const CommonOptions &options)
 
 Command run_command()
 {
+  const auto asked = std::make_shared<BudgetOptions>();
   return {"run",
           "simulate a scene in time",
           {"gestell run apps/scenes/press.toml -o results/press"},
           CommandInput::scene,
-          {},
-          run_scene};
+          {{"--budget", &asked->budget,
+            "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
+           {"--outputs",
+            &asked->outputs,
+            "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
+            {},
+            {},
+            "--budget"}},
+          [asked](const CommonOptions &options) { return run_scene(options, *asked); }};
 }
 
 } // namespace gestell::apps

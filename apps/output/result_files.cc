@@ -7,6 +7,7 @@
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/section_table.h"
+#include "apps/output/tables/size_table.h"
 
 namespace gestell::apps
 {
@@ -73,6 +74,11 @@ std::string orders(const Result &result)
   return result.orders ? orders_csv(*result.orders) : "";
 }
 
+std::string models(const Result &result)
+{
+  return result.size ? size_csv(*result.size) : "";
+}
+
 } // namespace
 
 bool ResultFile::has_name(const std::string &file) const
@@ -100,6 +106,8 @@ const std::vector<ResultFile> &result_files()
       {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
       {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
+      {"size.csv", "models that `size` tried, with their cost and errors", models},
+      {"sized.toml", "the one that it chose, as a scene"},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},
       {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
       {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},

@@ -3,6 +3,7 @@
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/charts/signal_charts.h"
 #include "apps/output/pictures/skin_picture.h"
+#include "apps/output/report/budget_report.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
@@ -314,6 +315,7 @@ std::string contents(const std::string &body)
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
                                  {"peaks", "Answer"},
+                                 {"budget", "Error budget"},
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
@@ -342,7 +344,8 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + stress_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) +
+      budget_section(result, report.charts) + stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +

@@ -1,7 +1,9 @@
 #include "apps/output/tables/result_tables.h"
 
+#include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/periodic_tables.h"
+#include "apps/output/tables/size_table.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -342,6 +344,13 @@ std::string summary_json(const Result &result)
     json["periodic"] = periodic_json(*result.periodic);
   if (result.frf)
     json["frf"] = frf_json(*result.frf);
+  if (result.budget)
+  {
+    json["budget"]       = budget_json(*result.budget);
+    json["budget_cpu_s"] = budget_cost_json(*result.budget);
+  }
+  if (result.size)
+    json["size"] = size_json(*result.size);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

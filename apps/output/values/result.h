@@ -1,9 +1,11 @@
 #pragma once
 
+#include "apps/output/values/error_budget.h"
 #include "apps/output/values/frequency_response.h"
 #include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/scenery.h"
+#include "apps/output/values/size_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/excitation_orders.h"
 #include "coupling/modes/modes.h"
@@ -84,6 +86,8 @@ struct Result
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::optional<FrequencyResponse>            frf;              ///< of `frf`
+  std::optional<ErrorBudget>                  budget;           ///< of a run that was asked for it
+  std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
   std::optional<OrderTracking>                orders;           ///< of a run with a rotor that turns
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people

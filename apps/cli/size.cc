@@ -1,0 +1,92 @@
+#include "apps/cli/command.h"
+#include "apps/cli/interruption.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/tables/size_table.h"
+#include "apps/output/text/write_file.h"
+#include "apps/session/session.h"
+#include "apps/sizing/size_search.h"
+#include "apps/sizing/sized_scene.h"
+
+#include <iostream>
+#include <memory>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+struct SizeCommand
+{
+  double      tolerance = 0.;
+  std::string outputs;
+  double      max_cpu = 0., max_memory_gb = 0.;
+};
+
+SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked)
+{
+  SizeOptions options;
+  options.tolerance  = asked.tolerance;
+  options.max_cpu    = asked.max_cpu;
+  options.max_memory = 1e9 * asked.max_memory_gb;
+  options.stop       = &interruption();
+  options.on_rung    = [](const SizeRung &rung) { std::cout << rung_text(rung) << std::endl; };
+  std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
+  return size_search(scene, outputs, options);
+}
+
+int size_scene(const CommonOptions &options, const SizeCommand &asked)
+{
+  Session session(options.input, options.overrides, options.scripts);
+  session.check_run();
+  const Scene                &scene   = session.scene();
+  const auto                  outputs = budget_outputs(scene, asked.outputs);
+  const std::filesystem::path folder  = results_path(options, scene);
+  require_writable(folder);
+  const SizedModel model = climbed(scene, outputs, asked);
+
+  prepare_folder(folder);
+  const std::filesystem::path file = folder / "sized.toml";
+  write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
+  Session sized(file.string(), {}, options.scripts, {{}, &interruption()});
+  Result  result       = sized.run();
+  result.command       = "size";
+  result.size          = model.result;
+  const SizeRung &rung = model.result.ladder[model.result.chosen];
+  ErrorBudget     budget;
+  budget.entries   = rung.entries;
+  budget.run_cpu_s = rung.cpu_s;
+  result.budget    = budget;
+  if (!model.result.met)
+    result.warnings.push_back("no model of the ladder keeps all outputs within the tolerance: " + model.result.stopped);
+  write_results(folder, result);
+  write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
+
+  std::cout << size_text(model.result) << "scene: " << file.string()
+            << "\nreport: " << (folder / "report.html").string() << '\n';
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  return model.result.met ? exit_done : exit_failed;
+}
+
+} // namespace
+
+Command size_command()
+{
+  const auto asked = std::make_shared<SizeCommand>();
+  return {"size",
+          "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
+          {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
+          CommandInput::scene,
+          {{"--tolerance", &asked->tolerance, "relative error that each output may have (demanded)"},
+           {"--outputs", &asked->outputs,
+            "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
+           {"--max-cpu", &asked->max_cpu, "[s] that a model may take, from CAD to the end of the run",
+            CommandOption::Range::above_zero},
+           {"--max-memory", &asked->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
+          [asked](const CommonOptions &options) { return size_scene(options, *asked); }};
+}
+
+} // namespace gestell::apps

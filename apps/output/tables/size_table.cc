@@ -1,0 +1,124 @@
+#include "apps/output/tables/size_table.h"
+
+#include "fem/values/number_text.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+Json or_null(const std::optional<double> &value)
+{
+  return value ? Json(*value) : Json();
+}
+
+/// Full precision; empty: not known.
+std::string field(const std::optional<double> &value)
+{
+  return value ? ',' + exact_text(*value) : ",";
+}
+
+std::string quoted(const std::string &name)
+{
+  return name.find_first_of(",\"") == std::string::npos ? name : '"' + name + '"';
+}
+
+} // namespace
+
+Json size_json(const SizeResult &size)
+{
+  const SizeRung &rung   = size.ladder.at(size.chosen);
+  Json            chosen = {{"rung", size.chosen + 1},
+                            {"mesh_size", rung.mesh_size > 0. ? Json(rung.mesh_size) : Json()},
+                            {"coordinates", rung.coordinates},
+                            {"interface", rung.interface},
+                            {"modes", rung.modes >= 0 ? Json(rung.modes) : Json()},
+                            {"method", rung.method},
+                            {"step", rung.step},
+                            {"tolerance", rung.tolerance},
+                            {"cpu_s", rung.cpu_s},
+                            {"outputs", Json::object()}};
+  for (const BudgetEntry &entry : rung.entries)
+    chosen["outputs"][entry.output] = {{"value", entry.value},
+                                       {"unit", entry.unit},
+                                       {"mesh", or_null(entry.mesh.error)},
+                                       {"reduction", or_null(entry.reduction.error)},
+                                       {"time", or_null(entry.time.error)},
+                                       {"total", or_null(entry.total)}};
+  Json json = {{"tolerance", size.tolerance},
+               {"met", size.met},
+               {"stopped", size.stopped.empty() ? Json() : Json(size.stopped)},
+               {"chosen", chosen},
+               {"proof", Json::object()},
+               {"finer", size.finer},
+               {"left_out", size.left_out},
+               {"missing", size.missing}};
+  for (const SizeProof &proof : size.proof)
+    json["proof"][proof.output] = {
+        {"value", proof.value}, {"finer", proof.finer}, {"difference", std::abs(proof.finer - proof.value)}};
+  return json;
+}
+
+std::string size_csv(const SizeResult &size)
+{
+  std::string csv = "rung,mesh size [m],coordinates,interface,modes,method,step [s],tolerance,cpu_s";
+  for (const BudgetEntry &entry : size.ladder.front().entries)
+  {
+    for (const char *what : {"value", "mesh", "reduction", "time", "total"})
+      csv += ',' + quoted(entry.output + ' ' + what + " [" + entry.unit + ']');
+  }
+  csv += '\n';
+  int number = 0;
+  for (const SizeRung &rung : size.ladder)
+  {
+    csv += std::to_string(++number) + (rung.mesh_size > 0. ? field(rung.mesh_size) : ",") + ',' +
+           std::to_string(rung.coordinates) + ',' + std::to_string(rung.interface) + ',' +
+           (rung.modes >= 0 ? std::to_string(rung.modes) : "") + ',' + rung.method + field(rung.step) +
+           field(rung.tolerance) + field(rung.cpu_s);
+    for (const BudgetEntry &entry : rung.entries)
+      csv += field(entry.value) + field(entry.mesh.error) + field(entry.reduction.error) + field(entry.time.error) +
+             field(entry.total);
+    csv += '\n';
+  }
+  return csv;
+}
+
+std::string rung_text(const SizeRung &rung)
+{
+  std::ostringstream text;
+  text << std::setw(12) << (rung.mesh_size > 0. ? short_text(rung.mesh_size, 3) : "-") << std::setw(13)
+       << (rung.coordinates > 0 ? std::to_string(rung.coordinates) : "-") << std::setw(7)
+       << (rung.modes >= 0 ? std::to_string(rung.modes) : "-") << "  " << std::left << std::setw(20)
+       << (rung.method +
+           (rung.tolerance > 0. ? " " + short_text(rung.tolerance, 2) : " " + short_text(rung.step, 3) + " s"))
+       << std::right << std::setw(9) << short_text(rung.cpu_s, 2) << std::setw(12)
+       << (std::isfinite(rung.share) ? short_text(rung.share, 2) : "not known") << "  " << rung.worst;
+  return text.str();
+}
+
+std::string size_text(const SizeResult &size)
+{
+  std::ostringstream text;
+  text << "chosen: model " << size.chosen + 1 << " of " << size.ladder.size() << ", every output "
+       << (size.met ? "within " : "NOT within ") << short_text(100. * size.tolerance, 3) << " %"
+       << (size.met ? "" : ": " + size.stopped) << '\n';
+  if (!size.proof.empty())
+    text << "proof: against " << size.finer << '\n';
+  else if (!size.finer.empty())
+    text << "no proof: " << size.finer << '\n';
+  for (const SizeProof &proof : size.proof)
+    text << "  " << proof.output << ' ' << short_text(proof.value, 6) << ", finer " << short_text(proof.finer, 6) << ' '
+         << proof.unit << '\n';
+  for (const std::string &what : size.left_out)
+    text << "may be left out: " << what << '\n';
+  for (const std::string &what : size.missing)
+    text << "missing: " << what << '\n';
+  return text.str();
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "apps/output/text/json.h"
+#include "apps/output/values/size_result.h"
+
+namespace gestell::apps
+{
+
+/// Of summary.json: `tolerance`, `met`, `chosen` (the rung), `proof` by output, `left_out`, `missing`.
+Json size_json(const SizeResult &size);
+
+/// size.csv: a row for each model that was tried.
+std::string size_csv(const SizeResult &size);
+
+/// For a terminal: one model, and all of them with what follows.
+std::string rung_text(const SizeRung &rung);
+std::string size_text(const SizeResult &size);
+
+} // namespace gestell::apps

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "apps/output/values/error_budget.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A model that was tried.
+struct SizeRung
+{
+  double                   mesh_size   = 0.; ///< [m]; 0: not chosen
+  int                      coordinates = 0;  ///< of the unreduced frame; 0: none
+  int                      interface   = 0;
+  int                      modes       = -1;          ///< -1: not chosen
+  std::string              method;                    ///< run.method
+  double                   step = 0., tolerance = 0.; ///< [s], of the step's control; 0: fixed
+  double                   cpu_s = 0.;                ///< from CAD to the end of the run
+  std::vector<BudgetEntry> entries;                   ///< by output
+  double                   share = 0.; ///< largest error of an output, of what is allowed; infinite: one is not known
+  std::string worst; ///< what takes most of it: \"mesh of F_P.max\"
+};
+
+struct SizeProof
+{
+  std::string output, unit;
+  double      value = 0., finer = 0.;
+};
+
+/// The climb to the cheapest model whose errors stay within a tolerance.
+struct SizeResult
+{
+  double                   tolerance = 0.;
+  std::vector<SizeRung>    ladder; ///< in the order they were tried
+  std::size_t              chosen = 0;
+  bool                     met    = false; ///< the chosen one stays within the tolerance
+  std::string              stopped;        ///< why nothing finer was tried, if it is not
+  std::vector<SizeProof>   proof;          ///< chosen model against one that is finer in everything
+  std::string              finer;          ///< what that was
+  std::vector<std::string> left_out, missing;
+};
+
+} // namespace gestell::apps

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "apps/output/values/error_budget.h"
+#include "apps/sizing/model_variant.h"
+
+namespace gestell::apps
+{
+
+/// The outputs of a list, see outputs_named().
+/// @throws std::invalid_argument if one does not exist, or the scene starts on a periodic motion
+std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &list);
+
+/**
+ * Errors of the outputs of a run, each part by a second model that differs in it alone:
+ *
+ *     time       |v - v_f|, f integrated by `exact` of order 8 to 1e-10; where that does not treat the machine, with
+ *                half the step (a sixteenth of the tolerance), times 2^p/(2^p - 1) (16/15)
+ *     reduction  |v_f(m) - v_f(2 m)|, m modes, eight more at least
+ *     mesh       |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1), r^3 the ratio of the numbers of coordinates: order 3/2 in h is
+ *                between 1 of a sharp corner and 2 of smooth elements
+ *
+ * Where two models differ in the order of their events up to the instant that decides an output, the difference is no
+ * error and none is told, but the bracket of all values.
+ *
+ * @param run  the scene's own answer.
+ * @throws coupling::ConvergenceFailure if it is interrupted
+ *
+ * Source: Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes); docs/size.md.
+ */
+ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
+                         const std::atomic<bool> *stop = nullptr);
+
+} // namespace gestell::apps

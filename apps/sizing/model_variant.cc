@@ -1,0 +1,181 @@
+#include "apps/sizing/model_variant.h"
+
+#include "apps/session/prepared_machine.h"
+#include "coupling/modes/modes.h"
+#include "coupling/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double least_steps = 50.;
+
+/// [s] of the processor that this process took so far.
+double cpu_now()
+{
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const std::string &name)
+{
+  return *std::find_if(run.signals.begin(), run.signals.end(),
+                       [&](const coupling::SignalSummary &signal) { return signal.name == name; });
+}
+
+void take_run(const coupling::RunResult &run, const std::vector<OutputName> &outputs, double end, ModelAnswer &answer)
+{
+  answer.method = run.method;
+  answer.events = run.events;
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (outputs[i].of_signal())
+    {
+      const coupling::SignalSummary &signal = signal_of(run, outputs[i].signal);
+      answer.values[i]                      = value_of(outputs[i], signal);
+      answer.sizes[i]                       = std::max(std::abs(signal.min), std::abs(signal.max));
+      answer.units[i]                       = unit_of(outputs[i], signal);
+      answer.decided_s[i]                   = decided_at(outputs[i], signal, end);
+    }
+}
+
+void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<OutputName> &outputs,
+                ModelAnswer &answer)
+{
+  const bool asked =
+      std::any_of(outputs.begin(), outputs.end(), [](const auto &output) { return !output.of_signal(); });
+  if (!asked)
+    return;
+  const auto modes = coupling::linearised_modes(small, modes_configuration(scene, small),
+                                                coupling::Linearisation{scene.modes.open}, scene.modes.number);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!outputs[i].of_signal())
+    {
+      if (outputs[i].mode > int(modes.size()))
+        throw std::invalid_argument("--outputs: '" + outputs[i].text + "': this model has " +
+                                    std::to_string(modes.size()) + " modes");
+      answer.sizes[i] = answer.values[i] = modes[std::size_t(outputs[i].mode) - 1].frequency_hz;
+      answer.units[i]                    = "Hz";
+    }
+}
+
+} // namespace
+
+ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
+{
+  ModelAnswer answer;
+  answer.values.resize(outputs.size());
+  answer.sizes.resize(outputs.size());
+  answer.units.resize(outputs.size());
+  answer.decided_s.resize(outputs.size());
+  answer.n_frame   = std::max(0, result.model.frame_dofs);
+  answer.interface = std::max(0, result.model.interface);
+  answer.modes     = result.model.modes;
+  answer.run_cpu   = result.run->wall_s;
+  take_run(*result.run, outputs, result.asked.run->end, answer);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!outputs[i].of_signal())
+    {
+      answer.sizes[i] = answer.values[i] = result.coupled_modes.at(std::size_t(outputs[i].mode) - 1).frequency_hz;
+      answer.units[i]                    = "Hz";
+    }
+  return answer;
+}
+
+Scene varied(const Scene &scene, const ModelVariant &variant)
+{
+  Scene other = scene;
+  other.frame.geometry.mesh.size *= variant.mesh;
+  for (auto &[surface, size] : other.frame.geometry.mesh.surface_size)
+    size *= variant.mesh;
+  if (variant.modes >= 0)
+    other.reduction.options.n_modes = variant.modes;
+  if (variant.method)
+    other.run.options.method = *variant.method;
+  return other;
+}
+
+ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
+                      const std::atomic<bool> *stop)
+{
+  const Scene other = varied(scene, variant);
+  ModelAnswer answer;
+  answer.values.resize(outputs.size());
+  answer.sizes.resize(outputs.size());
+  answer.units.resize(outputs.size());
+  answer.decided_s.assign(outputs.size(), other.run.options.begin);
+  const double    begin    = cpu_now();
+  PreparedMachine prepared = prepare_machine(other);
+  answer.prepare_cpu       = cpu_now() - begin;
+  answer.from_cache        = prepared.from_cache;
+  if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
+  {
+    answer.n_frame   = frame->n_full;
+    answer.interface = frame->n_interface;
+    answer.modes     = int(frame->M.rows()) - frame->n_interface;
+  }
+  take_modes(other, prepared.small(), outputs, answer);
+  const double ready = cpu_now();
+  if (std::any_of(outputs.begin(), outputs.end(), [](const OutputName &output) { return output.of_signal(); }))
+  {
+    const coupling::InitialState initial = prepare_start(other, prepared);
+    require_free_motion(other, prepared.machine, initial);
+    const auto run = coupling::simulate(prepared.machine, initial, other.run.options,
+                                        scene_signals(other, prepared.machine), {}, stop);
+    if (run.interrupted || !run.failure.empty())
+      throw coupling::ConvergenceFailure(run.interrupted ? "interrupted" : run.failure);
+    take_run(run, outputs, other.run.options.end, answer);
+  }
+  answer.run_cpu = cpu_now() - ready;
+  return answer;
+}
+
+coupling::MethodOptions finest_method(const Scene &scene)
+{
+  const coupling::RunOptions &run    = scene.run.options;
+  coupling::MethodOptions     finest = coupling::options_of("exact", 8).with("force", std::string("collocation"));
+  finest.tolerance                   = 1e-10;
+  // A fixed step says nothing of the longest one; no load goes by between two steps.
+  finest.step = controlled(run.method) ? run.method.step : (run.end - run.begin) / least_steps;
+  for (const LoadRequest &load : scene.loads)
+    for (const auto &harmonic : load.oscillations)
+      if (harmonic.omega > 0. && !controlled(run.method))
+        finest.step = std::min(finest.step, 0.25 * M_PI / harmonic.omega);
+  return finest;
+}
+
+coupling::MethodOptions finer_method(const coupling::MethodOptions &given)
+{
+  coupling::MethodOptions finer = given;
+  if (controlled(given))
+    finer.tolerance /= 16.;
+  else
+    finer.step /= 2.;
+  return finer;
+}
+
+bool mesh_is_made(const Scene &scene)
+{
+  const std::string &cad  = scene.frame.geometry.cad;
+  const std::string  kind = cad.substr(std::min(cad.rfind('.'), cad.size()));
+  return scene.frame.source == FrameSource::geometry && kind != ".msh" && kind != ".inp" && kind != ".stl";
+}
+
+bool modes_are_chosen(const Scene &scene)
+{
+  return frame_path(scene) == FramePath::reduce && scene.reduction.method != "condensation";
+}
+
+std::vector<std::string> signal_names(const Scene &scene)
+{
+  std::vector<std::string> names;
+  for (const SignalRequest &signal : scene.signals)
+    names.push_back(signal.name);
+  return names;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "apps/output/values/result.h"
+#include "apps/scene/scene.h"
+#include "apps/sizing/output_name.h"
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// How a model differs from that of the scene.
+struct ModelVariant
+{
+  double                                 mesh  = 1.; ///< size of the cells, of that in the scene
+  int                                    modes = -1; ///< that the frame keeps; below zero: as the scene says
+  std::optional<coupling::MethodOptions> method;     ///< of integration; none: that of the scene
+};
+
+/// What a model answers, and what it costs.
+struct ModelAnswer
+{
+  std::vector<double>          values; ///< of the outputs asked for
+  std::vector<double>          sizes;  ///< largest of the signal without its sign, of a mode its frequency
+  std::vector<std::string>     units;
+  std::vector<double>          decided_s; ///< time until which each is decided; of a mode the begin of the run
+  std::vector<coupling::Event> events;
+  std::string                  method;           ///< of integration, for people
+  int                          n_frame     = 0;  ///< coordinates of the unreduced frame; 0: none
+  int                          interface   = 0;  ///< coordinates that stay physical
+  int                          modes       = -1; ///< that the frame keeps
+  bool                         from_cache  = false;
+  double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
+
+  double cpu() const { return prepare_cpu + run_cpu; }
+};
+
+/// The answer that a run of the scene has given.
+ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs);
+
+/// A scene with the variant's mesh, number of modes and method.
+Scene varied(const Scene &scene, const ModelVariant &variant);
+
+/// Runs it.
+/// @throws std::invalid_argument if the method cannot treat it; coupling::ConvergenceFailure if the run fails or is
+///         interrupted
+ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
+                      const std::atomic<bool> *stop = nullptr);
+
+/// Integrates as exactly as the program can where `exact` treats the machine: order 8, tolerance 1e-10.
+coupling::MethodOptions finest_method(const Scene &scene);
+/// A finer one of the same kind: half the step, a sixteenth of the tolerance.
+coupling::MethodOptions finer_method(const coupling::MethodOptions &given);
+
+/// Whether the mesh of the scene's frame is made by the program, so that its size can be chosen.
+bool mesh_is_made(const Scene &scene);
+/// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
+bool modes_are_chosen(const Scene &scene);
+
+/// Names of the scene's signals.
+std::vector<std::string> signal_names(const Scene &scene);
+
+} // namespace gestell::apps

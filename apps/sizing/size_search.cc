@@ -1,0 +1,360 @@
+#include "apps/sizing/size_search.h"
+
+#include "coupling/integration/system/convergence_failure.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double ratio_of_meshes = 1.5;
+constexpr int    coarsest_mesh = -2, finest_mesh = 4; ///< powers of the ratio below the scene's size
+constexpr int    mode_numbers[] = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
+constexpr int    n_mode_numbers = int(std::size(mode_numbers));
+constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
+constexpr double smallest_tolerance = 1e-8;
+constexpr double half               = 0.5;
+constexpr int    most_rungs         = 40;
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// Numbers of the rungs of the three ladders.
+struct Place
+{
+  int  mesh = 0, modes = 0, time = 0;
+  bool operator<(const Place &other) const
+  {
+    return std::tie(mesh, modes, time) < std::tie(other.mesh, other.modes, other.time);
+  }
+};
+
+/// Shares of the parts in the tolerance, of the output with the largest.
+struct Shares
+{
+  double      mesh = 0., modes = 0., time = 0., total = 0.;
+  std::size_t output = 0;
+
+  std::string worst() const { return mesh >= modes && mesh >= time ? "mesh" : modes >= time ? "reduction" : "time"; }
+};
+
+/// [byte] that the program has taken at most so far; 0: the system does not say.
+double memory_taken()
+{
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (double kilobytes = 0.; word == "VmHWM:" && status >> kilobytes)
+      return 1024. * kilobytes;
+  return 0.;
+}
+
+class Climb
+{
+public:
+  Climb(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
+      : scene_(scene), outputs_(outputs), options_(options), by_exact_(takes_exact())
+  {
+    if (!(options.tolerance >= smallest_tolerance) || options.tolerance > 1.)
+      throw std::invalid_argument("--tolerance: needs a relative error between 1e-8, below which rounding decides, and "
+                                  "1, got " +
+                                  short_text(options.tolerance));
+  }
+
+  SizedModel run();
+
+private:
+  bool          takes_exact() const;
+  ModelVariant  variant_of(const Place &place) const;
+  int           last_time() const { return by_exact_ ? n_tolerances - 1 : n_steps - 1; }
+  const Shares &look(const Place &place);
+  Shares        shares_of(const ModelAnswer &answer, const SizeRung &rung) const;
+  bool          fits(const Place &place) { return look(place).total <= 1.; }
+  bool          finer(Place &place);
+  void          coarsen(Place &place);
+  void          prove(const Place &place, SizedModel &model);
+  void          leave_out(const Place &place, SizeResult &result);
+  double        scale_of(std::size_t output, const ModelAnswer &answer) const;
+
+  const Scene                          &scene_;
+  const std::vector<OutputName>        &outputs_;
+  const SizeOptions                    &options_;
+  bool                                  by_exact_;
+  std::map<Place, Shares>               known_;
+  std::map<Place, std::size_t>          rung_of_;
+  std::map<Place, ModelAnswer>          answers_;
+  std::map<std::pair<int, int>, double> prepare_cpu_; ///< by the rungs of mesh and modes [s]
+  SizeResult                            result_;
+  int                                   most_modes_ = n_mode_numbers - 1;
+};
+
+/// Whether `exact` treats the machine, with the scene's keys beside it.
+bool Climb::takes_exact() const
+{
+  const coupling::MethodOptions &given = scene_.run.options.method;
+  if (given.method != "exact" && !given.own.empty())
+    return false;
+  try
+  {
+    Scene short_run = varied(scene_, {1., -1, finest_method(scene_)});
+    short_run.run.options.end =
+        short_run.run.options.begin + 1e-3 * (short_run.run.options.end - short_run.run.options.begin);
+    for (int k = coarsest_mesh; k < 0 && mesh_is_made(scene_); ++k)
+      short_run.frame.geometry.mesh.size *= ratio_of_meshes;
+    answer_of(short_run, {}, outputs_, options_.stop);
+    return true;
+  }
+  catch (const std::exception &)
+  {
+    return false;
+  }
+}
+
+ModelVariant Climb::variant_of(const Place &place) const
+{
+  ModelVariant variant;
+  if (mesh_is_made(scene_))
+    variant.mesh = std::pow(ratio_of_meshes, -(place.mesh + coarsest_mesh));
+  if (modes_are_chosen(scene_))
+    variant.modes = mode_numbers[place.modes];
+  if (by_exact_)
+  {
+    variant.method            = finest_method(scene_);
+    variant.method->tolerance = std::pow(10., -3 - place.time);
+  }
+  else
+  {
+    coupling::MethodOptions method = scene_.run.options.method;
+    const double            factor = std::pow(2., 3 - place.time);
+    if (controlled(method))
+      method.tolerance *= factor * factor;
+    else
+      method.step *= factor;
+    variant.method = method;
+  }
+  return variant;
+}
+
+double Climb::scale_of(std::size_t output, const ModelAnswer &answer) const
+{
+  if (answer.units[output] == "s" && outputs_[output].kind.rfind("t_", 0) == 0)
+    return scene_.run.options.end - scene_.run.options.begin;
+  return std::max(std::abs(answer.values[output]), answer.sizes[output]);
+}
+
+Shares Climb::shares_of(const ModelAnswer &answer, const SizeRung &rung) const
+{
+  Shares     shares;
+  const auto share = [&](const BudgetPart &part, double allowed) {
+    return !part.error ? unknown : *part.error == 0. ? 0. : *part.error / allowed;
+  };
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+  {
+    const double allowed = options_.tolerance * scale_of(i, answer);
+    const Shares here{share(rung.entries[i].mesh, allowed), share(rung.entries[i].reduction, allowed),
+                      share(rung.entries[i].time, allowed), 0., i};
+    if (const double total = here.mesh + here.modes + here.time; total >= shares.total)
+      shares = {here.mesh, here.modes, here.time, total, i};
+  }
+  return shares;
+}
+
+const Shares &Climb::look(const Place &place)
+{
+  if (const auto known = known_.find(place); known != known_.end())
+    return known->second;
+  const Scene       scene  = varied(scene_, variant_of(place));
+  const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
+  const ErrorBudget budget = error_budget(scene, outputs_, answer, options_.stop);
+  const auto       &method = scene.run.options.method;
+  SizeRung          rung;
+  rung.mesh_size      = mesh_is_made(scene) ? scene.frame.geometry.mesh.size : 0.;
+  rung.coordinates    = answer.n_frame;
+  rung.interface      = answer.interface;
+  rung.modes          = modes_are_chosen(scene) ? answer.modes : -1;
+  rung.method         = method.method;
+  rung.step           = method.step;
+  rung.tolerance      = method.tolerance;
+  double &prepared    = prepare_cpu_[{place.mesh, place.modes}]; // a frame in the cache has cost what it did
+  prepared            = std::max(prepared, answer.prepare_cpu);
+  rung.cpu_s          = prepared + answer.run_cpu;
+  rung.entries        = budget.entries;
+  const Shares shares = shares_of(answer, rung);
+  while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.n_frame - answer.interface)
+    --most_modes_;
+  rung.share = shares.total;
+  if (shares.total > 0.)
+    rung.worst = shares.worst() + " of " + outputs_[shares.output].text;
+  rung_of_[place] = result_.ladder.size();
+  answers_[place] = answer;
+  result_.ladder.push_back(rung);
+  if (options_.on_rung)
+    options_.on_rung(result_.ladder.back());
+  return known_[place] = shares;
+}
+
+/// One rung finer in what errs most and can be refined; false: nothing can.
+bool Climb::finer(Place &place)
+{
+  const Shares shares = look(place);
+  struct Part
+  {
+    double share;
+    int Place::*rung;
+    int         last;
+  };
+  std::vector<Part> parts = {{shares.mesh, &Place::mesh, mesh_is_made(scene_) ? finest_mesh - coarsest_mesh : 0},
+                             {shares.modes, &Place::modes, modes_are_chosen(scene_) ? most_modes_ : 0},
+                             {shares.time, &Place::time, last_time()}};
+  std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) { return a.share > b.share; });
+  for (const Part &part : parts)
+    if (part.share > 0. && place.*part.rung < part.last)
+    {
+      ++(place.*part.rung);
+      return true;
+    }
+  return false;
+}
+
+/// As coarse in each part as the tolerance allows, what costs most first.
+void Climb::coarsen(Place &place)
+{
+  for (int Place::*rung : {&Place::mesh, &Place::modes, &Place::time})
+    while (place.*rung > 0 && int(result_.ladder.size()) < most_rungs)
+    {
+      Place coarser = place;
+      --(coarser.*rung);
+      if (!fits(coarser))
+        break;
+      place = coarser;
+    }
+}
+
+void Climb::prove(const Place &place, SizedModel &model)
+{
+  const ModelVariant chosen = variant_of(place);
+  ModelVariant       finer  = chosen;
+  finer.mesh /= ratio_of_meshes;
+  if (chosen.modes >= 0)
+    finer.modes = 2 * answers_[place].modes;
+  finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
+  try
+  {
+    const ModelAnswer better = answer_of(scene_, finer, outputs_, options_.stop);
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      model.result.proof.push_back({outputs_[i].text, better.units[i], answers_[place].values[i], better.values[i]});
+    model.result.finer = (better.n_frame > 0 ? std::to_string(better.n_frame) + " coordinates, " : "") +
+                         (better.modes >= 0 ? std::to_string(better.modes) + " modes, " : "") + better.method;
+  }
+  catch (const std::exception &failure)
+  {
+    if (options_.stop && *options_.stop)
+      throw;
+    model.result.finer = std::string("the finer model failed: ") + failure.what();
+  }
+}
+
+/// What changes no output by half of what is allowed when it is not there.
+void Climb::leave_out(const Place &place, SizeResult &result)
+{
+  const Scene        chosen = varied(scene_, variant_of(place));
+  const ModelAnswer &answer = answers_[place];
+  const auto         tried  = [&](const std::string &what, Scene without)
+  {
+    without.run.options.method = chosen.run.options.method;
+    try
+    {
+      const ModelAnswer other = answer_of(without, {}, outputs_, options_.stop);
+      double            most  = 0.;
+      std::size_t       worst = 0;
+      for (std::size_t i = 0; i < outputs_.size(); ++i)
+        if (const double change = std::abs(other.values[i] - answer.values[i]) / scale_of(i, answer); change > most)
+        {
+          most  = change;
+          worst = i;
+        }
+      if (most <= half * options_.tolerance)
+        result.left_out.push_back(what + ": changes " + outputs_[worst].text + " by " + short_text(100. * most, 2) +
+                                  " %");
+    }
+    catch (const std::exception &)
+    {
+      if (options_.stop && *options_.stop)
+        throw;
+    } // what others rest on cannot be left out
+  };
+  if (chosen.gravity != Vector3{})
+  {
+    Scene without   = chosen;
+    without.gravity = {};
+    tried("gravity", std::move(without));
+  }
+  for (std::size_t i = 0; i < chosen.elements.size(); ++i)
+  {
+    Scene without = chosen;
+    without.elements.erase(without.elements.begin() + std::ptrdiff_t(i));
+    tried("element \"" + chosen.elements[i].name + "\"", std::move(without));
+  }
+  for (std::size_t i = 0; i < chosen.linear.size(); ++i)
+  {
+    Scene without = chosen;
+    without.linear.erase(without.linear.begin() + std::ptrdiff_t(i));
+    tried("element \"" + chosen.linear[i].name + "\"", std::move(without));
+  }
+}
+
+SizedModel Climb::run()
+{
+  Place place;
+  place.time = by_exact_ ? first_time : 2;
+  SizedModel model;
+  Place      best = place;
+  while (true)
+  {
+    look(place);
+    const SizeRung &rung = result_.ladder[rung_of_[place]];
+    if (options_.max_cpu > 0. && rung.cpu_s > options_.max_cpu)
+      result_.stopped = "a model takes " + short_text(rung.cpu_s, 2) + " s, above --max-cpu";
+    else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
+      result_.stopped = "the program took " + short_text(memory_taken() / 1e9, 2) + " GB, above --max-memory";
+    if (!result_.stopped.empty())
+      break;
+    if (look(place).total <= look(best).total)
+      best = place;
+    if (fits(place))
+    {
+      coarsen(place);
+      best        = place;
+      result_.met = true;
+      break;
+    }
+    if (int(result_.ladder.size()) >= most_rungs || !finer(place))
+    {
+      result_.stopped = "the ladder ends here: nothing finer is at hand";
+      break;
+    }
+  }
+  result_.tolerance = options_.tolerance;
+  result_.chosen    = rung_of_[best];
+  model.chosen      = variant_of(best);
+  model.result      = result_;
+  prove(best, model);
+  leave_out(best, model.result);
+  return model;
+}
+
+} // namespace
+
+SizedModel size_search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
+{
+  return Climb(scene, outputs, options).run();
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "apps/output/values/size_result.h"
+#include "apps/sizing/error_budget.h"
+
+#include <functional>
+
+namespace gestell::apps
+{
+
+struct SizeOptions
+{
+  double                                tolerance  = 0.; ///< relative, of the total error of each output
+  double                                max_cpu    = 0.; ///< [s] of a model; 0: any
+  double                                max_memory = 0.; ///< [byte] of the program; 0: any
+  std::function<void(const SizeRung &)> on_rung    = {}; ///< after each model
+  const std::atomic<bool>              *stop       = nullptr;
+};
+
+/// The model of a rung as a variant of the scene.
+struct SizedModel
+{
+  SizeResult   result;
+  ModelVariant chosen;
+};
+
+/**
+ * Climbs from the cheapest model of a scene to one whose errors, by error_budget(), stay within the tolerance of every
+ * output:
+ *
+ *     mesh       cells of 9/4, 3/2, 1, 2/3, 4/9, ... of the scene's size
+ *     reduction  4, 6, 8, 12, 16, 24, ... modes
+ *     time       `exact` with a tolerance of 1e-3, 1e-4 ... 1e-9; where that does not treat the machine, or the scene
+ *                gives its method parameters of its own, that method with 8, 4, 2, 1, 1/2, ... of its step or tolerance
+ *
+ * Each step refines what takes the largest share of the tolerance.  Behind the first model that fits each part is made
+ * coarser again as long as the model fits.  Errors count against the largest size of the signal, of instants against
+ * the length of the run.
+ *
+ * @throws std::invalid_argument for a tolerance of zero or less, above 1 or below 1e-8
+ */
+SizedModel size_search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options);
+
+} // namespace gestell::apps

@@ -1,0 +1,78 @@
+#include "apps/sizing/sized_scene.h"
+
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+std::string number(double value)
+{
+  const std::string digits = exact_text(value);
+  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string quoted(const std::string &text)
+{
+  std::string escaped = "\"";
+  for (const char c : text)
+    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
+  return escaped + '"';
+}
+
+/// A value of the command line as TOML has it: what is no number, list, table, truth or text in quotes already is text.
+std::string toml_value(const std::string &value)
+{
+  const bool literal = value == "true" || value == "false" ||
+                       (!value.empty() && (value[0] == '"' || value[0] == '[' || value[0] == '{')) ||
+                       (!value.empty() && value.find_first_not_of("+-0123456789.eE_") == std::string::npos);
+  return literal ? value : quoted(value);
+}
+
+} // namespace
+
+std::string sized_scene(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
+                        const std::filesystem::path &folder)
+{
+  std::vector<std::pair<std::string, std::string>> sizes;
+  const Scene                                      sized = varied(scene, model);
+  if (mesh_is_made(scene))
+  {
+    sizes.emplace_back("frame.mesh.size", number(sized.frame.geometry.mesh.size));
+    for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
+      sizes.emplace_back("frame.mesh." + quoted(surface), number(size));
+  }
+  if (model.modes >= 0)
+    sizes.emplace_back("reduction.modes", std::to_string(model.modes));
+  const coupling::MethodOptions &method = sized.run.options.method;
+  sizes.emplace_back("run.method", quoted(method.method));
+  sizes.emplace_back("run.step", number(method.step));
+  if (controlled(method))
+    sizes.emplace_back("run.tolerance", number(method.tolerance));
+  if (method.method == "exact" && scene.run.options.method.method != "exact")
+    sizes.emplace_back("run.order", std::to_string(method.order));
+
+  std::ostringstream text;
+  const auto         base =
+      std::filesystem::proximate(std::filesystem::absolute(scene.file), std::filesystem::absolute(folder));
+  text << "# " << scene.name
+       << " with no more model than its outputs need, by gestell size.\nextends = " << quoted(base.generic_string())
+       << "\n\n";
+  for (const std::string &override : overrides)
+  {
+    const std::size_t equals = override.find('=');
+    const std::string key    = override.substr(0, equals);
+    if (std::none_of(sizes.begin(), sizes.end(), [&](const auto &size) { return size.first == key; }))
+      text << key << " = " << toml_value(override.substr(equals + 1)) << '\n';
+  }
+  for (const auto &[key, value] : sizes)
+    text << key << " = " << value << '\n';
+  return text.str();
+}
+
+} // namespace gestell::apps

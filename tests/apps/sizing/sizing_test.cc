@@ -1,0 +1,186 @@
+// Error budgets against true errors, and the climb to the smallest model.
+
+#include "apps/output/tables/size_table.h"
+#include "apps/session/session.h"
+#include "apps/sizing/size_search.h"
+#include "apps/sizing/sized_scene.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace apps;
+
+constexpr int links = 40;
+
+/// A rod of 40 masses that is held at one end and hits a stop with the other, driven at three of its modes.
+std::string rod(const std::string &modes, const std::string &run)
+{
+  std::string mass, stiffness, row;
+  const auto  matrix = [&](auto entry)
+  {
+    std::string text = "[";
+    for (int i = 0; i < links; ++i)
+    {
+      text += i > 0 ? ",\n[" : "[";
+      for (int j = 0; j < links; ++j)
+        text += (j > 0 ? ", " : "") + number(entry(i, j));
+      text += "]";
+    }
+    return text + "]\n";
+  };
+  const double k = 4e4 * links, m = 1. / links;
+  const auto C = [&](int i, int j) { return i == j ? (i + 1 < links ? 2. : 1.) * k : std::abs(i - j) == 1 ? -k : 0.; };
+  return "name = 'rod'\n[frame]\nmass = " + matrix([&](int i, int j) { return i == j ? m : 0.; }) +
+         "stiffness = " + matrix(C) + "damping = " + matrix([&](int i, int j) { return 2e-6 * C(i, j); }) +
+         "[frame.interface.tip]\nrows = { ux = " + std::to_string(links) + " }\n[reduction]\n" + modes +
+         "\n[element.load]\ntype = 'force'\nfrom = 'frame.tip'\nto = 'ground'\ndirection = [1, 0, 0]\nharmonics = ["
+         "{ amplitude = '40 N', frequency = '55 Hz' }, { amplitude = '60 N', frequency = '170 Hz' }, "
+         "{ amplitude = '80 N', frequency = '250 Hz' }]\n"
+         "[element.stop]\ntype = 'stop'\nfrom = 'frame.tip'\nto = 'ground'\ndirection = [1, 0, 0]\ngap = '1 mm'\n"
+         "stiffness = 2e5\n[output.signals]\nx = 'frame.tip.ux'\nF = 'stop.force'\n[run]\n" +
+         run;
+}
+
+struct Read
+{
+  test::SceneFolder folder;
+  Scene             scene;
+  explicit Read(const std::string &text) : scene(read_scene(folder.write("scene.toml", test::quoted(text)))) {}
+};
+
+const std::string by_steps = "method = 'bdf'\nstep = 2e-5\nend = 0.06\n";
+
+std::vector<OutputName> of_scene(const Scene &scene, const std::string &list)
+{
+  return budget_outputs(scene, list);
+}
+
+ErrorBudget budget_of(const Scene &scene, const std::vector<OutputName> &outputs)
+{
+  return error_budget(scene, outputs, answer_of(scene, {}, outputs));
+}
+
+} // namespace
+
+/// Between half and three times the true error, which the whole rod and exact steps tell.
+TEST(ErrorBudget, IsNearTheTrueErrorOfStepsAndModes)
+{
+  for (const int modes : {3, 5, 8})
+  {
+    const Read        rough(rod("modes = " + std::to_string(modes), by_steps));
+    const auto        outputs = of_scene(rough.scene, "x.max,x.min,F.max,modes.1,modes.3");
+    const ErrorBudget budget  = budget_of(rough.scene, outputs);
+    const Read        whole(rod("modes = " + std::to_string(links - 1), by_steps));
+    const ModelAnswer truth = answer_of(whole.scene, {1., -1, finest_method(whole.scene)}, outputs);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+    {
+      const BudgetEntry &entry = budget.entries[i];
+      EXPECT_EQ(entry.output, outputs[i].text);
+      EXPECT_EQ(entry.mesh.error, 0.) << entry.output;
+      if (!entry.total) // another order of events
+      {
+        ASSERT_TRUE(entry.bracket);
+        continue;
+      }
+      const double error = std::abs(entry.value - truth.values[i]), noise = 1e-9 * std::abs(entry.value);
+      EXPECT_GE(*entry.total, 0.5 * error - noise) << entry.output << ", " << modes << " modes";
+      EXPECT_LE(std::max(*entry.time.error, *entry.reduction.error), 3. * error + *entry.time.error + noise)
+          << entry.output << ", " << modes << " modes";
+    }
+  }
+}
+
+TEST(ErrorBudget, HasNothingToTellOfPartsThatDoNotErr)
+{
+  const Read        whole(rod("method = 'none'", by_steps));
+  const auto        outputs = of_scene(whole.scene, "modes.2");
+  const ErrorBudget budget  = budget_of(whole.scene, outputs);
+  EXPECT_EQ(budget.entries.at(0).total, 0.);
+  EXPECT_EQ(budget.entries.at(0).unit, "Hz");
+  EXPECT_EQ(budget.entries.at(0).reduction.reason, "the frame is not reduced");
+}
+
+/// The proof holds what the tolerance promises, on models far below the whole one.
+TEST(SizeSearch, MeetsItsToleranceWithFewModes)
+{
+  int before = 0;
+  for (const double tolerance : {0.05, 0.01, 0.002})
+  {
+    const Read  read(rod("modes = 8", by_steps));
+    const auto  outputs = of_scene(read.scene, "x.max,x.min,modes.2");
+    SizeOptions options;
+    options.tolerance      = tolerance;
+    const SizedModel model = size_search(read.scene, outputs, options);
+    ASSERT_TRUE(model.result.met) << model.result.stopped;
+    ASSERT_EQ(model.result.proof.size(), outputs.size());
+    const ModelAnswer truth = answer_of(read.scene, {1., links - 1, finest_method(read.scene)}, outputs);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      EXPECT_LE(std::abs(model.result.proof[i].value - truth.values[i]), tolerance * truth.sizes[i]) << outputs[i].text;
+    EXPECT_GE(model.chosen.modes, before);
+    EXPECT_LT(model.chosen.modes, links / 2);
+    before = model.chosen.modes;
+  }
+}
+
+/// The scene it writes is the model it chose, with what was typed beside it.
+TEST(SizeSearch, WritesTheChosenModelAsAScene)
+{
+  test::SceneFolder        folder;
+  const std::string        path      = folder.write("scene.toml", test::quoted(rod("modes = 8", by_steps)));
+  std::vector<std::string> overrides = {"run.end=0.05", "run.step=1e-5"};
+  const Scene              scene     = read_scene(path, overrides);
+  ModelVariant             model;
+  model.modes             = 6;
+  model.method            = finest_method(scene);
+  model.method->tolerance = 1e-4;
+  const Scene sized = read_scene(folder.write("sized.toml", sized_scene(scene, overrides, model, folder.path("."))));
+  EXPECT_EQ(sized.reduction.options.n_modes, 6);
+  EXPECT_EQ(sized.run.options.method.method, "exact");
+  EXPECT_EQ(sized.run.options.method.order, 8);
+  EXPECT_EQ(sized.run.options.method.tolerance, 1e-4);
+  EXPECT_EQ(sized.run.options.method.step, model.method->step);
+  EXPECT_EQ(sized.run.options.end, 0.05);
+}
+
+TEST(SizeSearch, RefusesTolerancesThatNoModelHas)
+{
+  const Read read(rod("modes = 8", by_steps));
+  const auto outputs = of_scene(read.scene, "x.max");
+  for (const double tolerance : {0., -1., 1e-9, 2.})
+  {
+    SizeOptions options;
+    options.tolerance = tolerance;
+    EXPECT_THROW(size_search(read.scene, outputs, options), std::invalid_argument) << tolerance;
+  }
+}
+
+TEST(OutputName, IsRefusedWithTheWayOut)
+{
+  const std::vector<std::string> signals = {"F_P", "x slide"};
+  for (const auto &[given, words] :
+       {std::pair("F_Q.max", "did you mean F_P.max?"), std::pair("F_P", "say what of it: F_P.max"),
+        std::pair("F_P.mean", "it has max, min"), std::pair("events", "is a count"),
+        std::pair("work.steps", "is a count"), std::pair("modes.9", "is not among the 4 modes"),
+        std::pair("modes.x", "needs the number of a mode")})
+    try
+    {
+      output_named(given, signals, 4);
+      ADD_FAILURE() << given;
+    }
+    catch (const std::invalid_argument &refused)
+    {
+      EXPECT_THAT(refused.what(), testing::HasSubstr(words)) << given;
+    }
+  EXPECT_EQ(outputs_named(" F_P.max , x slide.t_min,modes.2", signals, 4).size(), 3u);
+  EXPECT_EQ(outputs_named("", signals, 4).size(), 4u);
+}
+
+} // namespace gestell::tests
