@@ -69,15 +69,15 @@ Chart errors_chart(const ErrorBudget &budget)
 Chart cost_chart(const ErrorBudget &budget)
 {
   Chart chart;
-  chart.title   = "What it cost to know";
-  chart.note    = "processor time of the run (1), and of the second models of mesh (2), reduction (3) and time (4)";
-  chart.width   = 320.;
-  chart.x.begin = 0.5;
-  chart.x.end   = 4.5;
-  chart.x.ticks = {1., 2., 3., 4.};
-  chart.x.label = "computation";
-  chart.y.label = "CPU time [s]";
-  chart.y.begin = 0.;
+  chart.title        = "What it cost to know";
+  chart.note         = "1: the run; second models: 2 mesh, 3 reduction, 4 time";
+  chart.width        = 480.;
+  chart.x.begin      = 0.5;
+  chart.x.end        = 4.5;
+  chart.x.ticks      = {1., 2., 3., 4.};
+  chart.x.label      = "computation";
+  chart.y.label      = "CPU time [s]";
+  chart.y.begin      = 0.;
   double     highest = 0.;
   const auto add     = [&](int place, double seconds, int colour, const char *name)
   {
