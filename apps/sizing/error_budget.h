@@ -19,8 +19,8 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  *     mesh       |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1), r^3 the ratio of the numbers of coordinates: order 3/2 in h is
  *                between 1 of a sharp corner and 2 of smooth elements
  *
- * Where two models differ in the order of their events up to the instant that decides an output, the difference is no
- * error and none is told, but the bracket of all values.
+ * Where two models differ in the order of their events up to the instant that decides an output, their difference says
+ * nothing of its error: no number is given then, but the range of the values of all models.
  *
  * @param run  the scene's own answer.
  * @throws coupling::ConvergenceFailure if it is interrupted

@@ -24,18 +24,23 @@ std::string cell(const std::optional<double> &error)
 
 } // namespace
 
+Json entry_json(const BudgetEntry &entry)
+{
+  return {{"value", entry.value},
+          {"unit", entry.unit},
+          {"mesh", or_null(entry.mesh.error)},
+          {"reduction", or_null(entry.reduction.error)},
+          {"time", or_null(entry.time.error)},
+          {"total", or_null(entry.total)}};
+}
+
 Json budget_json(const ErrorBudget &budget)
 {
   Json json = Json::object();
   for (const BudgetEntry &entry : budget.entries)
   {
     Json &one = json[entry.output];
-    one       = {{"value", entry.value},
-                 {"unit", entry.unit},
-                 {"mesh", or_null(entry.mesh.error)},
-                 {"reduction", or_null(entry.reduction.error)},
-                 {"time", or_null(entry.time.error)},
-                 {"total", or_null(entry.total)}};
+    one       = entry_json(entry);
     if (entry.bracket)
       one["bracket"] = {entry.bracket->first, entry.bracket->second};
     one["reasons"] = {{"mesh", entry.mesh.reason}, {"reduction", entry.reduction.reason}, {"time", entry.time.reason}};

@@ -6,6 +6,9 @@
 namespace gestell::apps
 {
 
+/// `value`, `unit`, `mesh`, `reduction`, `time`, `total` of an output.
+Json entry_json(const BudgetEntry &entry);
+
 /// Of summary.json: by output `value`, `mesh`, `reduction`, `time`, `total` (absolute errors; null: not known), `unit`,
 /// `bracket`, `reasons`.
 Json budget_json(const ErrorBudget &budget);

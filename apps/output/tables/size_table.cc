@@ -1,5 +1,6 @@
 #include "apps/output/tables/size_table.h"
 
+#include "apps/output/tables/budget_table.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -11,11 +12,6 @@ namespace gestell::apps
 
 namespace
 {
-
-Json or_null(const std::optional<double> &value)
-{
-  return value ? Json(*value) : Json();
-}
 
 /// Full precision; empty: not known.
 std::string field(const std::optional<double> &value)
@@ -44,12 +40,7 @@ Json size_json(const SizeResult &size)
                             {"cpu_s", rung.cpu_s},
                             {"outputs", Json::object()}};
   for (const BudgetEntry &entry : rung.entries)
-    chosen["outputs"][entry.output] = {{"value", entry.value},
-                                       {"unit", entry.unit},
-                                       {"mesh", or_null(entry.mesh.error)},
-                                       {"reduction", or_null(entry.reduction.error)},
-                                       {"time", or_null(entry.time.error)},
-                                       {"total", or_null(entry.total)}};
+    chosen["outputs"][entry.output] = entry_json(entry);
   Json json = {{"tolerance", size.tolerance},
                {"met", size.met},
                {"stopped", size.stopped.empty() ? Json() : Json(size.stopped)},
@@ -57,7 +48,7 @@ Json size_json(const SizeResult &size)
                {"proof", Json::object()},
                {"finer", size.finer},
                {"left_out", size.left_out},
-               {"missing", size.missing}};
+               {"missing", Json::array()}};
   for (const SizeProof &proof : size.proof)
     json["proof"][proof.output] = {
         {"value", proof.value}, {"finer", proof.finer}, {"difference", std::abs(proof.finer - proof.value)}};
@@ -116,8 +107,6 @@ std::string size_text(const SizeResult &size)
          << proof.unit << '\n';
   for (const std::string &what : size.left_out)
     text << "may be left out: " << what << '\n';
-  for (const std::string &what : size.missing)
-    text << "missing: " << what << '\n';
   return text.str();
 }
 

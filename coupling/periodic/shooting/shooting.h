@@ -65,7 +65,7 @@ struct UndeterminedMotion : NoPeriodicMotion
   using NoPeriodicMotion::NoPeriodicMotion;
 };
 
-/// What is told of a motion that closes to `closing`, which is above the tolerance; empty: it is not.
+/// A note for users where a motion closes to `closing` only, worse than the tolerance; else empty.
 std::string closing_note(double closing, double tolerance);
 
 /// The motion of a passage that closes to `closing`, with the multipliers of its monodromy matrix if it has one.

@@ -70,7 +70,8 @@ ErrorBudget budget_of(const Scene &scene, const std::vector<OutputName> &outputs
 
 } // namespace
 
-/// Between half and three times the true error, which the whole rod and exact steps tell.
+/// At least half of the true error, which the whole rod and exact steps tell, and the reduction's part at most three
+/// times it; the part of the time may stand above that, as errors of the two can cancel.
 TEST(ErrorBudget, IsNearTheTrueErrorOfStepsAndModes)
 {
   for (const int modes : {3, 5, 8})
