@@ -8,6 +8,7 @@
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -48,7 +49,12 @@ void print_solutions(const PeriodicResult &result)
     if (!result.parameter.empty())
       std::cout << result.parameter << " = " << short_text(entry.parameter, 8) << ", ";
     std::cout << kind_of(s) << ", period " << short_text(s.period, 10) << " s, " << stability_text(s) << ", closes to "
-              << short_text(s.residual, 2) << '\n';
+              << short_text(s.residual, 2);
+    if (!std::isnan(s.share))
+      std::cout << ", from " << short_text(100. * s.share, 3) << " % of the starts";
+    if (s.method != result.method && result.method != "minimise" && !s.method.empty())
+      std::cout << ", found by " << s.method;
+    std::cout << '\n';
     if (result.parameter.empty())
       print_signals(entry);
     for (const std::string &note : s.notes)
@@ -64,9 +70,10 @@ void print_solutions(const PeriodicResult &result)
     std::cout << "  " << basins_text(*result.basins) << '\n';
   for (const std::string &note : result.notes)
     std::cout << "  " << note << '\n';
+  number = 0;
   for (const PeriodicCheck &check : result.checks)
   {
-    std::cout << "  by " << check.method << ": ";
+    std::cout << "  " << ++number << "  by " << check.method << ": ";
     if (!check.failure.empty())
       std::cout << check.failure;
     for (const auto &[name, distance] : check.distances)

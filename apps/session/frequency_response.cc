@@ -186,8 +186,7 @@ void check_frf_options(const FrfOptions &options)
 }
 
 FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options,
-                                        const std::vector<coupling::Mode> &modes, const coupling::Progress &progress,
-                                        std::vector<std::string> &warnings)
+                                        const coupling::Progress &progress, std::vector<std::string> &warnings)
 {
   tell(progress, "frequency response");
   coupling::Machine            &machine = prepared.small();
@@ -223,6 +222,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
     }
   }
   const double limit = frame && frame->frequency_limit_hz > 0. ? frame->frequency_limit_hz : std::nan("");
+  const auto   modes = coupling::linearised_modes(machine, point.state.q, {point.open}, scene.modes.number);
   sweep.run(asked_frequencies(options, modes, limit), modes, response, warnings);
   response.not_condensed = sweep.not_condensed();
   response.measured      = measured_responses(options.measured, response);

@@ -11,10 +11,9 @@ namespace gestell::apps
 void check_frf_options(const FrfOptions &options);
 
 /// Frequency responses of a scene's machine, on the reduced frame where it has an unreduced one.
-/// @param modes  of the coupled machine, about which frequencies are placed
+/// Frequencies are placed about the modes of the operating point, contacts as they are there.
 /// @throws std::invalid_argument for options that do not fit
 FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options,
-                                        const std::vector<coupling::Mode> &modes, const coupling::Progress &progress,
-                                        std::vector<std::string> &warnings);
+                                        const coupling::Progress &progress, std::vector<std::string> &warnings);
 
 } // namespace gestell::apps

@@ -164,7 +164,8 @@ bool is_wanted(const PeriodicProblem &problem, const PeriodicRequest &request,
 void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOptions &options, const Recurrence &motion,
                     std::vector<PeriodicSolution> &solutions, PeriodicResult &found)
 {
-  std::string failure;
+  const std::string by_method = found.failure;
+  std::string       failure;
   if (motion.repeats > 0 && !lasts(solutions))
     try
     {
@@ -176,7 +177,13 @@ void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOpti
       failure = none.what();
     }
   if (motion.is_recognised() || lasts(solutions))
+  {
+    if (!by_method.empty())
+      found.notes.push_back("the method found no motion (" + by_method +
+                            "); what stands here is where the long run led" +
+                            (solutions.empty() ? "" : ", closed by shooting"));
     found.failure.clear();
+  }
   if (!failure.empty())
     found.notes.push_back("the motion that it comes back to: " + failure);
 }

@@ -19,6 +19,7 @@ namespace
 constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
 constexpr int    harmonics_told  = 10;    ///< of the drive
 constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
+constexpr int    least_samples   = 4096;  ///< of a period, for extremes
 
 using coupling::PeriodicSolution;
 
@@ -45,7 +46,35 @@ std::vector<double> signal_rows(const coupling::RunResult &run, std::size_t n_si
   return rows;
 }
 
-/// The signals of a motion that is a series, at instants equally spaced.
+/// The extreme of the parabola through three samples about the middle one, where it is one: the samples bend alike
+/// there as beside, and do not at a kink.
+double vertex(double x_2, double x_1, double x0, double x1, double x2)
+{
+  constexpr double alike = 2.;
+  const double     bend = x1 - 2. * x0 + x_1, left = x0 - 2. * x_1 + x_2, right = x2 - 2. * x1 + x0;
+  for (const double beside : {left, right})
+    if (!(beside * bend > 0.) || std::abs(beside) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(beside))
+      return x0;
+  return x0 - (x1 - x_1) * (x1 - x_1) / (8. * bend);
+}
+
+/// Largest and least value of a periodic signal by samples of one period, the last being the first again.
+void find_extremes(const std::vector<double> &x, SignalOrbit &signal)
+{
+  const auto n  = std::ptrdiff_t(x.size()) - 1;
+  const auto at = [&](std::ptrdiff_t i)
+  {
+    return i < 0   ? x[std::size_t(i + n)] - (x.back() - x.front())
+           : i > n ? x[std::size_t(i - n)] + (x.back() - x.front())
+                   : x[std::size_t(i)];
+  };
+  const auto high = std::max_element(x.begin(), x.end()) - x.begin(),
+             low  = std::min_element(x.begin(), x.end()) - x.begin();
+  signal.max = std::max(x[std::size_t(high)], vertex(at(high - 2), at(high - 1), at(high), at(high + 1), at(high + 2)));
+  signal.min = std::min(x[std::size_t(low)], vertex(at(low - 2), at(low - 1), at(low), at(low + 1), at(low + 2)));
+}
+
+/// The signals of a motion that is a series, at instants equally spaced; extremes between them from more.
 void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                    const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows,
                    PeriodicEntry &entry)
@@ -54,26 +83,30 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
   std::optional<coupling::Accelerations> accelerations;
   if (std::any_of(signals.begin(), signals.end(), [](const auto &signal) { return signal.reads_acceleration(); }))
     accelerations.emplace(machine);
-  const Eigen::VectorXd none;
-  coupling::trace(problem, solution, rows,
+  const Eigen::VectorXd            none;
+  const int                        finer = std::max(1, least_samples / rows);
+  std::vector<std::vector<double>> samples(signals.size());
+  int                              k = 0;
+  coupling::trace(problem, solution, finer * rows,
                   [&](const coupling::OrbitPoint &point)
                   {
                     const Eigen::VectorXd &a = accelerations ? accelerations->at(point.q, point.v, point.local) : none;
-                    entry.rows.push_back(point.t);
-                    for (const coupling::Signal &signal : signals)
-                      entry.rows.push_back(machine.evaluate(signal, point.q, point.v, a, point.local));
+                    const bool             row = k++ % finer == 0;
+                    if (row)
+                      entry.rows.push_back(point.t);
+                    for (std::size_t j = 0; j < signals.size(); ++j)
+                    {
+                      samples[j].push_back(machine.evaluate(signals[j], point.q, point.v, a, point.local));
+                      if (row)
+                        entry.rows.push_back(samples[j].back());
+                    }
                   });
   for (std::size_t j = 0; j < signals.size(); ++j)
   {
     SignalOrbit signal;
     signal.name = signals[j].name;
     signal.unit = signals[j].unit;
-    signal.max = signal.min = entry.rows[j + 1];
-    for (std::size_t i = j + 1; i < entry.rows.size(); i += signals.size() + 1)
-    {
-      signal.max = std::max(signal.max, entry.rows[i]);
-      signal.min = std::min(signal.min, entry.rows[i]);
-    }
+    find_extremes(samples[j], signal);
     entry.signals.push_back(signal);
   }
 }
@@ -98,14 +131,48 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
   return {&coupling::periodic_method("shooting"), "it takes few periods, and tells the stability"};
 }
 
+void check_options(const PeriodicRequest &request, const std::string &method)
+{
+  if (request.lead_in < 0 && request.lead_in != PeriodicRequest::as_usual)
+    throw std::invalid_argument("--lead-in is " + std::to_string(request.lead_in) +
+                                "; it is a number of periods: 0 or more");
+  if (request.check == method)
+    throw std::invalid_argument("--check " + method + ": the motion is found by " + method +
+                                " already, and would be compared with itself; name another method");
+  if (!request.along.empty() && method == "averaging")
+    throw std::invalid_argument("--along: averaging follows no branch; take --method harmonic-balance --harmonics 1, "
+                                "which has its equations without the limit of small changes");
+  struct Taken
+  {
+    const char              *option;
+    bool                     given;
+    std::vector<std::string> by;
+  };
+  const Taken all[] = {{"--harmonics", request.harmonics > 0, {"harmonic-balance"}},
+                       {"--starts", request.starts > 0, {"minimise"}},
+                       {"--damping", request.damping > 0., {"settling"}},
+                       {"--lead-in",
+                        request.lead_in != PeriodicRequest::as_usual,
+                        {"shooting", "harmonic-balance", "collocation", "minimise"}}};
+  for (const Taken &taken : all)
+  {
+    const auto is_by = [&](const std::string &name)
+    { return std::find(taken.by.begin(), taken.by.end(), name) != taken.by.end(); };
+    if (taken.given && !is_by(method) && !is_by(request.check))
+      throw std::invalid_argument(std::string(taken.option) + " does nothing here, as the motion is found by " +
+                                  method + "; add --method " + taken.by.front() + ", or leave it out");
+  }
+}
+
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine)
 {
   coupling::PeriodicOptions options;
-  options.harmonics     = request.harmonics;
-  options.starts        = request.starts;
+  options.harmonics = request.harmonics;
+  if (request.starts > 0)
+    options.starts = request.starts;
   options.extra_damping = request.damping;
-  if (request.lead_in >= 0)
+  if (request.lead_in != PeriodicRequest::as_usual)
     options.lead_in = request.lead_in;
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;

@@ -24,13 +24,10 @@ constexpr double      same        = 1e-5; ///< distance of two motions, of their
 using coupling::PeriodicSolution;
 
 std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &family, const PeriodicSolution &first,
-                                                         coupling::PeriodicOptions options, int doubling)
+                                                         const coupling::PeriodicOptions &options, int doubling)
 {
   if (first.series)
-  {
-    options.harmonics = first.series->harmonics();
     return coupling::balance_branch(family.problems(), options);
-  }
   if (first.method == "collocation")
     return coupling::collocation_branch(family.problems(), options, doubling);
   return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);

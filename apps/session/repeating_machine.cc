@@ -22,6 +22,7 @@ constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elasti
 constexpr double equal_periods = 1e-9; ///< of loads and a period that is given
 constexpr double equal_turns   = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
 constexpr double turns_tried   = 3.;   ///< of the fastest angle
+constexpr double drifting_runs = 100.; ///< in which what turns comes round at least once
 constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
 constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
@@ -37,6 +38,13 @@ struct MovingAngles
         rotors.push_back(body.coordinate);
       else if (body.kind == BodyKind::planar && start.v[body.coordinate + 2] != 0.)
         planar.push_back(body.coordinate + 2);
+  }
+
+  /// Planar bodies that would not come round in many runs.
+  void leave_out_drifting(const coupling::InitialState &start, double run)
+  {
+    const auto drifts = [&](int i) { return std::abs(start.v[i]) * drifting_runs * run < 2. * M_PI; };
+    planar.erase(std::remove_if(planar.begin(), planar.end(), drifts), planar.end());
   }
 };
 
@@ -108,12 +116,15 @@ struct Turns
 };
 
 /// Rotors turn with the speeds they have at the start.  Whether planar bodies turn or swing shows in some turns.
-Turns turns_of(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start)
+Turns turns_of(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
+               const std::atomic<bool> *stop)
 {
-  Turns              turns{VectorXd::Zero(machine.size()), start.v};
-  const MovingAngles moving(machine, start);
-  std::vector<int>   angles    = moving.rotors;
-  double             tolerance = equal_speeds;
+  Turns        turns{VectorXd::Zero(machine.size()), start.v};
+  MovingAngles moving(machine, start);
+  if (scene.run.given)
+    moving.leave_out_drifting(start, scene.run.options.end - scene.run.options.begin);
+  std::vector<int> angles    = moving.rotors;
+  double           tolerance = equal_speeds;
   if (!moving.planar.empty())
   {
     double fastest = 0.;
@@ -121,8 +132,8 @@ Turns turns_of(const Scene &scene, coupling::Machine &machine, const coupling::I
       for (const int i : *group)
         fastest = std::max(fastest, std::abs(start.v[i]));
     const double   time = turns_tried * 2. * M_PI / fastest;
-    const VectorXd way =
-        coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time);
+    const VectorXd way  = coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.},
+                                               start.t, time, stop);
     for (const int i : moving.planar)
       if (way[i] != 0.)
       {
@@ -255,7 +266,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   problem.ratio                      = request.ratio;
   problem.stop                       = stop;
   repeating.guess                    = {start.q, start.v, 0.};
-  const Turns turns                  = turns_of(scene, machine, start);
+  const Turns turns                  = turns_of(scene, machine, start, stop);
   problem.turn                       = turns.turn;
   problem.period                     = asked_period(request);
   const std::vector<double> omega    = load_frequencies(machine);

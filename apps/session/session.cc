@@ -114,7 +114,7 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
       const auto solutions = second.method->solve(problem, near, again);
       found.checks.push_back(compared(entry, entry_of(machine, problem, solutions.front(), signals, orbit_rows), name));
     }
-    catch (const std::runtime_error &none)
+    catch (const std::exception &none) // among them what the method refuses of this motion
     {
       found.checks.push_back({name, {}, none.what()});
     }
@@ -229,7 +229,7 @@ Result Session::frequency_response(const FrfOptions &options)
   progress()("modes", -1.);
   Result result = begin_result(scene_, "frf", prepared);
   result.asked  = {path_, overrides_, std::nullopt};
-  result.frf    = frequency_response_of(scene_, prepared, options, result.coupled_modes, progress(), result.warnings);
+  result.frf    = frequency_response_of(scene_, prepared, options, progress(), result.warnings);
   return finished(std::move(result));
 }
 
@@ -287,6 +287,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   check_long_run(request);
   check_basins(machine, repeating.problem, request);
   const ChosenMethod chosen = chosen_method(repeating, request.method);
+  check_options(request, chosen.method->name());
   if (!request.check.empty())
     chosen_method(repeating, request.check);
   const auto     options = periodic_options(scene_, request, machine);

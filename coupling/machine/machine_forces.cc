@@ -84,6 +84,14 @@ const std::vector<HeldMeasure> &MachineForces::held() const
   return parts_.held;
 }
 
+std::string MachineForces::element_of(int measure) const
+{
+  for (const auto &part : parts_.placed)
+    if (measure >= part.first_measure && measure < part.first_measure + part.n_measures)
+      return part.name;
+  return LocalForces::element_of(measure);
+}
+
 double MachineParts::held_rate(int measure) const
 {
   for (const HeldMeasure &h : held)

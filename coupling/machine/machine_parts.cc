@@ -208,6 +208,7 @@ void MachineParts::place_elements(int n)
     while (n_motions > 0 && is_lag(placement.measures[n_motions - 1]))
       --n_motions;
     placed.push_back({placement.element.get(), n_measures, k, n_history, n_motions});
+    placed.back().name = placement.name;
     if (const int n_c = mechanism::n_constraints(*placement.element); n_c > 0)
     {
       placed.back().first_constraint = placed.back().first_multiplier = n_constraints;

@@ -38,6 +38,7 @@ struct MachineParts
     int                       came  = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
     int                       first_constraint = -1; ///< of an ideal joint: the first row of its equations
     int                       first_multiplier = -1; ///< of a joint or its friction: the first one it sees
+    std::string               name{};                ///< in the scene
 
     // Which of the two it is, and its facets; null where it has none.
     const mechanism::ForceLaw   *law       = element->force_law();

@@ -48,6 +48,7 @@ public:
   void tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                       Eigen::VectorXd &blocks) const override;
   const std::vector<HeldMeasure> &held() const override;
+  std::string                     element_of(int measure) const override;
   bool                            need_multipliers() const override;
 
 private:

@@ -1,6 +1,7 @@
 #include "coupling/periodic/averaging.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,18 @@ namespace
 {
 
 using Complex = std::complex<double>;
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int    rest_iterations = 100, mean_iterations = 500;
 constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
-constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
-constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
-constexpr double least_damping = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
-constexpr int    grid_points   = 1500;
+constexpr double reach            = 1e3;  ///< of amplitudes searched, below that of the linear system
+constexpr double beyond           = 10.;  ///< the same above its amplitude in resonance
+constexpr double least_damping    = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
+constexpr int    grid_points      = 1500;
+constexpr double beside_resonance = 1.03; ///< times the period: an undamped base has no response at its resonance
+constexpr double far_away         = 0.5;  ///< of the amplitude: another motion
 
 [[noreturn]] void refuse_averaging(const std::string &reason)
 {
@@ -167,6 +171,8 @@ void SlowFlow::settle_mean(double a)
 
 SlowFlow::Rates SlowFlow::at(double a)
 {
+  if (problem_.interrupted())
+    throw SearchInterrupted();
   if (W_.cols() == 0)
     return {omega_0_, 0.5 * linear_damping_};
   settle_mean(a);
@@ -287,7 +293,10 @@ public:
                                       const PeriodicOptions &options) const override;
 
 private:
-  static PeriodicSolution solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a);
+  static PeriodicSolution solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a,
+                                      const PeriodicOptions &options);
+  static std::string      left_out(const PeriodicProblem &problem, const PeriodicSolution &solution,
+                                   const PeriodicOptions &options);
   static FourierSeries    series_of(const PeriodicProblem &problem, SlowFlow &flow, double a, double period);
 };
 
@@ -331,7 +340,8 @@ FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlo
   return series;
 }
 
-PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a)
+PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a,
+                                              const PeriodicOptions &options)
 {
   const Eigen::Vector2cd exponents = flow.eigenvalues(a);
   const SlowFlow::Rates  rates     = flow.at(a);
@@ -353,16 +363,79 @@ PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, Sl
   note << "first order in what the elements add to the frequency of the mode, here "
        << std::abs(rates.omega / flow.omega_0() - 1.) << " of it; multipliers are those of this mode";
   solution.notes.push_back(note.str());
+  solution.notes.push_back(left_out(problem, solution, options));
   return solution;
 }
 
+/// |a - b| / |a| of their coefficients, means left out; of harmonics that one has not, all.
+double distance_of(const FourierSeries &a, const FourierSeries &b)
+{
+  double apart = 0., size = 0.;
+  for (int h = 1; h <= std::max(a.harmonics(), b.harmonics()); ++h)
+    for (const auto part : {&FourierSeries::cosine, &FourierSeries::sine})
+    {
+      const VectorXd none = VectorXd::Zero(a.ramp.size());
+      const VectorXd x    = h <= a.harmonics() ? VectorXd((a.*part).col(h)) : none;
+      const VectorXd y    = h <= b.harmonics() ? VectorXd((b.*part).col(h)) : none;
+      apart += (x - y).squaredNorm();
+      size += x.squaredNorm();
+    }
+  return std::sqrt(apart / size);
+}
+
+/// How far harmonic balance with three times the harmonics is from it.
+std::string AveragingMethod::left_out(const PeriodicProblem &problem, const PeriodicSolution &solution,
+                                      const PeriodicOptions &options)
+{
+  std::ostringstream note;
+  note.precision(2);
+  try
+  {
+    PeriodicOptions few = options;
+    few.harmonics       = 3 * solution.series->harmonics();
+    const auto balanced = [&](double period) {
+      return harmonic_balance_method().solve(problem, {solution.q, solution.v, period}, few).front();
+    };
+    PeriodicSolution other;
+    try
+    {
+      other = balanced(solution.period);
+    }
+    catch (const std::exception &) // of its resonance
+    {
+      if (!problem.period_is_unknown() || problem.interrupted())
+        throw;
+      other = balanced(beside_resonance * solution.period);
+    }
+    if (const double apart = distance_of(*solution.series, *other.series); apart <= far_away)
+    {
+      note << "harmonic balance with " << few.harmonics << " harmonics differs from it by " << apart
+           << " of its amplitude";
+      if (problem.period_is_unknown())
+        note << " and by " << std::abs(other.period / solution.period - 1.) << " of its period";
+      return note.str();
+    }
+    note << "harmonic balance with " << few.harmonics << " harmonics leads to another motion from here";
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const std::exception &) // a law that harmonic balance does not take, or no motion
+  {
+    note << "harmonic balance finds no motion near it";
+  }
+  note << ": how much averaging leaves out is not known; --check shooting tells";
+  return note.str();
+}
+
 std::vector<PeriodicSolution> AveragingMethod::solve(const PeriodicProblem &problem, const PeriodicGuess &,
-                                                     const PeriodicOptions &) const
+                                                     const PeriodicOptions &options) const
 {
   SlowFlow                      flow(problem);
   std::vector<PeriodicSolution> found;
   for (const double a : flow.amplitudes())
-    found.push_back(solution_of(problem, flow, a));
+    found.push_back(solution_of(problem, flow, a, options));
   if (found.empty())
   {
     std::ostringstream message;

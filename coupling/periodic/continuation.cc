@@ -248,7 +248,13 @@ Branch Tracker::follow(Point here)
         ds_ = std::min(1.3 * ds_, widest * wanted_);
     }
     if (branch_.ended.empty())
-      branch_.ended = goes_on ? "it has " + std::to_string(options_.most) + " points" : "interrupted";
+    {
+      branch_.failed = goes_on;
+      branch_.ended  = goes_on ? "its steps have become so short that " + std::to_string(options_.most) +
+                                    " points do not reach the end: beyond " + std::to_string(here.lambda) +
+                                    " try another method or fewer harmonics"
+                               : "interrupted";
+    }
   }
   catch (const std::exception &failure)
   {

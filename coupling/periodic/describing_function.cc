@@ -108,6 +108,7 @@ constexpr double gauss_weights[]   = {0.129484966168869693270611432679082, 0.279
                                       0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
 
 constexpr double agreement   = 1e-13; ///< of two rules, of the largest force times the interval
+constexpr double noise       = 1e-8;  ///< most that intervals of rounding alone may err by, of the largest force [rad]
 constexpr int    most_halves = 52;    ///< of the quarter of a period: to rounding
 
 } // namespace
@@ -150,18 +151,26 @@ void DescribedForces::kronrod(double from, double to, Sums &fine, Sums &rough)
     }
 }
 
-void DescribedForces::add(double from, double to, int depth)
+/// Halves the interval where the rules disagree.  Kinks and jumps make one half disagree, at most both where there are
+/// two; where halves of both halves do, it is rounding that no halving mends, as of a force that has only begun.
+void DescribedForces::add(double from, double to, int depth, bool twin_disagrees)
 {
-  Sums fine, rough;
-  kronrod(from, to, fine, rough);
-  if (depth >= most_halves || (fine - rough).cwiseAbs().maxCoeff() <= agreement * largest_ * (to - from))
+  const double middle = 0.5 * (from + to), ends[] = {from, middle, to};
+  Sums         fine[2], rough[2];
+  double       error[2];
+  for (int i = 0; i < 2; ++i)
   {
-    sum_ += fine;
-    return;
+    kronrod(ends[i], ends[i + 1], fine[i], rough[i]);
+    error[i] = (fine[i] - rough[i]).cwiseAbs().maxCoeff();
   }
-  const double middle = 0.5 * (from + to);
-  add(from, middle, depth + 1);
-  add(middle, to, depth + 1);
+  const double enough  = agreement * largest_ * (middle - from);
+  const bool   both    = error[0] > enough && error[1] > enough;
+  const bool   rounded = both && twin_disagrees && error[0] + error[1] <= noise * largest_;
+  for (int i = 0; i < 2; ++i)
+    if (depth >= most_halves || rounded || error[i] <= enough)
+      sum_ += fine[i];
+    else
+      add(ends[i], ends[i + 1], depth + 1, both);
 }
 
 DescribingFunction DescribedForces::at(const Eigen::VectorXd &u_0, double A, double omega)
@@ -171,9 +180,9 @@ DescribingFunction DescribedForces::at(const Eigen::VectorXd &u_0, double A, dou
   omega_   = omega;
   largest_ = 0.;
   sum_.setZero(d_.size() + 2);
-  constexpr int parts = 8; // quarters halved: what is even in them is seen
+  constexpr int parts = 4; // quarters, which are halved: what is even in them is seen
   for (int i = 0; i < parts; ++i)
-    add(2. * M_PI * i / parts, 2. * M_PI * (i + 1) / parts, 0);
+    add(2. * M_PI * i / parts, 2. * M_PI * (i + 1) / parts, 0, false);
   const Eigen::Index n = d_.size();
   mean_                = sum_.head(n) / (2. * M_PI);
   return {-d_.dot(mean_), -sum_[n] / (M_PI * A), sum_[n + 1] / (M_PI * A * omega)};

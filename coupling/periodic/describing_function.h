@@ -72,7 +72,7 @@ private:
   using Sums = Eigen::VectorXd; ///< int p, int d^T p cos, int d^T p sin [n_u + 2]
 
   Sums integrand(double phi);
-  void add(double from, double to, int depth);
+  void add(double from, double to, int depth, bool twin_disagrees);
   void kronrod(double from, double to, Sums &fine, Sums &rough);
 
   const LocalForces &forces_;

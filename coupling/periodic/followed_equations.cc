@@ -28,6 +28,8 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double left_out_of_branch = 1e-8; ///< of the motion, above which harmonics are added
+
 class ShootingBranch final : public BranchEquations
 {
 public:
@@ -79,13 +81,19 @@ private:
   std::unique_ptr<ShootingEquations> equations_;
 };
 
+/// Harmonics are added where those of the last point leave out too much, unless their number is given.
 class BalanceBranch final : public BranchEquations
 {
 public:
-  BalanceBranch(ProblemFamily family, const PeriodicOptions &options) : family_(std::move(family)), options_(options) {}
+  BalanceBranch(ProblemFamily family, const PeriodicOptions &options)
+      : family_(std::move(family)), options_(options), harmonics_(options.harmonics)
+  {
+  }
 
   VectorXd unknowns(const PeriodicSolution &solution, double lambda) override
   {
+    if (harmonics_ == 0)
+      harmonics_ = solution.series->harmonics();
     form(lambda);
     return balance_->pack(*solution.series);
   }
@@ -107,9 +115,26 @@ public:
   PeriodicSolution solution() override
   {
     HarmonicNewton newton;
-    newton.converged = true;
-    newton.residual  = closing_;
-    return finished_balance(member_.problem, *balance_, z_, newton, options_);
+    newton.converged          = true;
+    newton.residual           = closing_;
+    PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
+    solution.notes.push_back(
+        note_of_harmonics(*balance_, balance_->left_out(z_), left_out_of_branch, options_.harmonics > 0));
+    return solution;
+  }
+
+  bool refit(const PeriodicSolution &, MatrixXd &Z) override
+  {
+    const int next = options_.harmonics > 0 ? 0 : more_harmonics(member_.problem, harmonics_);
+    if (next == 0 || balance_->left_out(z_).motion <= left_out_of_branch)
+      return false;
+    const MatrixXd before = Z;
+    balance_->set_harmonics(next);
+    Z = MatrixXd(balance_->size(), before.cols());
+    for (Eigen::Index k = 0; k < before.cols(); ++k)
+      Z.col(k) = balance_->filled_up(before.col(k), harmonics_);
+    harmonics_ = next;
+    return true;
   }
 
 private:
@@ -119,12 +144,13 @@ private:
       return;
     balance_.reset();
     member_  = member_at(family_, lambda);
-    balance_ = std::make_unique<HarmonicBalance>(member_.problem, options_.harmonics);
+    balance_ = std::make_unique<HarmonicBalance>(member_.problem, harmonics_);
     lambda_  = lambda;
   }
 
   ProblemFamily                    family_;
   PeriodicOptions                  options_;
+  int                              harmonics_;
   double                           lambda_ = 0., closing_ = 0.;
   FamilyMember                     member_;
   std::unique_ptr<HarmonicBalance> balance_;

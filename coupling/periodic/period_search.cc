@@ -136,9 +136,10 @@ double common_period(const std::vector<double> &omega)
 }
 
 VectorXd advance_of(SecondOrderSystem &system, const MethodOptions &integration, const PeriodicGuess &from,
-                    double begin, double time)
+                    double begin, double time, const std::atomic<bool> *stop)
 {
   PeriodicProblem problem;
+  problem.stop   = stop;
   problem.system = &system;
   problem.begin  = begin;
   problem.period = time;

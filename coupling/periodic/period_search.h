@@ -18,10 +18,10 @@ double common_period(const std::vector<double> &omega);
 /**
  * How far coordinates go in `time` [s] from q, q' at t_0 without ever turning back [n]; 0: one that swings.
  *
- * @throws ConvergenceFailure
+ * @throws ConvergenceFailure, SearchInterrupted
  */
 Eigen::VectorXd advance_of(SecondOrderSystem &system, const MethodOptions &integration, const PeriodicGuess &from,
-                           double begin, double time);
+                           double begin, double time, const std::atomic<bool> *stop);
 
 /// An oscillation that goes on by itself.
 struct FreeOscillation

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
@@ -64,6 +65,8 @@ public:
                               Eigen::VectorXd &blocks) const;
   /// Measures that stick in the branches that are active now; changed by Events.
   virtual const std::vector<HeldMeasure> &held() const;
+  /// Name in the scene of the element whose measure it is, for messages.  Default: "an element".
+  virtual std::string element_of(int) const { return "an element"; }
   /// Forces depend on the multipliers of joints (friction in them), which follow from the forces: a start iterates.
   virtual bool need_multipliers() const { return false; }
 };

@@ -48,6 +48,8 @@ std::vector<double> stretched(std::vector<double> mesh, std::vector<double> from
   return mesh;
 }
 
+const std::string by_shooting = ", beyond which the mesh does not follow it; take --method shooting";
+
 /// z = (y of PeriodicCollocation, weighted; places of the events in the mesh).  Newton's method leaves the places as
 /// they are: F is zero in their rows.  follow_motion() moves them.
 class CollocationBranch final : public BranchEquations
@@ -237,12 +239,12 @@ void CollocationBranch::move_events(const std::vector<double> &events)
   if (events == events_)
     return;
   if (events.size() != events_.size())
-    throw ConvergenceFailure("the number of events changes");
+    throw ConvergenceFailure("the number of events changes" + by_shooting);
   for (std::size_t k = 0; k < events.size(); ++k)
     if (std::abs(events[k] - events_[k]) > longest_move)
-      throw ConvergenceFailure("an event of the motion passes the begin of the period");
+      throw ConvergenceFailure("an event of the motion passes the begin of the period" + by_shooting);
   if (!std::is_sorted(events.begin(), events.end()) || !(events.front() > 0.) || !(events.back() < 1.))
-    throw ConvergenceFailure("events of the motion change their order");
+    throw ConvergenceFailure("events of the motion change their order" + by_shooting);
   mesh_   = stretched(mesh_, events_, events);
   events_ = events;
   collocation_->set_mesh(mesh_);

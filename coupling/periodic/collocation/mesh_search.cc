@@ -15,6 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int    first_intervals = 16, most_at_first = 128, most_unknowns = 3000, most_rounds = 24;
+constexpr int    memory_samples = 256;
+constexpr double remembered =
+    1e-3; ///< share of the largest force above which memory counts; a branch kept up to its event is less
 constexpr double same_point = 1e-9; ///< of the period
 constexpr double far_off    = 1e-3; ///< error of a mesh that is no answer
 } // namespace
@@ -69,12 +72,40 @@ void MeshSearch::set_mesh(std::vector<double> points)
   collocation_.set_mesh(mesh_of(points));
 }
 
+/// Forces of the motion at hand against those of the laws for the same measures, which is what a mesh sees.
+void MeshSearch::refuse_memory(const PeriodicGuess &start)
+{
+  const LocalForces      &forces = problem_.system->forces();
+  std::vector<LocalState> states;
+  flow_.look_on(memory_samples, [&](const OrbitPoint &point) { states.push_back(point.local); });
+  flow_.pass(start.q, start.v, start.period, false);
+  flow_.look_on(0, {});
+  problem_.system->events().follow_history(false);
+  VectorXd p = VectorXd::Zero(states.front().p.size()), largest = p, differs = p;
+  for (LocalState &state : states)
+  {
+    const VectorXd passed = state.p;
+    forces.force(state, p);
+    largest = largest.cwiseMax(passed.cwiseAbs());
+    differs = differs.cwiseMax((p - passed).cwiseAbs());
+  }
+  Index worst = 0;
+  if (differs.size() == 0 || !(differs.maxCoeff(&worst) > remembered * largest.maxCoeff()))
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "collocation: " << forces.element_of(int(worst)) << " remembers what was before, by "
+       << differs[worst] / largest.maxCoeff()
+       << " of the largest force, which a law of the motion alone does not; take shooting";
+  throw std::invalid_argument(text.str());
+}
+
 void MeshSearch::begin(const PeriodicGuess &guess)
 {
   PeriodicGuess start = guess;
   if (!problem_.period_is_unknown() || !(start.period > 0.))
     start.period = problem_.period;
-  flow_.pass(start.q, start.v, start.period, false);
+  refuse_memory(start);
   for (int n = first_intervals;; n *= 2)
     try
     {

@@ -25,6 +25,7 @@ public:
   PeriodFlow &flow() { return flow_; }
   /// On uniform meshes, finer where Newton's method does not converge from the guess; then halved where they err.
   /// @throws NoPeriodicMotion
+  /// @throws std::invalid_argument if an element remembers: its force is no function of the motion then
   void run(const PeriodicGuess &guess);
   /// What was found, with multipliers where the integrator has tangents.
   PeriodicSolution solution();
@@ -34,6 +35,7 @@ public:
   double                     error() const { return errors_.maxCoeff(); } ///< see PeriodicCollocation::errors()
 
 private:
+  void refuse_memory(const PeriodicGuess &start);
   void begin(const PeriodicGuess &guess);
   void solve();
   bool refine();

@@ -17,6 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+constexpr double negligible_force = 1e-6; ///< range of a force, of the largest: its error is not looked at
+
 /// Place of cos h (of sin h with sine = 1) among c_0, c_1, s_1, ...
 int place_of(int h, int sine)
 {
@@ -93,6 +95,15 @@ VectorXd HarmonicBalance::linear_start()
   for (int h = 0; h <= harmonics_; ++h)
     put(h, base_.u0(h), z);
   return z;
+}
+
+VectorXd HarmonicBalance::filled_up(const VectorXd &z, int harmonics) const
+{
+  const int n                       = n_u_ * (2 * harmonics + 1);
+  VectorXd  filled                  = VectorXd::Zero(size_);
+  filled.head(n)                    = z.head(n);
+  filled.tail(size_ - first_free()) = z.tail(z.size() - n);
+  return filled;
 }
 
 VectorXd HarmonicBalance::start_through(const VectorXd &q, const VectorXd &v)
@@ -282,24 +293,38 @@ VectorXd HarmonicBalance::scales(const VectorXd &z) const
   return scale;
 }
 
-double HarmonicBalance::left_out(const VectorXd &z)
+HarmonicBalance::LeftOut HarmonicBalance::left_out(const VectorXd &z)
 {
+  if (n_u_ == 0)
+    return {};
   VectorXd r;
   residual(z, r);
   const VectorXd scale = scales(z);
   const int      above = std::min(samples() / 4, 4 * harmonics_ + 8);
   base_.form(2. * M_PI / period_, above, BaseResponse::Slopes::none);
-  formed_      = 0.;
-  VectorXd sum = VectorXd::Zero(n_u_);
+  formed_                    = 0.;
+  VectorXd   sum             = VectorXd::Zero(n_u_);
+  MatrixXcd  u               = MatrixXcd::Zero(n_u_, above + 1);
+  const auto here            = coefficients_of(z);
+  u.leftCols(harmonics_ + 1) = here;
   for (int h = harmonics_ + 1; h <= above; ++h)
-    sum += 4. * (base_.R(h) * forces_->forces().col(h) + base_.u0(h)).head(n_u_).cwiseAbs2();
+  {
+    u.col(h) = (base_.R(h) * forces_->forces().col(h) + base_.u0(h)).head(n_u_);
+    sum += 4. * u.col(h).cwiseAbs2();
+  }
   const MatrixXcd errors = forces_->sampling_errors();
   for (int h = 0; h <= harmonics_; ++h)
     sum += (h == 0 ? 1. : 4.) * (base_.R(h) * errors.col(h)).head(n_u_).cwiseAbs2();
-  return n_u_ > 0 ? sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff() : 0.;
+  LeftOut        left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.};
+  const VectorXd ranges = forces_->ranges(), changes = forces_->changes(here, u, 2. * M_PI / period_);
+  const double   least = negligible_force * ranges.maxCoeff();
+  for (int i = 0; i < n_u_; ++i)
+    if (ranges[i] > least)
+      left.forces = std::max(left.forces, changes[i] / ranges[i]);
+  return left;
 }
 
-double HarmonicBalance::memory(const VectorXd &z)
+HarmonicForces::Memory HarmonicBalance::memory(const VectorXd &z)
 {
   use(z);
   return forces_->memory(coefficients_of(z), 2. * M_PI / period_);

@@ -54,6 +54,9 @@ public:
   /// The unknowns of a motion that is known, cut or filled to H harmonics.
   Eigen::VectorXd pack(const FourierSeries &motion) const;
 
+  /// The unknowns (or a change of them) of `harmonics` harmonics with zeros for those above.
+  Eigen::VectorXd filled_up(const Eigen::VectorXd &z, int harmonics) const;
+
   /// r(z) [size], each in the unit of the unknown at its place.
   void residual(const Eigen::VectorXd &z, Eigen::VectorXd &r);
   /// The same with dr/dz.
@@ -63,11 +66,15 @@ public:
   /// A size of each unknown: the amplitude of its measure, of z as a whole where that rests.
   Eigen::VectorXd scales(const Eigen::VectorXd &z) const;
 
-  /// Displacement that forces above harmonic H would give, against the motion: |sum_{h>H} R_h p_h| / |u|, the largest
-  /// of all measures that move.
-  double left_out(const Eigen::VectorXd &z);
-  /// Whether laws remember beyond what the motion shows, and by how much of the force; see HarmonicForces::memory().
-  double memory(const Eigen::VectorXd &z);
+  /// What H harmonics leave out.
+  struct LeftOut
+  {
+    double motion = 0.; ///< that forces above harmonic H would add, |sum_{h>H} R_h p_h| / |u|, of what moves most of it
+    double forces = 0.; ///< largest change of a force that this motion makes, of its range
+  };
+  LeftOut left_out(const Eigen::VectorXd &z);
+  /// Whether laws remember beyond what the motion shows, and by how much of the force.
+  HarmonicForces::Memory memory(const Eigen::VectorXd &z);
 
   /// All coordinates, in the time t itself.
   FourierSeries series(const Eigen::VectorXd &z);

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double shortest_share  = 1. / 256.; ///< of a Newton step
 constexpr double floor_of_steps  = 1e-13;     ///< a Newton step that is rounding, relative
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
-constexpr int    first_harmonics = 8, more_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
+constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500, most_asked = 8000;
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
@@ -142,8 +142,39 @@ PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalanc
   return solution;
 }
 
+int more_harmonics(const PeriodicProblem &problem, int harmonics)
+{
+  const int next = 2 * harmonics, n_u = int(problem.system->forces().directions().cols());
+  return next > most_harmonics || n_u * (2 * next + 1) > most_unknowns ? 0 : next;
+}
+
+std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBalance::LeftOut &left, double tolerance,
+                              bool given)
+{
+  std::ostringstream note;
+  note.precision(2);
+  note << balance.harmonics() << " harmonics of " << balance.samples() << " samples; what they leave out would add "
+       << left.motion << " of the motion and change the forces by " << left.forces << " of their range";
+  if (left.motion > tolerance)
+    note << (given ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
+  return note.str();
+}
+
 namespace
 {
+
+/// Unknowns of harmonics that were asked for.
+void require_unknowns(const PeriodicProblem &problem, int harmonics)
+{
+  const auto n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
+  if (n_u * (2. * harmonics + 1.) <= most_asked)
+    return;
+  std::ostringstream text;
+  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are "
+       << n_u * (2. * harmonics + 1.) << " unknowns; up to " << most_asked << " are handled: ask for at most "
+       << (most_asked / n_u - 1) / 2 << " harmonics";
+  throw std::invalid_argument(text.str());
+}
 
 class HarmonicBalanceMethod final : public PeriodicMethod
 {
@@ -196,16 +227,17 @@ public:
 private:
   bool solve_from(const VectorXd &start);
   bool solve_from_orbit(PeriodicGuess guess, int periods);
-  int  next_harmonics() const;
   void check_memory();
 
-  const PeriodicProblem &problem_;
-  const PeriodicOptions &options_;
-  HarmonicBalance        balance_;
-  VectorXd               z_;
-  HarmonicNewton         newton_;
-  int                    iterations_ = 0;
-  double                 left_out_   = 0.;
+  const PeriodicProblem   &problem_;
+  const PeriodicOptions   &options_;
+  HarmonicBalance          balance_;
+  VectorXd                 z_;
+  HarmonicNewton           newton_;
+  int                      iterations_ = 0;
+  PeriodicGuess            guess_;
+  HarmonicBalance::LeftOut left_out_;
+  std::string              failed_; ///< numbers of harmonics without a solution
 };
 
 bool BalanceSearch::solve_from(const VectorXd &start)
@@ -246,6 +278,7 @@ bool BalanceSearch::solve_from_orbit(PeriodicGuess guess, int periods)
 
 void BalanceSearch::begin(const PeriodicGuess &guess)
 {
+  guess_ = guess;
   const bool moves =
       guess.q.size() > 0 && guess.v.size() == guess.q.size() && !(guess.q.isZero(0.) && guess.v.isZero(0.));
   for (const bool more : {false, true})
@@ -253,7 +286,7 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
     if (more && options_.harmonics > 0)
       break;
     if (more)
-      balance_.set_harmonics(more_harmonics * balance_.harmonics());
+      balance_.set_harmonics(many_harmonics * balance_.harmonics());
     if ((moves && solve_from_orbit(guess, 0)) || (moves && solve_from(balance_.start_through(guess.q, guess.v))) ||
         solve_from(balance_.linear_start()) || solve_from_orbit(guess, options_.lead_in))
     {
@@ -270,32 +303,27 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
   throw ConvergenceFailure(message.str());
 }
 
-/// 0: there are enough.
-int BalanceSearch::next_harmonics() const
-{
-  const int next = 2 * balance_.harmonics(), n_u = int(problem_.system->forces().directions().cols());
-  return next > most_harmonics || n_u * (2 * next + 1) > most_unknowns ? 0 : next;
-}
-
-/// Ends with the last number of harmonics that has a solution.
+/// Past numbers of harmonics that have no solution; ends with the last one that has.
 void BalanceSearch::grow()
 {
-  while (options_.harmonics == 0 && left_out_ > options_.tolerance && !problem_.interrupted())
+  int tried = balance_.harmonics();
+  while (options_.harmonics == 0 && left_out_.motion > options_.tolerance && !problem_.interrupted())
   {
-    const int next = next_harmonics();
-    if (next == 0)
+    tried = more_harmonics(problem_, tried);
+    if (tried == 0)
       return;
     const int            before = balance_.harmonics();
     const VectorXd       z      = z_;
     const HarmonicNewton newton = newton_;
     const FourierSeries  motion = balance_.series(z_);
-    balance_.set_harmonics(next);
-    if (!solve_from(balance_.pack(motion)))
+    balance_.set_harmonics(tried);
+    if (!solve_from(balance_.pack(motion)) && !solve_from_orbit(guess_, options_.lead_in))
     {
+      failed_ += (failed_.empty() ? "" : ", ") + std::to_string(tried);
       balance_.set_harmonics(before);
       z_      = z;
       newton_ = newton;
-      return;
+      continue;
     }
     left_out_ = balance_.left_out(z_);
   }
@@ -303,13 +331,13 @@ void BalanceSearch::grow()
 
 void BalanceSearch::check_memory()
 {
-  const double memory = balance_.memory(z_);
-  if (!(memory > remembered))
+  const HarmonicForces::Memory memory = balance_.memory(z_);
+  if (!(memory.share > remembered))
     return;
   std::ostringstream message;
   message.precision(2);
-  message << "harmonic balance: an element remembers the periods before, by " << memory
-          << " of its force, which a law of the motion alone does not; take shooting";
+  message << "harmonic balance: " << memory.element << " remembers what was before, by " << memory.share
+          << " of the largest force, which a law of the motion alone does not; take shooting";
   throw std::invalid_argument(message.str());
 }
 
@@ -318,13 +346,9 @@ PeriodicSolution BalanceSearch::solution()
   check_memory();
   PeriodicSolution solution = finished_balance(problem_, balance_, z_, newton_, options_);
   solution.work.iterations  = iterations_;
-  std::ostringstream note;
-  note.precision(2);
-  note << balance_.harmonics() << " harmonics of " << balance_.samples() << " samples; what they leave out would add "
-       << left_out_ << " of the motion";
-  if (left_out_ > options_.tolerance)
-    note << (options_.harmonics > 0 ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
-  solution.notes.push_back(note.str());
+  solution.notes.push_back(note_of_harmonics(balance_, left_out_, options_.tolerance, options_.harmonics > 0));
+  if (!failed_.empty())
+    solution.notes.push_back("Newton's method did not converge with " + failed_ + " harmonics");
   return solution;
 }
 
@@ -333,6 +357,7 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
 {
   if (const std::string reason = refuses(problem); !reason.empty())
     throw std::invalid_argument(reason);
+  require_unknowns(problem, options.harmonics);
   PeriodicProblem own = problem;
   if (problem.period_is_unknown() && guess.period > 0.)
     own.period = guess.period;

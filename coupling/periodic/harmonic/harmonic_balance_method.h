@@ -25,6 +25,13 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
                                   const HarmonicNewton &newton, const PeriodicOptions &options);
 
+/// The next number of harmonics to try above `harmonics`; 0: there are as many as there may be.
+int more_harmonics(const PeriodicProblem &problem, int harmonics);
+/// How many harmonics there are and what they leave out.
+/// @param tolerance of the motion, above which the note tells what helps
+std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBalance::LeftOut &left, double tolerance,
+                              bool given);
+
 /// "harmonic-balance": one solution, from one harmonic through the guess, from the motion that is integrated from
 /// there, or from the linear response, as the first of them leads to one.  The number of harmonics grows until what is
 /// left out is below the tolerance; a note tells what remains.  Multipliers are those of Hill's matrix where

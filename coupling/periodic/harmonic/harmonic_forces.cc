@@ -84,15 +84,15 @@ void HarmonicForces::sample_motion(const MatrixXcd &u, double omega)
 {
   omega_      = omega;
   const int N = transform_.samples();
-  VectorXcd c(harmonics_ + 1);
+  VectorXcd c;
   for (int i = 0; i < n_u_; ++i)
   {
     c = u.row(i).transpose();
     transform_.values(c, u_.col(i).data());
     for (Eigen::MatrixXd *rate : {&v_, &a_})
     {
-      for (int h = 0; h <= harmonics_; ++h)
-        c[h] *= std::complex<double>(0., h * omega);
+      for (Eigen::Index h = 0; h < c.size(); ++h)
+        c[h] *= std::complex<double>(0., double(h) * omega);
       transform_.values(c, rate->col(i).data());
     }
     u_.col(i) += VectorXd::LinSpaced(N, 0., double(N - 1) / N) * turn_u_[i];
@@ -203,29 +203,51 @@ MatrixXcd HarmonicForces::sampling_errors() const
   return errors;
 }
 
-double HarmonicForces::memory(const MatrixXcd &u, double omega)
+Eigen::MatrixXd HarmonicForces::sampled(const MatrixXcd &u, double omega)
 {
-  EventSystem &events = problem_.system->events();
-  if (n_u_ == 0 || events.save_history().size() == 0)
-    return 0.;
   sample_motion(u, omega);
   start_elements();
-  Eigen::MatrixXd fresh(transform_.samples(), n_u_);
+  Eigen::MatrixXd p(transform_.samples(), n_u_);
   for (int k = 0; k < transform_.samples(); ++k)
   {
     evaluate_sample(k, With::forces);
-    fresh.row(k) = state_.p;
+    p.row(k) = state_.p;
   }
-  double difference = 0.;
+  return p;
+}
+
+VectorXd HarmonicForces::changes(const MatrixXcd &u, const MatrixXcd &other, double omega)
+{
+  const Eigen::MatrixXd before = sampled(u, omega), behind = sampled(other, omega);
+  return (behind - before).cwiseAbs().colwise().maxCoeff().transpose();
+}
+
+VectorXd HarmonicForces::ranges() const
+{
+  return (p_.colwise().maxCoeff() - p_.colwise().minCoeff()).transpose();
+}
+
+HarmonicForces::Memory HarmonicForces::memory(const MatrixXcd &u, double omega)
+{
+  EventSystem &events = problem_.system->events();
+  if (n_u_ == 0 || events.save_history().size() == 0)
+    return {};
+  const Eigen::MatrixXd fresh      = sampled(u, omega);
+  VectorXd              difference = VectorXd::Zero(n_u_);
   for (int period = 0; period < 2; ++period)
     for (int k = 0; k < transform_.samples(); ++k)
     {
       evaluate_sample(k, With::forces);
-      difference = std::max(difference, (state_.p.transpose() - fresh.row(k)).cwiseAbs().maxCoeff());
+      difference = difference.cwiseMax((state_.p - fresh.row(k).transpose()).cwiseAbs());
       events.accept(state_);
     }
+  Eigen::Index worst   = 0;
+  Memory       memory  = {difference.maxCoeff(&worst), ""};
   const double largest = fresh.cwiseAbs().maxCoeff();
-  return largest > 0. ? difference / largest : difference;
+  if (largest > 0.)
+    memory.share /= largest;
+  memory.element = problem_.system->forces().element_of(int(worst));
+  return memory;
 }
 
 } // namespace gestell::coupling

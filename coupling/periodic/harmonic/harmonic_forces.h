@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
@@ -61,15 +62,25 @@ public:
 
   /// Largest difference of the forces between an element that starts anew and one that has passed through a period,
   /// relative to the largest force; above zero where a law remembers.
-  double memory(const Eigen::MatrixXcd &u, double omega);
+  struct Memory
+  {
+    double      share = 0.;
+    std::string element; ///< whose law it is
+  };
+  Memory memory(const Eigen::MatrixXcd &u, double omega);
+  /// Largest change of each force over the period when the motion changes from u to another of up to N/2 - 1 harmonics
+  /// [n_u].  @param other its coefficients [n_u x k]
+  Eigen::VectorXd changes(const Eigen::MatrixXcd &u, const Eigen::MatrixXcd &other, double omega);
+  Eigen::VectorXd ranges() const; ///< largest less least force of the last evaluate() [n_u]
 
 private:
-  void sample_motion(const Eigen::MatrixXcd &u, double omega);
-  void start_elements();
-  void set_state(int k);
-  void evaluate_sample(int k, With with);
-  void add_derivatives_over_u2(int k);
-  void gather_entries();
+  Eigen::MatrixXd sampled(const Eigen::MatrixXcd &u, double omega); ///< forces [N x n_u]
+  void            sample_motion(const Eigen::MatrixXcd &u, double omega);
+  void            start_elements();
+  void            set_state(int k);
+  void            evaluate_sample(int k, With with);
+  void            add_derivatives_over_u2(int k);
+  void            gather_entries();
 
   const PeriodicProblem  &problem_;
   int                     harmonics_, n_u_;

@@ -220,6 +220,21 @@ TEST(FrequencyResponse, SeesAContactWhereItIsClosed)
   EXPECT_LT(error(off, 0, [](double f) { return Complex(-1. / (m * std::pow(two_pi * f, 2))); }), 1e-13);
 }
 
+/// The band is about the modes with the contacts as they are: an open stop of 1e6 N/m does not move it.
+TEST(FrequencyResponse, LooksWhereTheMachineVibratesAtItsPoint)
+{
+  const std::string text =
+      slider_body("slide", "2", "[0, 0, 1]") +
+      element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "800"}}) +
+      element("stop", "stop", {{"from", "slide"}, {"direction", "[0, 0, 1]"}, {"gap", "1"}, {"stiffness", "1e6"}});
+  FrfOptions options;
+  options.from = options.to = {"slide"};
+  const auto   response     = response_of_text(text, options);
+  const double own          = std::sqrt(800. / 2.) / two_pi;
+  EXPECT_NEAR(response.frequencies_hz.front(), 0.25 * own, 1e-9 * own);
+  EXPECT_NEAR(response.frequencies_hz.back(), 1.5 * own, 1e-9 * own);
+}
+
 TEST(FrequencyResponse, ThatSymmetryForbidsIsZero)
 {
   // A mass between two equal ones rests while these are pressed together.

@@ -49,7 +49,8 @@ PeriodicRequest by(const std::string &method)
 {
   PeriodicRequest request;
   request.method = method;
-  request.starts = 4;
+  if (method == "minimise")
+    request.starts = 4;
   return request;
 }
 

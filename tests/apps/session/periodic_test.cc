@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace gestell::tests
 {
@@ -318,6 +319,52 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   along.along = "parameters.y";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("no parameter 'y'"));
+}
+
+/// An option that the methods at work do not take would do nothing unsaid.
+TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
+{
+  const auto words = [](const std::string &method, const std::function<void(PeriodicRequest &)> &ask)
+  {
+    PeriodicRequest request;
+    request.method = method;
+    ask(request);
+    return refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.), request); });
+  };
+  EXPECT_THAT(words("shooting", [](auto &r) { r.harmonics = 3; }), testing::HasSubstr("--method harmonic-balance"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.starts = 3; }), testing::HasSubstr("--method minimise"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.damping = 0.1; }), testing::HasSubstr("--method settling"));
+  EXPECT_THAT(words("settling", [](auto &r) { r.lead_in = 3; }), testing::HasSubstr("--lead-in"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.lead_in = -1; }), testing::HasSubstr("0 or more"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.check = "shooting"; }), testing::HasSubstr("with itself"));
+  EXPECT_THAT(words("harmonic-balance", [](auto &r) { r.harmonics = 100000; }), testing::HasSubstr("at most 3999"));
+  EXPECT_THAT(words("averaging", [](auto &r) { r.along = "element.load.constant", r.from = "0 N", r.to = "1 N"; }),
+              testing::HasSubstr("--method harmonic-balance --harmonics 1"));
+  EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.harmonics = 9; }), "");
+}
+
+/// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.
+TEST(PeriodicScene, ExtremesOfASeriesAreItsOwn)
+{
+  PeriodicRequest request;
+  request.method              = "harmonic-balance";
+  request.harmonics           = 1;
+  const PeriodicResult result = periodic_of(duffing(0.05, 0., 1., 1.37), request);
+  ASSERT_EQ(result.entries.size(), 1u);
+  const double a = 1. / std::hypot(1. - 1.37 * 1.37, 0.1 * 1.37);
+  EXPECT_NEAR(result.entries[0].signals[0].max, a, 1e-12 * a);
+  EXPECT_NEAR(result.entries[0].signals[0].min, -a, 1e-12 * a);
+}
+
+/// A sheet that is broken has no force where it had one before: no mesh of collocation sees that.
+TEST(PeriodicScene, CollocationRefusesAnElementThatRemembers)
+{
+  PeriodicRequest request;
+  request.method  = "collocation";
+  request.lead_in = 0;
+  expect_refusal(
+      [&] { Session(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {}).periodic(request); },
+      "sheet remembers what was before");
 }
 
 /// Duffing's oscillator whose load has the frequency that a formula of the parameter n gives [rad/s].

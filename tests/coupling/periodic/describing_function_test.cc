@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace gestell::tests
@@ -122,6 +123,29 @@ TEST(DescribingFunctions, HaveTheirLimits)
   EXPECT_DOUBLE_EQ(describing::one_sided_stop(k, -2., 1.).mean, 2. * k);
   EXPECT_DOUBLE_EQ(describing::one_sided_stop(k, -2., 1.).stiffness, k);
   EXPECT_EQ(describing::play(k, gap, gap).stiffness, 0.);
+}
+
+/// Small motions about a large mean: the force is rounding in its last digits, which no halving mends.  The quadrature
+/// ends, as right as u is.
+TEST(DescribingFunctions, EndAtTheRoundingOfTheMotion)
+{
+  const MatrixXd one = MatrixXd::Identity(1, 1);
+  SmallSystem    system(one, 0. * one, one);
+  long           evaluations = 0;
+  system.set_law(VectorXd::Ones(1),
+                 [&](double u, double, double &p, double &dp_du, double &dp_dv)
+                 {
+                   ++evaluations;
+                   p     = -k * (u - 1.);
+                   dp_du = dp_dv = 0.;
+                 });
+  DescribedForces described(system, VectorXd::Ones(1));
+  for (const double A : {1e-6, 1e-8, 1e-10})
+  {
+    const double rounding = std::numeric_limits<double>::epsilon() / A;
+    EXPECT_NEAR(described.at(VectorXd::Ones(1), A, 1.).stiffness, k, k * rounding) << A;
+  }
+  EXPECT_LT(evaluations, 1000000);
 }
 
 /// About another mean, and along a direction of two measures: f = d^T p, its stiffness with both squares of d.
