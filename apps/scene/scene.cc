@@ -24,7 +24,7 @@ namespace
 {
 
 /// The name of a reduction, whose keys are those of the table.
-std::string read_reduction_method(const SceneTable &table)
+coupling::ReductionEntry read_reduction_method(const SceneTable &table)
 {
   const auto        entries = coupling::Reductions::entries();
   const std::string name    = table.choice("method");
@@ -33,7 +33,7 @@ std::string read_reduction_method(const SceneTable &table)
     for (const std::string &key : entry.keys)
       if (table.has(key) && !own->takes(key))
         throw table.error(key, "is not for method = \"" + name + "\", " + own->title + "; leave it out");
-  return name;
+  return *own;
 }
 
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
@@ -41,6 +41,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
   ReductionRequest request;
   request.method        = frame.source == FrameSource::geometry ? request.options.method : "none";
+  request.makes_frame   = frame.source == FrameSource::geometry;
   request.options.place = scene.place();
   if (!scene.has("reduction"))
     return request;
@@ -49,7 +50,9 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     throw table.error("there is no frame to reduce; [frame] must give 'cad' or matrices");
 
   request.options.place     = table.place();
-  request.method            = read_reduction_method(table);
+  const auto method         = read_reduction_method(table);
+  request.method            = method.name;
+  request.makes_frame       = method.makes == coupling::ReductionEntry::Makes::reduced_frame;
   request.options.tolerance = table.value("tolerance");
   if (table.has("modes"))
   {

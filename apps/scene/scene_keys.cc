@@ -65,11 +65,13 @@ const std::vector<Key> &reduction_keys()
       key::choice("method", reduction_names(), true,
                   "static shapes of the interface with modes of the inside: `\"craig-bampton\"` with the interface "
                   "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
-                  "exactly. `\"condensation\"`: these static shapes alone, by Guyan, exact in statics; modes that the "
+                  "exactly. `\"guyan\"`: these static shapes alone, exact in statics; modes that the "
                   "frame has with its interface held are missing, and "
-                  "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. `\"none\"` "
-                  "keeps every coordinate: for tests and small matrices; so does a frame given by matrices without "
-                  "`[reduction]`. A key that the method does not take is refused"),
+                  "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. "
+                  "`\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
+                  "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
+                  "): exact, and a thousand times as slow; `\"none\"` is another name of it. So does a frame given by "
+                  "matrices without `[reduction]`. A key that the method does not take is refused"),
       key::number(
           "tolerance", kind::number,
           "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "
@@ -88,7 +90,7 @@ const std::vector<Key> &reduction_keys()
           "`frequency`, or that the modes kept end below it")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,
-                  "highest frequency of interest; of `\"condensation\"` without it: as far as frequencies stay within "
+                  "highest frequency of interest; of `\"guyan\"` without it: as far as frequencies stay within "
                   "`tolerance`")
           .above_zero()
           .by_default("automatic"),

@@ -140,7 +140,7 @@ SecondModel BudgetMaker::finer_in_modes()
     second.reason = "the frame was reduced elsewhere; only who has the whole frame can tell";
     return second;
   }
-  if (!modes_are_chosen(scene_) && scene_.reduction.method != "condensation")
+  if (!modes_are_chosen(scene_) && scene_.reduction.method != "guyan")
   {
     second.exact  = true;
     second.reason = "the frame is not reduced";

@@ -167,7 +167,7 @@ bool mesh_is_made(const Scene &scene)
 
 bool modes_are_chosen(const Scene &scene)
 {
-  return frame_path(scene) == FramePath::reduce && scene.reduction.method != "condensation";
+  return frame_path(scene) == FramePath::reduce && scene.reduction.method != "guyan";
 }
 
 std::vector<std::string> signal_names(const Scene &scene)

@@ -3,7 +3,7 @@
 #include "coupling/reduction/methods/condensation.h"
 #include "coupling/reduction/methods/craig_bampton.h"
 #include "coupling/reduction/methods/free_interface.h"
-#include "coupling/reduction/methods/unreduced.h"
+#include "coupling/reduction/methods/guyan.h"
 
 namespace gestell::coupling
 {
@@ -26,6 +26,7 @@ struct ReductionTable
 /// All there are: a line each.
 using Reductions = ReductionTable<CraigBampton,  //
                                   FreeInterface, //
+                                  Guyan,         //
                                   Condensation,  //
                                   Unreduced>;
 

@@ -44,7 +44,8 @@ struct ReductionRequest
   std::string                method = "none"; ///< a name of coupling::Reductions
   coupling::ReductionOptions options;         ///< of an unreduced frame those of its companion
 
-  bool reduces() const { return method != "none"; }
+  bool makes_frame = false; ///< a reduced one
+  bool reduces() const { return makes_frame; }
 };
 
 /// The shape of a body from CAD, placed as the scene describes it.

@@ -1,32 +1,44 @@
 #pragma once
 
-#include "coupling/reduction/methods/reduction_entry.h"
+#include "coupling/reduction/methods/craig_bampton.h"
 
 namespace gestell::coupling
 {
 
 /**
- * Static condensation: the static shapes of the interface alone,
+ * Every coordinate kept, T = E, under two names of one thing: a machine takes the matrices as they are, dense if they
+ * are few, else sparse.  Then each step is condensed to the coordinates that forces of the mechanism act on,
  *
- *     q = [ q1 ]  =  T q1,     T = [     E        ]
- *         [ q2 ]                   [ -C22^-1 C21  ]
+ *     A_LL q_L = b_L - A_LN q_N,     (A_NN - A_NL A_LL^-1 A_LN) q_N = b_N - A_NL A_LL^-1 b_L,     A = M + h B + h^2 C,
  *
- * Statics under loads on the interface are exact, inertia of the inside follows them; frequencies come from above.
- * Modes that the frame has with its interface held are left out, and counted by inertia up to the frequency of
- * interest.
+ * with one sparse factor for each step width, kept over the ladder of steps: only q_N is in Newton's method.  The keys
+ * are of the reduced companion that large frames start from.
  *
- * options.frequency of zero: the model is meant to hold as far as the estimated error of its frequencies stays within
- * options.tolerance.
- *
- * Source: Guyan, AIAA Journal 3(2), 1965, 380; docs/theory/reduction.md (22).
+ * Source: (5.5.3/1 to 7); docs/theory/integration.md (8) to (10).
  */
-struct Condensation
+template <typename Name>
+struct EveryCoordinate
 {
   static ReductionEntry entry()
   {
-    return {"condensation", "static shapes of the interface, no modes", {"tolerance", "frequency", "inertia_relief"}};
+    return {Name::name, Name::title, CraigBampton::entry().keys, ReductionEntry::Makes::no_frame};
   }
-  static BasisFunction basis;
+  static constexpr BasisFunction *basis = nullptr;
 };
+
+struct CondensationName
+{
+  static constexpr auto name = "condensation";
+  static constexpr auto title =
+      "every coordinate kept, each step condensed to those that forces of the mechanism act on";
+};
+struct UnreducedName
+{
+  static constexpr auto name  = "none";
+  static constexpr auto title = "every coordinate kept";
+};
+
+using Condensation = EveryCoordinate<CondensationName>;
+using Unreduced    = EveryCoordinate<UnreducedName>;
 
 } // namespace gestell::coupling

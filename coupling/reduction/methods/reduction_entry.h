@@ -19,9 +19,16 @@ struct ReductionSpace;
 /// A way to reduce a frame, as scenes name it.
 struct ReductionEntry
 {
-  std::string              name;  ///< reduction.method = "condensation"
+  enum class Makes
+  {
+    reduced_frame,
+    no_frame ///< the machine takes the full one
+  };
+
+  std::string              name;  ///< reduction.method = "guyan"
   std::string              title; ///< one clause
   std::vector<std::string> keys;  ///< of [reduction] that it takes beside `method`
+  Makes                    makes = Makes::reduced_frame;
 
   bool takes(const std::string &key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 };

@@ -1,4 +1,4 @@
-#include "coupling/reduction/methods/condensation.h"
+#include "coupling/reduction/methods/guyan.h"
 
 #include "coupling/reduction/methods/reduction_space.h"
 #include "coupling/reduction/shapes/interface_statics.h"
@@ -43,25 +43,25 @@ void judge(ReductionSpace &space, const FixedInterfaceFrame &held, const Reach &
   const std::string limit   = rounded(space.limit / two_pi) + " Hz";
   if (space.limit > 0. && missing == 0 && reach.bad > space.limit)
     space.statements.push_back(
-        "reduction: frequencies of the condensed frame up to " + limit + " lie within " + percent(tolerance) +
+        "reduction: frequencies of the reduced frame up to " + limit + " lie within " + percent(tolerance) +
         " above those of the frame, as estimated; with its interface held the frame has no mode below");
   const std::string way = "; method = \"craig-bampton\" reaches further";
   if (missing > 0)
     space.notes.push_back("reduction: with the interface held the frame has " + std::to_string(missing) +
-                          " modes below " + limit + ", of which condensation has nothing" + way);
+                          " modes below " + limit + ", of which the static shapes have nothing" + way);
   if (reach.bad <= space.limit || (space.limit == 0. && std::isfinite(reach.bad)))
-    space.notes.push_back("reduction: the condensed frame has the frequency of " + rounded(reach.bad / two_pi) +
+    space.notes.push_back("reduction: the reduced frame has the frequency of " + rounded(reach.bad / two_pi) +
                           " Hz more than " + percent(tolerance) + " too high, as estimated" + way);
 }
 
 } // namespace
 
-ReductionSpace Condensation::basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
+ReductionSpace Guyan::basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
                                    InterfaceStatics &statics)
 {
   if (statics.basis.n1() == 0)
     throw std::invalid_argument((options.place.empty() ? std::string("reduction") : options.place) +
-                                ": condensation keeps the coordinates of interfaces, and the frame has none; give it "
+                                ": Guyan's reduction keeps the coordinates of interfaces, and the frame has none; give it "
                                 "a [frame.interface.NAME], or modes by method = \"craig-bampton\"");
   statics.held.release();
   statics.begin("reduced matrices");

@@ -1,4 +1,4 @@
-// Static condensation (Guyan): the static shapes of the interface alone.
+// Guyan's static condensation: the static shapes of the interface alone.
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/reduction/reduce_frame.h"
@@ -23,10 +23,10 @@ using coupling::ReductionOptions;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReductionOptions condensed(double frequency = 0.)
+ReductionOptions by_guyan(double frequency = 0.)
 {
   ReductionOptions options;
-  options.method    = "condensation";
+  options.method    = "guyan";
   options.frequency = frequency;
   return options;
 }
@@ -46,13 +46,13 @@ bool tells(const std::vector<std::string> &texts, const std::string &part)
   return std::any_of(texts.begin(), texts.end(), [&](const std::string &t) { return t.find(part) != t.npos; });
 }
 
-TEST(Condensation, StiffnessIsTheSchurComplementOfTheInterface)
+TEST(Guyan, StiffnessIsTheSchurComplementOfTheInterface)
 {
   const auto     frame = frame_of(Lattice());
   const auto     q1 = frame.interface_coordinates(), q2 = inside_of(frame);
   const MatrixXd C     = frame.C;
   const MatrixXd exact = C(q1, q1) - C(q1, q2) * MatrixXd(C(q2, q2)).llt().solve(C(q2, q1));
-  const auto     found = coupling::reduce_frame(frame, condensed());
+  const auto     found = coupling::reduce_frame(frame, by_guyan());
 
   ASSERT_EQ(found.C.rows(), int(q1.size())); // nothing but the interface
   EXPECT_EQ(found.omega0.size(), 0);
@@ -60,7 +60,7 @@ TEST(Condensation, StiffnessIsTheSchurComplementOfTheInterface)
 }
 
 // So statics are exact, frequencies come from above, and inertia and dampers follow the shapes: see CraigBampton.
-TEST(Condensation, IsCraigBamptonWithoutModes)
+TEST(Guyan, IsCraigBamptonWithoutModes)
 {
   for (const double foundation : {3e6, 0.}) // held, and afloat
   {
@@ -71,7 +71,7 @@ TEST(Condensation, IsCraigBamptonWithoutModes)
     frame.modal_damping_ratio = 0.02;
     for (const bool relief : {false, true})
     {
-      ReductionOptions alone = condensed(), without_modes;
+      ReductionOptions alone = by_guyan(), without_modes;
       without_modes.n_modes  = 0;
       alone.inertia_relief = without_modes.inertia_relief = relief;
       const auto a = coupling::reduce_frame(frame, alone), b = coupling::reduce_frame(frame, without_modes);
@@ -86,40 +86,40 @@ TEST(Condensation, IsCraigBamptonWithoutModes)
   }
 }
 
-TEST(Condensation, TellsModesOfTheInsideThatItLeavesOut)
+TEST(Guyan, TellsModesOfTheInsideThatItLeavesOut)
 {
   const auto     frame = frame_of(Lattice());
   const auto     q2    = inside_of(frame);
   const MatrixXd C = frame.C, M = frame.M;
   const VectorXd held    = dense_modes(C(q2, q2), M(q2, q2)).omega / two_pi;
-  const auto     between = coupling::reduce_frame(frame, condensed(0.5 * (held(2) + held(3))));
+  const auto     between = coupling::reduce_frame(frame, by_guyan(0.5 * (held(2) + held(3))));
   EXPECT_TRUE(tells(between.notes, "the frame has 3 modes below")) << between.notes.size();
   EXPECT_TRUE(tells(between.notes, "craig-bampton"));
   EXPECT_NEAR(between.frequency_limit_hz, 0.5 * (held(2) + held(3)), 1e-12 * held(3));
 }
 
-TEST(Condensation, TellsHowFarItsFrequenciesHold)
+TEST(Guyan, TellsHowFarItsFrequenciesHold)
 {
   Lattice lattice;
   lattice.foundation       = 3e5; // so soft that the lowest modes are those of a rigid block on it
   const auto     frame     = frame_of(lattice);
   const VectorXd exact     = dense_modes(frame.C, frame.M).omega / two_pi;
-  const auto     automatic = coupling::reduce_frame(frame, condensed());
+  const auto     automatic = coupling::reduce_frame(frame, by_guyan());
   const double   limit     = automatic.frequency_limit_hz;
   ASSERT_GT(limit, 0.);
   EXPECT_TRUE(tells(automatic.statements, "lie within 1 % above those of the frame"));
   for (int j = 0; j < automatic.frequencies_hz.size() && exact(j) <= limit; ++j)
     EXPECT_LE(automatic.frequencies_hz(j), 1.011 * exact(j)); // 1 %, and a tenth of it for the estimate
-  const auto beyond = coupling::reduce_frame(frame, condensed(3. * limit));
+  const auto beyond = coupling::reduce_frame(frame, by_guyan(3. * limit));
   EXPECT_TRUE(tells(beyond.notes, "too high"));
   EXPECT_FALSE(tells(beyond.statements, "lie within"));
 }
 
-TEST(Condensation, OfAFrameWithoutInterfacesIsRefused)
+TEST(Guyan, OfAFrameWithoutInterfacesIsRefused)
 {
   auto frame = frame_of(Lattice());
   frame.interfaces.clear();
-  tests::expect_refusal([&] { coupling::reduce_frame(frame, condensed()); }, "frame.interface");
+  tests::expect_refusal([&] { coupling::reduce_frame(frame, by_guyan()); }, "frame.interface");
 }
 
 } // namespace
