@@ -1,7 +1,7 @@
 #include "apps/session/backbone.h"
 
 #include "apps/session/periodic_answer.h"
-#include "coupling/periodic/averaging.h"
+#include "coupling/periodic/averaging/slow_flow.h"
 
 #include <algorithm>
 #include <cmath>

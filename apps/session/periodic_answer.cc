@@ -55,6 +55,8 @@ double vertex(double x_2, double x_1, double x0, double x1, double x2)
   for (const double beside : {left, right})
     if (!(beside * bend > 0.) || std::abs(beside) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(beside))
       return x0;
+  if (std::abs(x1 - x_1) > std::abs(bend)) // an end of what turns, not its extreme
+    return x0;
   return x0 - (x1 - x_1) * (x1 - x_1) / (8. * bend);
 }
 
@@ -158,7 +160,8 @@ void check_options(const PeriodicRequest &request, const std::string &method)
   {
     const auto is_by = [&](const std::string &name)
     { return std::find(taken.by.begin(), taken.by.end(), name) != taken.by.end(); };
-    if (taken.given && !is_by(method) && !is_by(request.check))
+    const bool checks = is_by(request.check) && taken.option != std::string("--lead-in"); // it begins at the motion
+    if (taken.given && !is_by(method) && !checks)
       throw std::invalid_argument(std::string(taken.option) + " does nothing here, as the motion is found by " +
                                   method + "; add --method " + taken.by.front() + ", or leave it out");
   }

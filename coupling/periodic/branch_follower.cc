@@ -82,7 +82,8 @@ void BranchFollower::refit(Point &point, bool at_parameter)
       start.tangent << VectorXd::Zero(Z.rows()), 1.;
     start.tangent.normalize();
     if (!correct(Z.col(0), point.lambda, start.tangent, start, fitted) || !finish(start.tangent, fitted))
-      throw ConvergenceFailure("the motion does not close on the mesh that fits it at " + std::to_string(point.lambda));
+      throw ConvergenceFailure("the motion does not close in the unknowns that fit it at " +
+                               std::to_string(point.lambda));
     fitted.iterations = point.iterations;
     point             = fitted;
   }

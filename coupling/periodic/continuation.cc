@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -21,6 +22,7 @@ using Detail = BranchFollower::Detail;
 constexpr int    few_iterations = 6;
 constexpr double least_part     = 1e-5; ///< of the step that is asked for
 constexpr double widest         = 2.;   ///< the step, of that
+constexpr double short_part     = 0.1;  ///< the step, of that, of a branch that hardly moves on
 constexpr double straight       = 0.94; ///< cosine between two tangents: 20 degrees
 constexpr double corner         = 0.02; ///< step, of that, below which a turn is a corner
 constexpr int    most_searches  = 40;
@@ -213,7 +215,15 @@ bool Tracker::end_at(const Point &here, const Point &beyond)
     return false;
   }
   note_special(here, last);
-  follower_.refit(last, true);
+  const Point as_found = last;
+  try
+  {
+    follower_.refit(last, true);
+  }
+  catch (const ConvergenceFailure &)
+  {
+    last = as_found;
+  }
   add(last);
   if (back)
     branch_.ended = "it came back to the first value of the parameter";
@@ -249,11 +259,12 @@ Branch Tracker::follow(Point here)
     }
     if (branch_.ended.empty())
     {
+      std::ostringstream text;
+      text << "it has " << options_.most << " points, the last of them at " << here.lambda;
+      if (ds_ < short_part * wanted_)
+        text << ", and its steps have become short: take another method, or fewer harmonics";
       branch_.failed = goes_on;
-      branch_.ended  = goes_on ? "its steps have become so short that " + std::to_string(options_.most) +
-                                    " points do not reach the end: beyond " + std::to_string(here.lambda) +
-                                    " try another method or fewer harmonics"
-                               : "interrupted";
+      branch_.ended  = goes_on ? text.str() : "interrupted";
     }
   }
   catch (const std::exception &failure)

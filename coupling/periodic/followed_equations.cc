@@ -4,6 +4,9 @@
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/shooting/shooting.h"
 
+#include <optional>
+#include <stdexcept>
+
 namespace gestell::coupling
 {
 
@@ -28,7 +31,9 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double left_out_of_branch = 1e-8; ///< of the motion, above which harmonics are added
+constexpr double left_out_of_branch    = 1e-8; ///< of the motion, above which harmonics are added
+constexpr double near_by               = 0.3;  ///< distance of a motion with more harmonics, of the unknowns
+constexpr int    points_until_next_try = 8;    ///< where no more harmonics have a solution
 
 class ShootingBranch final : public BranchEquations
 {
@@ -118,26 +123,54 @@ public:
     newton.converged          = true;
     newton.residual           = closing_;
     PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
-    solution.notes.push_back(
-        note_of_harmonics(*balance_, balance_->left_out(z_), left_out_of_branch, options_.harmonics > 0));
+    const auto       left     = left_out();
+    solution.notes.push_back(left ? note_of_harmonics(*balance_, *left, left_out_of_branch, options_.harmonics > 0)
+                                  : "what the harmonics leave out is not known: a mode without damping lies at one");
     return solution;
   }
 
+  /// By Newton's method at the value of the parameter; numbers of harmonics that have no solution near by are passed.
   bool refit(const PeriodicSolution &, MatrixXd &Z) override
   {
-    const int next = options_.harmonics > 0 ? 0 : more_harmonics(member_.problem, harmonics_);
-    if (next == 0 || balance_->left_out(z_).motion <= left_out_of_branch)
+    if (options_.harmonics > 0 || points_to_rest_ > 0)
+    {
+      --points_to_rest_;
       return false;
-    const MatrixXd before = Z;
-    balance_->set_harmonics(next);
-    Z = MatrixXd(balance_->size(), before.cols());
-    for (Eigen::Index k = 0; k < before.cols(); ++k)
-      Z.col(k) = balance_->filled_up(before.col(k), harmonics_);
-    harmonics_ = next;
-    return true;
+    }
+    if (const auto left = left_out(); !left || left->motion <= left_out_of_branch)
+      return false;
+    for (int next = more_harmonics(member_.problem, harmonics_); next > 0; next = more_harmonics(member_.problem, next))
+    {
+      balance_->set_harmonics(next);
+      const VectorXd start = balance_->filled_up(Z.col(0), harmonics_);
+      VectorXd       z     = start;
+      if (!solve_balance(*balance_, options_, z).converged || (z - start).norm() > near_by * start.norm())
+        continue;
+      const VectorXd tangent = balance_->filled_up(Z.col(1), harmonics_);
+      Z.resize(z.size(), 2);
+      Z << z, tangent;
+      harmonics_ = next;
+      return true;
+    }
+    balance_->set_harmonics(harmonics_);
+    points_to_rest_ = points_until_next_try;
+    return false;
   }
 
 private:
+  /// Of the last evaluation; none where the base has no response to a harmonic above.
+  std::optional<HarmonicBalance::LeftOut> left_out()
+  {
+    try
+    {
+      return balance_->left_out(z_);
+    }
+    catch (const std::invalid_argument &)
+    {
+      return std::nullopt;
+    }
+  }
+
   void form(double lambda)
   {
     if (balance_ && lambda == lambda_)
@@ -150,7 +183,7 @@ private:
 
   ProblemFamily                    family_;
   PeriodicOptions                  options_;
-  int                              harmonics_;
+  int                              harmonics_, points_to_rest_ = 0;
   double                           lambda_ = 0., closing_ = 0.;
   FamilyMember                     member_;
   std::unique_ptr<HarmonicBalance> balance_;

@@ -1,6 +1,6 @@
 #include "coupling/periodic/periodic_methods.h"
 
-#include "coupling/periodic/averaging.h"
+#include "coupling/periodic/averaging/averaging.h"
 #include "coupling/periodic/collocation/collocation_method.h"
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/minimising.h"

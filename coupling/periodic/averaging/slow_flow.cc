@@ -1,7 +1,6 @@
-#include "coupling/periodic/averaging.h"
+#include "coupling/periodic/averaging/slow_flow.h"
 
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/periodic/harmonic/harmonic_balance_method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +14,15 @@ namespace
 {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int    rest_iterations = 100, mean_iterations = 500;
 constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
-constexpr double reach            = 1e3;  ///< of amplitudes searched, below that of the linear system
-constexpr double beyond           = 10.;  ///< the same above its amplitude in resonance
-constexpr double least_damping    = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
-constexpr int    grid_points      = 1500;
-constexpr double beside_resonance = 1.03; ///< times the period: an undamped base has no response at its resonance
-constexpr double far_away         = 0.5;  ///< of the amplitude: another motion
+constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
+constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
+constexpr double least_damping = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
+constexpr int    grid_points   = 1500;
 
 [[noreturn]] void refuse_averaging(const std::string &reason)
 {
@@ -173,6 +169,7 @@ SlowFlow::Rates SlowFlow::at(double a)
 {
   if (problem_.interrupted())
     throw SearchInterrupted();
+  problem_.system->events().follow_history(false); // an integration in between may have changed it
   if (W_.cols() == 0)
     return {omega_0_, 0.5 * linear_damping_};
   settle_mean(a);
@@ -272,186 +269,6 @@ Eigen::Vector2cd SlowFlow::eigenvalues(double a)
   const double  determinant = (g.real() + a * slope.real()) * g.real() + g.imag() * (g.imag() + a * slope.imag());
   const Complex root        = std::sqrt(Complex(0.25 * trace * trace - determinant));
   return {0.5 * trace + root, 0.5 * trace - root};
-}
-
-namespace
-{
-
-class AveragingMethod final : public PeriodicMethod
-{
-public:
-  std::string name() const override { return "averaging"; }
-  std::string meaning() const override
-  {
-    return "slow flow of one mode with the describing functions of the elements (Bogoliubov, Mitropolsky 1961): a "
-           "quick "
-           "look, of first order";
-  }
-  std::string refuses(const PeriodicProblem &problem) const override;
-
-  std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
-                                      const PeriodicOptions &options) const override;
-
-private:
-  static PeriodicSolution solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a,
-                                      const PeriodicOptions &options);
-  static std::string      left_out(const PeriodicProblem &problem, const PeriodicSolution &solution,
-                                   const PeriodicOptions &options);
-  static FourierSeries    series_of(const PeriodicProblem &problem, SlowFlow &flow, double a, double period);
-};
-
-std::string AveragingMethod::refuses(const PeriodicProblem &problem) const
-{
-  try
-  {
-    SlowFlow flow(problem);
-    return "";
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-}
-
-/// Where nothing depends on the time, at the phase that is asked for, rising.
-FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlow &flow, double a, double period)
-{
-  const bool    free     = flow.load_omega() == 0.;
-  const int     harmonic = free ? 1 : int(std::lround(flow.load_omega() * period / (2. * M_PI)));
-  FourierSeries series;
-  series.omega = 2. * M_PI / period;
-  series.begin = problem.begin;
-  Complex z    = flow.steady(a);
-  if (free && problem.period_is_unknown())
-  {
-    const double x = (problem.phase_value - flow.mean()[problem.phase]) / (a * flow.shape()[problem.phase]);
-    if (!(std::abs(x) <= 1.))
-      refuse_averaging("the coordinate that fixes the phase does not come to its value in this motion; give its mean");
-    const double side = flow.shape()[problem.phase] > 0. ? 1. : -1.;
-    z                 = a * std::exp(Complex(0., -side * std::acos(x) - series.omega * problem.begin));
-  }
-  const auto n                = flow.shape().size();
-  series.ramp                 = VectorXd::Zero(n);
-  series.cosine               = MatrixXd::Zero(n, harmonic + 1);
-  series.sine                 = series.cosine;
-  series.cosine.col(0)        = flow.mean();
-  series.cosine.col(harmonic) = z.real() * flow.shape();
-  series.sine.col(harmonic)   = -z.imag() * flow.shape();
-  return series;
-}
-
-PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, SlowFlow &flow, double a,
-                                              const PeriodicOptions &options)
-{
-  const Eigen::Vector2cd exponents = flow.eigenvalues(a);
-  const SlowFlow::Rates  rates     = flow.at(a);
-  PeriodicSolution       solution;
-  solution.begin  = problem.begin;
-  solution.period = flow.load_omega() > 0. ? problem.period : 2. * M_PI / rates.omega;
-  solution.ratio  = problem.ratio;
-  solution.turn   = VectorXd::Zero(flow.shape().size());
-  solution.series = series_of(problem, flow, a, solution.period);
-  VectorXd acceleration;
-  solution.series->at(problem.begin, solution.q, solution.v, acceleration);
-  solution.multipliers = (solution.period * exponents).array().exp();
-  if (std::abs(solution.multipliers[0]) < std::abs(solution.multipliers[1]))
-    std::swap(solution.multipliers[0], solution.multipliers[1]);
-  solution.trivial_multiplier = flow.load_omega() == 0.;
-  solution.method             = "averaging";
-  std::ostringstream note;
-  note.precision(2);
-  note << "first order in what the elements add to the frequency of the mode, here "
-       << std::abs(rates.omega / flow.omega_0() - 1.) << " of it; multipliers are those of this mode";
-  solution.notes.push_back(note.str());
-  solution.notes.push_back(left_out(problem, solution, options));
-  return solution;
-}
-
-/// |a - b| / |a| of their coefficients, means left out; of harmonics that one has not, all.
-double distance_of(const FourierSeries &a, const FourierSeries &b)
-{
-  double apart = 0., size = 0.;
-  for (int h = 1; h <= std::max(a.harmonics(), b.harmonics()); ++h)
-    for (const auto part : {&FourierSeries::cosine, &FourierSeries::sine})
-    {
-      const VectorXd none = VectorXd::Zero(a.ramp.size());
-      const VectorXd x    = h <= a.harmonics() ? VectorXd((a.*part).col(h)) : none;
-      const VectorXd y    = h <= b.harmonics() ? VectorXd((b.*part).col(h)) : none;
-      apart += (x - y).squaredNorm();
-      size += x.squaredNorm();
-    }
-  return std::sqrt(apart / size);
-}
-
-/// How far harmonic balance with three times the harmonics is from it.
-std::string AveragingMethod::left_out(const PeriodicProblem &problem, const PeriodicSolution &solution,
-                                      const PeriodicOptions &options)
-{
-  std::ostringstream note;
-  note.precision(2);
-  try
-  {
-    PeriodicOptions few = options;
-    few.harmonics       = 3 * solution.series->harmonics();
-    const auto balanced = [&](double period) {
-      return harmonic_balance_method().solve(problem, {solution.q, solution.v, period}, few).front();
-    };
-    PeriodicSolution other;
-    try
-    {
-      other = balanced(solution.period);
-    }
-    catch (const std::exception &) // of its resonance
-    {
-      if (!problem.period_is_unknown() || problem.interrupted())
-        throw;
-      other = balanced(beside_resonance * solution.period);
-    }
-    if (const double apart = distance_of(*solution.series, *other.series); apart <= far_away)
-    {
-      note << "harmonic balance with " << few.harmonics << " harmonics differs from it by " << apart
-           << " of its amplitude";
-      if (problem.period_is_unknown())
-        note << " and by " << std::abs(other.period / solution.period - 1.) << " of its period";
-      return note.str();
-    }
-    note << "harmonic balance with " << few.harmonics << " harmonics leads to another motion from here";
-  }
-  catch (const SearchInterrupted &)
-  {
-    throw;
-  }
-  catch (const std::exception &) // a law that harmonic balance does not take, or no motion
-  {
-    note << "harmonic balance finds no motion near it";
-  }
-  note << ": how much averaging leaves out is not known; --check shooting tells";
-  return note.str();
-}
-
-std::vector<PeriodicSolution> AveragingMethod::solve(const PeriodicProblem &problem, const PeriodicGuess &,
-                                                     const PeriodicOptions &options) const
-{
-  SlowFlow                      flow(problem);
-  std::vector<PeriodicSolution> found;
-  for (const double a : flow.amplitudes())
-    found.push_back(solution_of(problem, flow, a, options));
-  if (found.empty())
-  {
-    std::ostringstream message;
-    message << "averaging: the mode of " << flow.omega_0() / (2. * M_PI)
-            << " Hz has no steady amplitude; take settling to see what the motion does";
-    throw NoPeriodicMotion(message.str());
-  }
-  return found;
-}
-
-} // namespace
-
-const PeriodicMethod &averaging_method()
-{
-  static const AveragingMethod method;
-  return method;
 }
 
 } // namespace gestell::coupling

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/periodic/describing_function.h"
-#include "coupling/periodic/periodic_method.h"
+#include "coupling/periodic/averaging/describing_function.h"
+#include "coupling/periodic/periodic_problem.h"
 
 #include <Eigen/Core>
 
@@ -72,9 +72,5 @@ private:
   double                 omega_0_ = 0., linear_k_ = 0., linear_damping_ = 0., load_omega_ = 0.;
   std::complex<double>   load_ = 0.;
 };
-
-/// "averaging": every steady amplitude of the slow flow, each as a series of one harmonic with the multipliers of the
-/// flow.
-const PeriodicMethod &averaging_method();
 
 } // namespace gestell::coupling

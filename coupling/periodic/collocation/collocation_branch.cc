@@ -105,7 +105,10 @@ public:
   PeriodicSolution solution() override
   {
     const PeriodicGuess start = start_of_motion();
-    PeriodicSolution    solution =
+    if (tangents_)
+      if (const std::string why = why_no_mesh(member_.problem, *flow_, start); !why.empty())
+        throw NoPeriodicMotion("beyond it " + why + "; take shooting");
+    PeriodicSolution solution =
         collocated(member_.problem, options_.integration, *flow_, start, tangents_ && flow_->has_tangents());
     if (const double error = tangents_ ? collocation_->errors(y_).maxCoeff() : 0.; error > 10. * mesh_tolerance)
     {

@@ -72,15 +72,23 @@ void MeshSearch::set_mesh(std::vector<double> points)
   collocation_.set_mesh(mesh_of(points));
 }
 
-/// Forces of the motion at hand against those of the laws for the same measures, which is what a mesh sees.
-void MeshSearch::refuse_memory(const PeriodicGuess &start)
+std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const PeriodicGuess &start)
 {
-  const LocalForces      &forces = problem_.system->forces();
+  const LocalForces      &forces = problem.system->forces();
   std::vector<LocalState> states;
-  flow_.look_on(memory_samples, [&](const OrbitPoint &point) { states.push_back(point.local); });
-  flow_.pass(start.q, start.v, start.period, false);
-  flow_.look_on(0, {});
-  problem_.system->events().follow_history(false);
+  int                     held = -1;
+  flow.look_on(memory_samples,
+               [&](const OrbitPoint &point)
+               {
+                 states.push_back(point.local);
+                 if (!forces.held().empty())
+                   held = forces.held().front().measure;
+               });
+  flow.pass(start.q, start.v, start.period, false);
+  flow.look_on(0, {});
+  if (held >= 0)
+    return forces.element_of(held) + " sticks, and what holds has no law of force";
+  problem.system->events().follow_history(false);
   VectorXd p = VectorXd::Zero(states.front().p.size()), largest = p, differs = p;
   for (LocalState &state : states)
   {
@@ -89,15 +97,25 @@ void MeshSearch::refuse_memory(const PeriodicGuess &start)
     largest = largest.cwiseMax(passed.cwiseAbs());
     differs = differs.cwiseMax((p - passed).cwiseAbs());
   }
-  Index worst = 0;
-  if (differs.size() == 0 || !(differs.maxCoeff(&worst) > remembered * largest.maxCoeff()))
-    return;
-  std::ostringstream text;
-  text.precision(2);
-  text << "collocation: " << forces.element_of(int(worst)) << " remembers what was before, by "
-       << differs[worst] / largest.maxCoeff()
-       << " of the largest force, which a law of the motion alone does not; take shooting";
-  throw std::invalid_argument(text.str());
+  for (const ForceBlock &block : forces.blocks())
+  {
+    const double size  = largest.segment(block.first_measure, block.n_measures).maxCoeff();
+    const double error = differs.segment(block.first_measure, block.n_measures).maxCoeff();
+    if (!(error > remembered * size))
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << forces.element_of(block.first_measure) << " remembers what was before, by " << error / size
+         << " of its largest force, which a law of the motion alone does not";
+    return text.str();
+  }
+  return "";
+}
+
+void MeshSearch::refuse_memory(const PeriodicGuess &start)
+{
+  if (const std::string why = why_no_mesh(problem_, flow_, start); !why.empty())
+    throw std::invalid_argument("collocation: " + why + "; take shooting");
 }
 
 void MeshSearch::begin(const PeriodicGuess &guess)
@@ -167,6 +185,7 @@ void MeshSearch::run(const PeriodicGuess &guess)
          << " of their excursions; take shooting";
     throw NoPeriodicMotion(text.str());
   }
+  refuse_memory({q_, v_, collocation_.period()});
 }
 
 PeriodicSolution MeshSearch::solution()

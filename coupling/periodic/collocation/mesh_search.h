@@ -3,6 +3,7 @@
 #include "coupling/periodic/collocation/collocation.h"
 #include "coupling/periodic/period_flow.h"
 
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
@@ -16,6 +17,10 @@ std::vector<double> event_points(const std::vector<Event> &events, double begin,
 /// @throws ConvergenceFailure
 Eigen::VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::vector<double> &mesh);
 
+/// Why a mesh does not see the forces of the motion that starts there: by name the element that remembers what was
+/// before, or sticks; empty: it does.
+std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const PeriodicGuess &start);
+
 /// A search by collocation on meshes that are divided where they err, with points at the events of the motion.
 class MeshSearch
 {
@@ -25,7 +30,7 @@ public:
   PeriodFlow &flow() { return flow_; }
   /// On uniform meshes, finer where Newton's method does not converge from the guess; then halved where they err.
   /// @throws NoPeriodicMotion
-  /// @throws std::invalid_argument if an element remembers: its force is no function of the motion then
+  /// @throws std::invalid_argument if an element remembers or sticks: its force is no function of the motion then
   void run(const PeriodicGuess &guess);
   /// What was found, with multipliers where the integrator has tangents.
   PeriodicSolution solution();

@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double shortest_share  = 1. / 256.; ///< of a Newton step
 constexpr double floor_of_steps  = 1e-13;     ///< a Newton step that is rounding, relative
+constexpr double another_motion  = 0.3;       ///< distance of two motions, of the unknowns
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
 constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500, most_asked = 8000;
 
@@ -238,6 +239,7 @@ private:
   PeriodicGuess            guess_;
   HarmonicBalance::LeftOut left_out_;
   std::string              failed_; ///< numbers of harmonics without a solution
+  std::string              others_; ///< that these are not of the motion found with fewer
 };
 
 bool BalanceSearch::solve_from(const VectorXd &start)
@@ -317,14 +319,18 @@ void BalanceSearch::grow()
     const HarmonicNewton newton = newton_;
     const FourierSeries  motion = balance_.series(z_);
     balance_.set_harmonics(tried);
-    if (!solve_from(balance_.pack(motion)) && !solve_from_orbit(guess_, options_.lead_in))
+    const VectorXd start = balance_.pack(motion);
+    if (!solve_from(start) && (problem_.interrupted() || !solve_from_orbit(guess_, options_.lead_in)))
     {
-      failed_ += (failed_.empty() ? "" : ", ") + std::to_string(tried);
+      if (!problem_.interrupted())
+        failed_ += (failed_.empty() ? "" : ", ") + std::to_string(tried);
       balance_.set_harmonics(before);
       z_      = z;
       newton_ = newton;
       continue;
     }
+    if ((z_ - start).norm() > another_motion * start.norm())
+      others_ = "with fewer than " + std::to_string(tried) + " harmonics another motion was found than with these";
     left_out_ = balance_.left_out(z_);
   }
 }
@@ -349,6 +355,8 @@ PeriodicSolution BalanceSearch::solution()
   solution.notes.push_back(note_of_harmonics(balance_, left_out_, options_.tolerance, options_.harmonics > 0));
   if (!failed_.empty())
     solution.notes.push_back("Newton's method did not converge with " + failed_ + " harmonics");
+  if (!others_.empty())
+    solution.notes.push_back(others_);
   return solution;
 }
 

@@ -82,12 +82,30 @@ TEST(SelfExcitedScene, HarmonicsAreAddedAlongABranch)
   EXPECT_NEAR(last.signals[0].max, here.entries[0].signals[0].max, 1e-7);
 }
 
+/// What turns has no extreme within a turn: its signal goes from the begin of the period to its end, 2 pi farther.
+TEST(SelfExcitedScene, AngleOfASeriesThatTurnsEndsWithTheTurn)
+{
+  const std::string text =
+      test::quoted("[body.rotor]\ntype = 'rotor'\naxis = [0, 1, 0]\ninertia = '1 kg m^2'\n") +
+      element("motor", "formula force",
+              {{"from", "rotor"}, {"force", "20 N*m - 2 N*m*s/rad*v + 8 N*m*sin(u + 1 rad)"}}) +
+      test::quoted("[start]\nv = { rotor = '10 rad/s' }\n[output.signals]\nphi = 'rotor.angle'\nw = 'rotor.speed'\n");
+  const PeriodicResult shot = steady(text, "shooting"), balanced = steady(text, "harmonic-balance");
+  ASSERT_EQ(shot.entries.size(), 1u) << shot.failure;
+  ASSERT_EQ(balanced.entries.size(), 1u) << balanced.failure;
+  const auto &phi = balanced.entries[0].signals[0];
+  EXPECT_NEAR(phi.max - phi.min, 2. * M_PI, 1e-8);
+  EXPECT_NEAR(balanced.entries[0].signals[1].max, shot.entries[0].signals[1].max, 1e-7);
+}
+
 /// The period is longer by mu^2/16 of it in second order, of which averaging knows nothing.
 TEST(SelfExcitedScene, AveragingTellsWhatItLeavesOutOfThePeriod)
 {
-  const PeriodicResult result = steady(van_der_pol("(1 N*s/m - 1 N*s/m^3*u^2)*v"), "averaging");
+  const std::string    begin  = "[run]\nbegin = '10 s'\nend = '20 s'\nmethod = 'exact'\nstep = '10 ms'\n";
+  const PeriodicResult result = steady(van_der_pol("(1 N*s/m - 1 N*s/m^3*u^2)*v") + test::quoted(begin), "averaging");
   ASSERT_EQ(result.entries.size(), 1u) << result.failure;
-  EXPECT_THAT(result.entries[0].solution.notes.back(), testing::HasSubstr("0.061 of its period"));
+  EXPECT_THAT(result.entries[0].solution.notes.back(),
+              testing::HasSubstr("by 0.16 of its amplitude and by 0.061 of its period"));
 }
 
 /// Published to many digits for mu = 1: period 6.6632868593231, largest displacement 2.0086198608748.  From rest, which

@@ -1,4 +1,5 @@
-#include "coupling/periodic/averaging.h"
+#include "coupling/periodic/averaging/averaging.h"
+#include "coupling/periodic/averaging/slow_flow.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"

@@ -1,4 +1,4 @@
-#include "coupling/periodic/describing_function.h"
+#include "coupling/periodic/averaging/describing_function.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 
