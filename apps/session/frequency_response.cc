@@ -189,8 +189,17 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
                                         const coupling::Progress &progress, std::vector<std::string> &warnings)
 {
   tell(progress, "frequency response");
-  coupling::Machine            &machine = prepared.small();
-  const coupling::MachinePoint  point   = coupling::machine_point(machine, operating_state(scene, machine, options.at));
+  coupling::Machine           &machine = prepared.small();
+  const coupling::MachinePoint point   = coupling::machine_point(machine, operating_state(scene, machine, options.at));
+  for (const std::string &name : point.touching)
+  {
+    const bool closed = std::find(point.closed.begin(), point.closed.end(), name) != point.closed.end();
+    warnings.push_back("\"" + name +
+                       "\" just touches at the operating point, where its force has a kink: the response " +
+                       "is that with it " + (closed ? "closed" : "open") +
+                       ", which no real motion keeps to; give it a play above zero, a load that closes it, or another "
+                       "--at");
+  }
   const auto                    of_scene = scene_signals(scene, machine);
   const coupling::ReducedFrame *frame    = machine.model().reduced_frame();
   FrequencyResponse             response;

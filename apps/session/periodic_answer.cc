@@ -3,6 +3,7 @@
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/harmonic/fourier_transform.h"
 #include "coupling/periodic/harmonic/signal_harmonics.h"
+#include "coupling/periodic/period_flow.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/trace_orbit.h"
@@ -220,6 +221,7 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution
   initial.q       = solution.q;
   initial.v       = solution.v;
   initial.settled = true;
+  initial.still   = coupling::still_speed(machine, solution.q, solution.v, solution.period);
   return coupling::simulate(machine, initial, run, signals);
 }
 

@@ -146,7 +146,7 @@ private:
 
 void follow_branches(const SceneFamily &family, const std::vector<PeriodicSolution> &solutions,
                      const coupling::PeriodicOptions &options, const PeriodicRequest &request,
-                     const std::function<void(double)> &progress, PeriodicResult &result)
+                     const std::function<void(double)> &progress, const std::atomic<bool> *stop, PeriodicResult &result)
 {
   coupling::ContinuationOptions along;
   along.from   = family.from();
@@ -157,7 +157,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
   const auto  on_point = [&](const coupling::BranchPoint &point)
   {
     progress((point.parameter - along.from) / (along.to - along.from));
-    return true;
+    return !(stop && stop->load(std::memory_order_relaxed));
   };
   const auto keep = [&](const coupling::Branch &branch)
   {

@@ -13,9 +13,11 @@ namespace gestell::apps
  * points, numbered by branches, and special points into `result`.
  *
  * @param progress  share of the range
+ * @param stop      ends the branch under way; what is there is kept
  */
 void follow_branches(const SceneFamily &family, const std::vector<coupling::PeriodicSolution> &solutions,
                      const coupling::PeriodicOptions &options, const PeriodicRequest &request,
-                     const std::function<void(double)> &progress, PeriodicResult &result);
+                     const std::function<void(double)> &progress, const std::atomic<bool> *stop,
+                     PeriodicResult &result);
 
 } // namespace gestell::apps

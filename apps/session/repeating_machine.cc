@@ -232,9 +232,10 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
   problem.period                          = own.at.period;
   problem.phase                           = own.phase;
   problem.phase_value                     = own.phase_value;
+  problem.phase_falls                     = own.falls;
   repeating.reason =
       "nothing drives the machine, which keeps swinging by itself; its period is unknown, and begins where " +
-      machine.coordinate_name(own.phase) + " rises through the middle of its way" +
+      machine.coordinate_name(own.phase) + (own.falls ? " falls" : " rises") + " through the middle of its way" +
       (own.pushed ? " (it rested at the start, and was pushed)" : "");
 }
 

@@ -12,6 +12,7 @@
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/stress_answer.h"
+#include "coupling/periodic/period_flow.h"
 #include "coupling/simulation/simulation.h"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomi
   state.q       = solution->q;
   state.v       = solution->v;
   state.settled = true;
+  state.still   = coupling::still_speed(prepared.machine, state.q, state.v, solution->period);
 }
 
 /// The state at the begin of the run, or why there is none.
@@ -311,7 +313,8 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
     found.parameter_unit = family->unit();
     const auto now       = progress();
     follow_branches(
-        *family, solutions, options, request, [&](double share) { now("branches", share); }, found);
+        *family, solutions, options, request, [&](double share) { now("branches", share); }, repeating.problem.stop,
+        found);
     found.backbone = backbone_of(machine, repeating.problem, found.entries, signals);
   }
   else

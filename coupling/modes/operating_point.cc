@@ -32,6 +32,8 @@ Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &lo
   return K;
 }
 
+constexpr double beside_point  = 1e-9; ///< [m, rad] to both sides of a contact that is about to touch
+constexpr double another_slope = 0.01; ///< difference of two slopes, of the largest
 constexpr double least_contact = 1e-6; ///< share of the stiffness of a closed element that tells it from an open one
 
 /// Names of the elements that may be open, by whether they are: between what acts always and what acts when they are
@@ -59,6 +61,53 @@ void tell_contacts(const Machine &machine, MachinePoint &at)
     }
     first += k;
   }
+}
+
+/// Whether the force of a measure has one slope at the point and on both sides of it, laws following the motion itself.
+bool is_smooth(const Machine &machine, const LocalState &local, int measure, double slope)
+{
+  LocalState            beside = local;
+  const Eigen::VectorXd p      = local.p;
+  Eigen::VectorXd       here = p, there = p;
+  machine.forces().force(beside, here);
+  double slopes[2];
+  for (const int side : {0, 1})
+  {
+    const double way  = side == 0 ? -beside_point : beside_point;
+    beside.u[measure] = local.u[measure] + way;
+    machine.forces().force(beside, there);
+    slopes[side] = (there[measure] - here[measure]) / way;
+  }
+  const double largest = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
+  return std::abs(slopes[0] - slope) <= another_slope * largest &&
+         std::abs(slopes[1] - slope) <= another_slope * largest;
+}
+
+/// Names of elements that may be open and are about to touch.
+void tell_touching(Machine &machine, MachinePoint &at)
+{
+  const LocalState &local = at.point.local;
+  const auto        n_u   = local.u.size();
+  Eigen::VectorXd   p     = Eigen::VectorXd::Zero(n_u);
+  Eigen::MatrixXd   dp    = Eigen::MatrixXd::Zero(n_u, n_u);
+  machine.forces().tangent(local, 1., 0., 0., p, dp);
+  machine.events().follow_history(false);
+  int first = 0;
+  for (const ElementPlacement &placement : machine.model().elements())
+  {
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K, open = K, open_D = K;
+    engaged(*placement.element, local.u.data() + first, K.data(), D.data());
+    open_branch(*placement.element, local.u.data() + first, open.data(), open_D.data());
+    for (int i = 0; i < k; ++i)
+      if (K(i, i) != open(i, i) && !is_smooth(machine, local, first + i, dp(first + i, first + i)))
+      {
+        at.touching.push_back(placement.name);
+        break;
+      }
+    first += k;
+  }
+  machine.events().follow_history(true);
 }
 
 /// A derivative, with an estimate of its error.
@@ -250,6 +299,7 @@ MachinePoint machine_point(Machine &machine, const InitialState &state)
     machine.forces().force(local, local.p);
   at.point.joint_stiffness = stiffness_of_joints(machine, local);
   tell_contacts(machine, at);
+  tell_touching(machine, at);
   return at;
 }
 

@@ -17,6 +17,7 @@ struct MachinePoint
   Eigen::VectorXd          a; ///< q'' [n] with which the motion goes on; zero where something has no mass
   OperatingPoint           point;
   std::vector<std::string> closed, open; ///< elements with play that are in contact, and those that are not: names
+  std::vector<std::string> touching; ///< those whose force has another slope beside the point: they are about to touch
 };
 
 /// The motion `state` with its forces, multipliers and accelerations; branches of the laws are those a run begins with

@@ -21,6 +21,7 @@ constexpr double fine         = 1e-11;    ///< tolerance of steps where none is 
 constexpr double small_way    = 1e-5;     ///< over which gradients of guards are taken, of the largest motion so far
 constexpr double touching     = 1e-6;     ///< slope of a guard, of what the motion could give it
 constexpr double rounding     = 1e-12;    ///< of a period: the end is reached
+constexpr double at_rest      = 1e-9;     ///< sliding speed that is none, of the motion
 constexpr double same_history = 1e-12;    ///< relative difference of numbers that elements remember
 
 /// What is not said of the integration.
@@ -34,6 +35,13 @@ MethodOptions completed(const MethodOptions &given, double period)
   return options;
 }
 } // namespace
+
+double still_speed(const SecondOrderSystem &system, const VectorXd &q, const VectorXd &v, double period)
+{
+  if (system.forces().directions().cols() == 0)
+    return 0.;
+  return at_rest * (v.cwiseAbs().maxCoeff() + 2. * M_PI / period * q.cwiseAbs().maxCoeff());
+}
 
 PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration)
     : problem_(problem), system_(*problem.system), integration_(completed(integration, problem.period)),
@@ -81,6 +89,7 @@ void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double begin, doubl
     throw std::invalid_argument(method_name(integration_) + " carries no tangents; take exact, collocation");
   EventOptions options;
   options.end      = end;
+  options.still    = still_speed(system_, q, v, problem_.period);
   driver_          = std::make_unique<EventDriver>(system_, *integrator_, options);
   passage_         = {};
   passage_.q_begin = q;
@@ -130,7 +139,7 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
   const IntegrationWork before = integrator_->work();
   const int             phase  = problem_.phase;
   const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase],
-               direction = problem_.turn[phase] < 0. ? -1. : 1.;
+               direction = problem_.turn[phase] < 0. || problem_.phase_falls ? -1. : 1.;
   begin(q, v, problem_.begin, problem_.begin + longest, false);
   bool there = false;
   driver_->on_step(
@@ -138,7 +147,7 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
       {
         at_step();
         // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction,
-        // that of the turn, and upwards without one.
+        // that of the turn, and without one upwards unless the phase falls.
         const auto past = [&](double t)
         {
           integrator_->interpolate(t, q_look_, v_look_);

@@ -57,7 +57,8 @@ public:
   /// @throws ConvergenceFailure, NoPeriodicMotion if it does not come there
   const PeriodPassage &pass_turn(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double longest);
 
-  const PeriodPassage &passage() const { return passage_; }
+  const SecondOrderSystem &system() const { return system_; }
+  const PeriodPassage     &passage() const { return passage_; }
   /// q'' at the end of the last passage [n].
   const Eigen::VectorXd &end_acceleration();
 
@@ -104,6 +105,10 @@ private:
   Eigen::VectorXd                         q_look_, v_look_;
   LocalState                              local_look_;
 };
+
+/// Sliding speed [m/s, rad/s] that is none in a motion that starts at q, q' and repeats after `period` [s]: what a
+/// search leaves of its size.
+double still_speed(const SecondOrderSystem &system, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period);
 
 /// Floquet multipliers: eigenvalues of the monodromy matrix, largest first.
 Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd &monodromy);

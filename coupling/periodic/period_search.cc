@@ -32,8 +32,9 @@ constexpr double comes_back    = 0.02; ///< distance of two states, of the large
 /// Samples of a window of the motion.
 struct Window
 {
-  VectorXd times;
-  MatrixXd q, v; ///< [n x samples]
+  VectorXd          times;
+  MatrixXd          q, v;  ///< [n x samples]
+  std::vector<bool> holds; ///< whether a measure sticks there
 
   VectorXd middle() const { return 0.5 * (q.rowwise().maxCoeff() + q.rowwise().minCoeff()); }
   VectorXd excursion() const { return 0.5 * (q.rowwise().maxCoeff() - q.rowwise().minCoeff()); }
@@ -45,13 +46,16 @@ Window next_window(PeriodFlow &flow, PeriodicGuess &at, double length)
   window.times.resize(window_samples + 1);
   window.q.resize(at.q.size(), window_samples + 1);
   window.v.resize(at.q.size(), window_samples + 1);
-  Index k = 0;
+  window.holds.assign(window_samples + 1, false);
+  const LocalForces &forces = flow.system().forces();
+  Index              k      = 0;
   flow.look_on(window_samples,
                [&](const OrbitPoint &point)
                {
-                 window.times[k] = point.t;
-                 window.q.col(k) = point.q;
-                 window.v.col(k) = point.v;
+                 window.times[k]              = point.t;
+                 window.q.col(k)              = point.q;
+                 window.v.col(k)              = point.v;
+                 window.holds[std::size_t(k)] = !forces.held().empty();
                  ++k;
                });
   const PeriodPassage &passage = flow.pass(at.q, at.v, length, false);
@@ -77,12 +81,14 @@ struct Passage
   VectorXd q, v;
 };
 
-std::vector<Passage> rising_passages(const Window &window, Index coordinate, double value)
+std::vector<Passage> passages_through(const Window &window, Index coordinate, double value, bool falls)
 {
+  const double         direction = falls ? -1. : 1.;
   std::vector<Passage> passages;
   for (Index k = 0; k + 1 < window.times.size(); ++k)
   {
-    const double a = window.q(coordinate, k) - value, b = window.q(coordinate, k + 1) - value;
+    const double a = direction * (window.q(coordinate, k) - value),
+                 b = direction * (window.q(coordinate, k + 1) - value);
     if (!(a < 0.) || !(b >= 0.))
       continue;
     const double part = -a / (b - a);
@@ -183,6 +189,7 @@ public:
   bool     pushed() const { return pushed_; }
 
 private:
+  bool     sticks_rising(Index phase) const;
   VectorXd speeds() const { return window_.v.rowwise().norm() / std::sqrt(double(window_samples)); }
 
   PeriodFlow    flow_;
@@ -227,17 +234,30 @@ void FreeMotion::follow()
   throw NoPeriodicMotion(text.str());
 }
 
+/// Whether something sticks where the coordinate rises through its middle: a start there would stand between sticking
+/// and sliding, and downwards it may not.
+bool FreeMotion::sticks_rising(Index phase) const
+{
+  const double middle = window_.middle()[phase];
+  for (Index k = 0; k + 1 < window_.times.size(); ++k)
+    if (window_.q(phase, k) < middle && window_.q(phase, k + 1) >= middle &&
+        (window_.holds[std::size_t(k)] || window_.holds[std::size_t(k) + 1]))
+      return true;
+  return false;
+}
+
 bool FreeMotion::is_oscillation(FreeOscillation &found) const
 {
   Index phase = 0;
   speeds().maxCoeff(&phase);
   const double middle   = window_.middle()[phase];
-  const auto   passages = rising_passages(window_, phase, middle);
+  const bool   falls    = sticks_rising(phase);
+  const auto   passages = passages_through(window_, phase, middle, falls);
   if (passages.size() < 2)
     return false;
   const std::size_t m    = passages_of_a_period(passages, excursion(), window_.v.rowwise().lpNorm<Eigen::Infinity>());
   const Passage    &last = passages.back();
-  found             = {{last.q, last.v, last.t - passages[passages.size() - 1 - m].t}, int(phase), middle, pushed_};
+  found = {{last.q, last.v, last.t - passages[passages.size() - 1 - m].t}, int(phase), middle, falls, pushed_};
   found.at.q[phase] = middle;
   return true;
 }

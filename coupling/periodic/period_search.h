@@ -29,13 +29,14 @@ struct FreeOscillation
   PeriodicGuess at;                  ///< on it, with its period
   int           phase       = -1;    ///< the coordinate that moves most
   double        phase_value = 0.;    ///< its middle, through which `at` rises
+  bool          falls       = false; ///< `at` falls through it, as something sticks where it rises
   bool          pushed      = false; ///< the start rests, and was given a small velocity
 };
 
 /**
  * What a system does by itself, to which nothing tells the time: followed from q, q' until the largest excursions of a
  * time of many periods of its lowest frequency are those of the time before, then its period is that after which the
- * state comes back at a rising passage of the coordinate that moves most.  From a tenth more it must come back.
+ * state comes back at a passage of the coordinate that moves most.  From a tenth more it must come back.
  *
  * @throws NoPeriodicMotion if it comes to rest, keeps any size or none; ConvergenceFailure
  */

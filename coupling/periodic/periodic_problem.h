@@ -29,7 +29,8 @@ struct PeriodicProblem
   int                ratio  = 1;  ///< T in periods of the excitation: of a subharmonic motion above 1
   Eigen::VectorXd    turn;        ///< [n] [rad]
   int                phase       = -1;
-  double             phase_value = 0.; ///< [rad] or [m]
+  double             phase_value = 0.;    ///< [rad] or [m]
+  bool               phase_falls = false; ///< of an oscillation: it passes its value downwards
 
   const std::atomic<bool> *stop       = nullptr; ///< ends a search
   long                     most_steps = 1000000; ///< of one period: more is a motion astray

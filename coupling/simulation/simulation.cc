@@ -211,11 +211,12 @@ private:
   double            from_;
 };
 
-EventDriver event_driver(Machine &machine, TimeIntegrator &integrator, const RunOptions &options)
+EventDriver event_driver(Machine &machine, TimeIntegrator &integrator, const RunOptions &options, double still)
 {
   EventOptions events;
   events.locate = options.events;
   events.end    = options.end;
+  events.still  = still;
   return {machine, integrator, events};
 }
 
@@ -274,7 +275,7 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
 void try_start(Machine &machine, const InitialState &initial, const RunOptions &options)
 {
   const std::unique_ptr<TimeIntegrator> integrator = make_integrator(machine, with_largest_step(machine, options));
-  event_driver(machine, *integrator, options).begin(options.begin, initial.q, initial.v);
+  event_driver(machine, *integrator, options, initial.still).begin(options.begin, initial.q, initial.v);
 }
 
 namespace
@@ -284,10 +285,10 @@ namespace
 class Run
 {
 public:
-  Run(Machine &machine, const RunOptions &options, const MethodOptions &method, const std::vector<Signal> &signals,
-      RunResult &result)
+  Run(Machine &machine, const RunOptions &options, const MethodOptions &method, double still,
+      const std::vector<Signal> &signals, RunResult &result)
       : machine_(machine), options_(options), method_(method), result_(result),
-        integrator_(make_integrator(machine, method)), driver_(event_driver(machine, *integrator_, options)),
+        integrator_(make_integrator(machine, method)), driver_(event_driver(machine, *integrator_, options, still)),
         recorder_(machine, *integrator_, options, signals, sampling(machine, method), result)
   {
   }
@@ -404,7 +405,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     add(closed_contact_warnings(machine, initial), result.warnings);
   if (!options.events)
     add(unlocated_friction_warnings(machine), result.warnings);
-  Run run(machine, options, method, signals, result);
+  Run run(machine, options, method, initial.still, signals, result);
   try
   {
     run.begin(initial);

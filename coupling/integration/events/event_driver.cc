@@ -49,6 +49,7 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   before_.p.setZero();
   system_.events().follow_history(false);
   system_.events().start(before_);
+  hold_what_is_still();
   auto *const  control  = dynamic_cast<ErrorControl *>(&integrator_);
   const bool   controls = control && control->controls_error();
   LoadedMotion loaded;
@@ -62,6 +63,21 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   detection_.begin(before_);
   window_begin_ = t;
   in_window_    = 0;
+}
+
+/// Where the load is too large to hold, the new branch lets go at once, forward or backward as it pulls.
+void EventDriver::hold_what_is_still()
+{
+  EventSystem &events = system_.events();
+  for (int i = 0; i < events.n_guards() && options_.still > 0.; ++i)
+  {
+    probe_.resize(std::max<Eigen::Index>(probe_.size(), events.n_guards()));
+    events.guard_values(before_, probe_);
+    if (events.guard(i).kind != "stick" || std::abs(probe_[i]) > options_.still)
+      continue;
+    events.transition(i, before_);
+    i = -1; // guards are others now
+  }
 }
 
 void EventDriver::advance()

@@ -17,6 +17,9 @@ struct EventOptions
   int  max_per_step = 20;   ///< located within the length of one step; more is chatter
 
   double end = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
+
+  /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is rounded.
+  double still = 0.;
 };
 
 /**
@@ -37,7 +40,7 @@ class EventDriver
 public:
   EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options);
 
-  /// Starts history and integration;
+  /// Starts history and integration.
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
   /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
@@ -60,6 +63,8 @@ public:
   double chattering_time() const { return chattering_time_; }
 
 private:
+  void hold_what_is_still();
+
   struct Crossing
   {
     int    guard = -1;

@@ -74,7 +74,7 @@ FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlo
     if (!(std::abs(x) <= 1.))
       throw std::invalid_argument(
           "averaging: the coordinate that fixes the phase does not come to its value in this motion; give its mean");
-    const double side = flow.shape()[problem.phase] > 0. ? 1. : -1.;
+    const double side = (flow.shape()[problem.phase] > 0.) != problem.phase_falls ? 1. : -1.;
     z                 = a * std::exp(Complex(0., -side * std::acos(x) - series.omega * problem.begin));
   }
   const auto n                = flow.shape().size();

@@ -141,9 +141,21 @@ void SlowFlow::find_mode(int mode)
   d_              = W_.transpose() * phi_;
   linear_k_       = phi_.dot((linear_C_ - C_) * phi_);
   linear_damping_ = phi_.dot(B_ * phi_);
+  start_moving();
   if (load_omega_ > 0.)
     for (const Excitation::Entry &entry : problem_.system->linear().excitation().harmonics()[0].load)
       load_ += phi_[entry.coordinate] * Complex(entry.cosine, -entry.sine);
+}
+
+/// Histories of a motion of the mode: what sticks at rest slides in it.
+void SlowFlow::start_moving()
+{
+  LocalState state;
+  state.resize(W_.cols());
+  state.t = problem_.begin;
+  state.u = W_.transpose() * rest_;
+  state.v = d_;
+  problem_.system->events().start(state);
 }
 
 /// q_0 that the mean forces keep at the amplitude a, from the last one; what rounding moves stays.
@@ -223,11 +235,13 @@ std::vector<double> SlowFlow::amplitudes(double from, double to)
 {
   if (!(to > from))
   {
-    const double push   = std::abs(load_) / (2. * omega_0_);
-    const double delta  = std::max(0.5 * std::abs(phi_.dot(linear_B_ * phi_)), least_damping * omega_0_);
-    const double linear = push / std::hypot(omega_0_ - load_omega_, delta);
-    from                = load_omega_ > 0. ? linear / reach : 1. / reach;
-    to                  = load_omega_ > 0. ? beyond * push / delta : reach;
+    const double push    = std::abs(load_) / (2. * omega_0_);
+    const double at_rest = 0.5 * std::abs(phi_.dot(linear_B_ * phi_)), base = 0.5 * std::abs(linear_damping_);
+    const double linear = push / std::hypot(omega_0_ - load_omega_, std::max(at_rest, least_damping * omega_0_));
+    // friction that damps small motions much damps large ones little
+    const double least = std::max(std::min(at_rest, base), least_damping * omega_0_);
+    from               = load_omega_ > 0. ? linear / reach : 1. / reach;
+    to                 = load_omega_ > 0. ? beyond * push / least : reach;
   }
   const double        ratio = std::pow(to / from, 1. / (grid_points - 1));
   std::vector<double> a(grid_points), value(grid_points), found;

@@ -60,6 +60,7 @@ private:
   void   find_rest();
   void   find_mode(int mode);
   void   find_load();
+  void   start_moving();
   double nearness(int mode, const Eigen::VectorXd &omega, const Eigen::MatrixXd &shapes) const;
   void   settle_mean(double a);
   double balance(double a);

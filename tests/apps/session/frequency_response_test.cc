@@ -220,6 +220,28 @@ TEST(FrequencyResponse, SeesAContactWhereItIsClosed)
   EXPECT_LT(error(off, 0, [](double f) { return Complex(-1. / (m * std::pow(two_pi * f, 2))); }), 1e-13);
 }
 
+/// A play of zero is closed on both sides and open in the point itself; a stop of zero gap is closed on one side.
+TEST(FrequencyResponse, WarnsOfAContactThatJustTouches)
+{
+  const std::string slide = slider_body("slide", "2", "[0, 0, 1]") +
+                            element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "800"}});
+  for (const std::string type : {"stop", "clearance"})
+  {
+    const auto warnings = [&](const std::string &gap)
+    {
+      const std::string text = slide + element("touch", type, {{"from", "slide"}, {"gap", gap}, {"stiffness", "3000"}});
+      const test::SceneFolder folder;
+      std::string             all;
+      for (const std::string &warning :
+           Session(folder.write("scene.toml", text), {}).frequency_response(options_of({"slide"}, {"slide"})).warnings)
+        all += warning;
+      return all;
+    };
+    EXPECT_THAT(warnings("0"), testing::HasSubstr("\"touch\" just touches")) << type;
+    EXPECT_THAT(warnings("0.001"), testing::Not(testing::HasSubstr("touches"))) << type;
+  }
+}
+
 /// The band is about the modes with the contacts as they are: an open stop of 1e6 N/m does not move it.
 TEST(FrequencyResponse, LooksWhereTheMachineVibratesAtItsPoint)
 {

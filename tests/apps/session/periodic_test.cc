@@ -1,10 +1,8 @@
 // Periodic motions of scenes: against the reference, other methods, and what must hold of any of them.
 
-#include "apps/session/session.h"
+#include "tests/apps/session/periodic_scenes.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
-#include "tests/support/scene_parts.h"
-#include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -15,41 +13,6 @@ namespace gestell::tests
 {
 namespace
 {
-
-using apps::PeriodicEntry;
-using apps::PeriodicRequest;
-using apps::PeriodicResult;
-using apps::Session;
-
-PeriodicResult periodic_of(const std::string &text, const PeriodicRequest &request = {},
-                           const std::vector<std::string> &overrides = {})
-{
-  const test::SceneFolder folder;
-  const std::string       path = folder.write("scene.toml", text);
-  return *Session(path, overrides).periodic(request).periodic;
-}
-
-/// A load F cos(Omega t) on a marker along x.
-std::string cosine_load(const std::string &marker, double F, double Omega, double constant = 0.)
-{
-  return element("load", "force",
-                 {{"from", marker},
-                  {"to", "ground"},
-                  {"direction", "[1, 0, 0]"},
-                  {"constant", number(constant)},
-                  {"harmonics", "[{ amplitude = '" + number(F) + " N', frequency = '" + number(Omega / (2. * M_PI)) +
-                                    " Hz', phase = '90 deg' }]"}});
-}
-
-const std::string output_x = "[output.signals]\nx = 'slide.displacement'\n";
-
-std::string duffing(double zeta, double beta, double F, double Omega)
-{
-  return slider_body("slide", "1", "[1, 0, 0]") +
-         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}, {"damping", number(2. * zeta)}}) +
-         element("cubic", "cubic spring", {{"from", "slide"}, {"cubic", number(beta)}}) +
-         cosine_load("slide", F, Omega) + test::quoted(output_x);
-}
 
 /// x'' + 2 zeta x' + g(x) = F0 + F cos(Omega t), g with a dead zone of half width 1 and unit slope.
 std::string play(double zeta, double F0, double F, double Omega)
@@ -319,52 +282,6 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   along.along = "parameters.y";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("no parameter 'y'"));
-}
-
-/// An option that the methods at work do not take would do nothing unsaid.
-TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
-{
-  const auto words = [](const std::string &method, const std::function<void(PeriodicRequest &)> &ask)
-  {
-    PeriodicRequest request;
-    request.method = method;
-    ask(request);
-    return refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.), request); });
-  };
-  EXPECT_THAT(words("shooting", [](auto &r) { r.harmonics = 3; }), testing::HasSubstr("--method harmonic-balance"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.starts = 3; }), testing::HasSubstr("--method minimise"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.damping = 0.1; }), testing::HasSubstr("--method settling"));
-  EXPECT_THAT(words("settling", [](auto &r) { r.lead_in = 3; }), testing::HasSubstr("--lead-in"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.lead_in = -1; }), testing::HasSubstr("0 or more"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.check = "shooting"; }), testing::HasSubstr("with itself"));
-  EXPECT_THAT(words("harmonic-balance", [](auto &r) { r.harmonics = 100000; }), testing::HasSubstr("at most 3999"));
-  EXPECT_THAT(words("averaging", [](auto &r) { r.along = "element.load.constant", r.from = "0 N", r.to = "1 N"; }),
-              testing::HasSubstr("--method harmonic-balance --harmonics 1"));
-  EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.harmonics = 9; }), "");
-}
-
-/// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.
-TEST(PeriodicScene, ExtremesOfASeriesAreItsOwn)
-{
-  PeriodicRequest request;
-  request.method              = "harmonic-balance";
-  request.harmonics           = 1;
-  const PeriodicResult result = periodic_of(duffing(0.05, 0., 1., 1.37), request);
-  ASSERT_EQ(result.entries.size(), 1u);
-  const double a = 1. / std::hypot(1. - 1.37 * 1.37, 0.1 * 1.37);
-  EXPECT_NEAR(result.entries[0].signals[0].max, a, 1e-12 * a);
-  EXPECT_NEAR(result.entries[0].signals[0].min, -a, 1e-12 * a);
-}
-
-/// A sheet that is broken has no force where it had one before: no mesh of collocation sees that.
-TEST(PeriodicScene, CollocationRefusesAnElementThatRemembers)
-{
-  PeriodicRequest request;
-  request.method  = "collocation";
-  request.lead_in = 0;
-  expect_refusal(
-      [&] { Session(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {}).periodic(request); },
-      "sheet remembers what was before");
 }
 
 /// Duffing's oscillator whose load has the frequency that a formula of the parameter n gives [rad/s].

@@ -98,6 +98,48 @@ TEST(SelfExcitedScene, AngleOfASeriesThatTurnsEndsWithTheTurn)
   EXPECT_NEAR(balanced.entries[0].signals[1].max, shot.entries[0].signals[1].max, 1e-7);
 }
 
+/// Stick and slip on a belt of speed v_b: with a = (R0 - R)/k and b = v_b/w,
+///
+///     T = (2 pi - 2 atan2(a, b))/w + 2 a/v_b,     largest x = R/k + sqrt(a^2 + b^2).
+///
+/// The period begins where nothing sticks, so that all motions of a branch do, along springs and along the belt.
+TEST(SelfExcitedScene, StickAndSlipOnABeltIsItsClosedSolutionAlongABranch)
+{
+  const double      R = 2., R0 = 3.;
+  const std::string text =
+      "[parameters]\nk = 100\nvb = 0.1\n" + slider_body("slide", "1", "[1, 0, 0]") +
+      element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "k*(1 N/m)"}}) +
+      element("belt", "dry friction",
+              {{"from", "slide"}, {"kinetic_force", "2"}, {"static_force", "3"}, {"speed", "vb*(1 m/s)"}}) +
+      test::quoted("[output.signals]\nx = 'slide.displacement'\n");
+  const test::SceneFolder folder;
+  const std::string       scene = folder.write("scene.toml", text);
+  struct Case
+  {
+    std::string along, from, to;
+  };
+  for (const Case &one : {Case{"k", "100", "150"}, Case{"k", "150", "100"}, Case{"vb", "0.1", "0.2"}})
+  {
+    PeriodicRequest request;
+    request.method              = "shooting";
+    request.along               = "parameters." + one.along;
+    request.from                = one.from;
+    request.to                  = one.to;
+    request.points              = 10;
+    const PeriodicResult result = *Session(scene).periodic(request).periodic;
+    EXPECT_EQ(result.failure, "");
+    EXPECT_TRUE(result.special_points.empty()) << one.along;
+    EXPECT_NEAR(result.entries.back().parameter, std::stod(one.to), 1e-12);
+    for (const PeriodicEntry &entry : result.entries)
+    {
+      const double k = one.along == "k" ? entry.parameter : 100., vb = one.along == "vb" ? entry.parameter : 0.1;
+      const double w = std::sqrt(k), a = (R0 - R) / k, b = vb / w;
+      EXPECT_NEAR(entry.solution.period, (2. * M_PI - 2. * std::atan2(a, b)) / w + 2. * a / vb, 1e-8);
+      EXPECT_NEAR(entry.signals[0].max, R / k + std::hypot(a, b), 1e-8);
+    }
+  }
+}
+
 /// The period is longer by mu^2/16 of it in second order, of which averaging knows nothing.
 TEST(SelfExcitedScene, AveragingTellsWhatItLeavesOutOfThePeriod)
 {
