@@ -147,7 +147,7 @@ Command periodic_command()
            "--basins"),
        CommandOption{"--section", &own->section,
                      "follow the motion for so many periods, 64 or more, and tell what it does in the long run "
-                     "(default: 256 where no motion that lasts is found)"}
+                     "(default: 256 where no motion is found, of minimise none that lasts)"}
            .above_zero()},
       [own](const CommonOptions &options) { return find_periodic(options, *own); }};
 }

@@ -19,6 +19,7 @@ namespace
 {
 constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
 constexpr int    harmonics_told  = 10;    ///< of the drive
+constexpr double neutral         = 1e-9;  ///< distance of a multiplier from 1 that is none
 constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
 constexpr int    least_samples   = 4096;  ///< of a period, for extremes
 
@@ -231,7 +232,11 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
 {
   PeriodicEntry entry;
   entry.solution = solution;
-  rows           = std::max(rows, coupling::power_of_two(4 * harmonics_told * solution.ratio));
+  if (const double largest = solution.largest_multiplier(); std::abs(largest - 1.) <= neutral)
+    entry.solution.notes.push_back(
+        "a multiplier is 1: a motion beside it stays there and comes neither nearer nor away, "
+        "as where friction holds what it has stopped");
+  rows = std::max(rows, coupling::power_of_two(4 * harmonics_told * solution.ratio));
   if (solution.series)
     trace_signals(machine, problem, solution, signals, rows, entry);
   else

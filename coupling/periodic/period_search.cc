@@ -19,15 +19,17 @@ constexpr int    largest_ratio     = 64;
 constexpr double equal_frequencies = 1e-9;
 constexpr int    turn_samples      = 256;
 constexpr int    window_periods = 32, window_samples = 2048; ///< of the lowest frequency
-constexpr int    most_windows  = 64;
-constexpr double settled       = 1e-3; ///< change of the largest excursions, of themselves
-constexpr double rests         = 1e-6; ///< of the largest excursions since the start
-constexpr double at_rest       = 1e-6; ///< [m/s], [rad/s]
-constexpr double runs_away     = 1e9;  ///< of the excursions of the first window
-constexpr double larger        = 0.1;  ///< share by which a motion is made larger, to see whether it comes back
-constexpr double push          = 1e-3; ///< [m/s], [rad/s] of what rests
-constexpr int    most_passages = 16;   ///< of a coordinate through its middle in one period
-constexpr double comes_back    = 0.02; ///< distance of two states, of the largest excursions
+constexpr int    most_lengthenings = 3;
+constexpr double longer            = 8.; ///< a window without two passages
+constexpr int    most_windows      = 64;
+constexpr double settled           = 1e-3; ///< change of the largest excursions, of themselves
+constexpr double rests             = 1e-6; ///< of the largest excursions since the start
+constexpr double at_rest           = 1e-6; ///< [m/s], [rad/s]
+constexpr double runs_away         = 1e9;  ///< of the excursions of the first window
+constexpr double larger            = 0.1;  ///< share by which a motion is made larger, to see whether it comes back
+constexpr double push              = 1e-3; ///< [m/s], [rad/s] of what rests
+constexpr int    most_passages     = 16;   ///< of a coordinate through its middle in one period
+constexpr double comes_back        = 0.02; ///< distance of two states, of the largest excursions
 
 /// Samples of a window of the motion.
 struct Window
@@ -182,6 +184,8 @@ public:
   void follow();
   /// The last rising passages of the coordinate that moves most are a period apart.
   bool is_oscillation(FreeOscillation &found) const;
+  /// A longer window from there.
+  void lengthen();
   /// A motion from there, in all excursions by `part` larger.
   void enlarge(double part);
 
@@ -262,6 +266,12 @@ bool FreeMotion::is_oscillation(FreeOscillation &found) const
   return true;
 }
 
+void FreeMotion::lengthen()
+{
+  length_ *= longer;
+  window_ = next_window(flow_, at_, length_);
+}
+
 void FreeMotion::enlarge(double part)
 {
   at_.q += part * (at_.q - window_.middle());
@@ -283,7 +293,13 @@ FreeOscillation free_oscillation(SecondOrderSystem &system, const MethodOptions 
   FreeMotion      motion(problem, integration, from);
   FreeOscillation found;
   motion.follow();
-  if (!motion.is_oscillation(found))
+  bool swings = motion.is_oscillation(found);
+  for (int k = 0; !swings && k < most_lengthenings; ++k) // as relaxation oscillations, far slower than their frequency
+  {
+    motion.lengthen();
+    swings = motion.is_oscillation(found);
+  }
+  if (!swings)
     throw NoPeriodicMotion(
         "nothing drives the machine, and it moves on without swinging; hold it by a spring, or give it "
         "a motor and a speed in [start]");

@@ -171,7 +171,11 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
   std::ostringstream text;
   text << "shooting does not close the motion: after " << iterations << " Newton steps it still misses by "
        << equations.closing() << " of its speed";
-  if (equations.jacobian().size() > 0)
+  if (const auto &held = problem.system->forces().held(); !held.empty())
+    text << "; " << problem.system->forces().element_of(held.front().measure)
+         << " holds its motion at the end of the period: where it does all the time, every place near by is such a "
+            "motion";
+  else if (equations.jacobian().size() > 0)
     if (const std::string free = free_motion(equations.jacobian(), problem.system->linear()); !free.empty())
       throw UndeterminedMotion(text.str() + "; nothing determines the motion of " + free +
                                ": hold it by a spring, or give it a drive");
