@@ -11,8 +11,9 @@ namespace gestell::apps
 struct ReduceCommandOptions
 {
   bool        list = false, explain = false, prune = false;
-  bool        all   = false;           ///< prune every frame
-  bool        check = false;           ///< list and prune read every file whole
+  bool        partition = false;       ///< why every coordinate of q1 is kept
+  bool        all       = false;       ///< prune every frame
+  bool        check     = false;       ///< list and prune read every file whole
   std::string older_than, larger_than; ///< prune frames not used for "30 d", frames above "100 MB"
   std::string export_format;           ///< "matrix-market" or "petsc"; empty: none
 };

@@ -10,6 +10,7 @@
 #include "coupling/frame/frame_cache.h"
 #include "coupling/modes/modes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -79,6 +80,34 @@ void print_frame(const FrameAnswer &answer)
     std::cout << "  note: " << note << '\n';
 }
 
+void print_partition(const Partition &partition)
+{
+  std::cout << "q1: " << partition.rows.size() << " coordinates of interfaces; q2: " << partition.n2
+            << " of the inside, in " << partition.n_modes << " modes\n";
+  std::size_t width = 0;
+  for (const Partition::Row &row : partition.rows)
+    width = std::max(width, row.coordinate.size());
+  for (const Partition::Row &row : partition.rows)
+  {
+    std::string reasons;
+    for (const std::string &reason : row.reasons)
+      reasons += (reasons.empty() ? "" : "; ") + reason;
+    std::cout << "  " << std::left << std::setw(int(width)) << row.coordinate << std::right << "  "
+              << (reasons.empty() ? "nothing of the scene acts on it" : reasons) << '\n';
+  }
+  if (partition.n_free > 0)
+    std::cout << "the frame has " << partition.n_free
+              << " motions without stiffness; held at its interfaces it has none, so that C22 is definite\n";
+  for (const Partition::Idle &idle : partition.superfluous)
+    std::cout
+        << "superfluous: interface "
+        << idle.interface << ", on which nothing of the scene acts and which nothing reads; without it the model has "
+        << idle.coordinates << " coordinates less\n";
+  for (const std::string &name : partition.only_read)
+    std::cout << "only read: interface " << name
+              << ", on which nothing acts; it serves signals alone, which an output of the frame could, too\n";
+}
+
 int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduce)
 {
   check_options(options, reduce);
@@ -90,6 +119,14 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     explain_cache(scene_to_reduce(options).scene());
   if (reduce.prune || reduce.list || reduce.explain)
     return exit_done;
+  if (reduce.partition)
+  {
+    ProgressLine progress(options.quiet);
+    const auto   partition = scene_to_reduce(options, {progress.callback()}).partition();
+    progress.done();
+    print_partition(partition);
+    return exit_done;
+  }
 
   ProgressLine      progress(options.quiet);
   Session           session = scene_to_reduce(options, {progress.callback()});
@@ -132,6 +169,8 @@ Command reduce_command()
            "gestell reduce --explain apps/scenes/press.toml", "gestell reduce --prune --older-than '30 d' --list"},
           CommandInput::scene_or_none,
           {{"--export", &own->export_format, "write the reduced matrices, too: matrix-market or petsc"},
+           {"--partition", &own->partition,
+            "why every coordinate of the interfaces is kept, and interfaces that are superfluous, instead"},
            {"--list", &own->list, "the frames in the cache instead"},
            {"--explain", &own->explain, "why the scene's frame is in the cache or not, instead"},
            {"--prune", &own->prune, "remove what cannot be used from the cache, and what these name:"},

@@ -207,6 +207,12 @@ FrameAnswer Session::reduced_frame()
   return answer;
 }
 
+Partition Session::partition()
+{
+  const PreparedMachine &prepared = machine();
+  return partition_of(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
+}
+
 Result Session::modes(const ModesOptions &options)
 {
   PreparedMachine &prepared = machine();

@@ -2,6 +2,7 @@
 
 #include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
+#include "apps/session/partition.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/phase_times.h"
 #include "apps/session/prepared_machine.h"
@@ -58,6 +59,8 @@ public:
 
   /// The reduced frame alone; the scene's frame must be one that is reduced (frame_path()).
   FrameAnswer reduced_frame();
+  /// Why the coordinates of its interfaces are kept.
+  Partition partition();
   /// Modes of the frame and of the coupled machine, and along a coordinate where options say so.
   Result modes(const ModesOptions &options = {});
   /// Frequency responses of the machine linearised at an operating point.

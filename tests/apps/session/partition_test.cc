@@ -1,0 +1,76 @@
+// Why coordinates of a reduced frame are in q1, and interfaces that are superfluous.
+
+#include "apps/session/session.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::Partition;
+using apps::Session;
+
+/// Five masses in a chain, to be reduced: `a`, `b`, `c`, `d` are interfaces.
+std::string chain(const std::string &reduction)
+{
+  std::string text =
+      "name = \"chain\"\n" + table("frame", {{"mass", "[[1,0,0,0,0],[0,1,0,0,0],[0,0,1,0,0],[0,0,0,1,0],[0,0,0,0,1]]"},
+                                             {"stiffness", "[[2e3,-1e3,0,0,0],[-1e3,2e3,-1e3,0,0],[0,-1e3,2e3,-1e3,0],"
+                                                           "[0,0,-1e3,2e3,-1e3],[0,0,0,-1e3,1e3]]"}});
+  int row = 1;
+  for (const std::string name : {"a", "b", "c", "d"})
+    text += table("frame.interface." + name, {{"rows", "{ ux = " + std::to_string(row) + " }"},
+                                              {"position", "[" + std::to_string(row++) + ", 0, 0]"}});
+  return text + reduction;
+}
+
+Partition partition_of(const std::string &text)
+{
+  const test::SceneFolder folder;
+  return Session(folder.write("scene.toml", text)).partition();
+}
+
+const std::string reduced = table("reduction", {{"method", "craig-bampton"}, {"modes", "1"}});
+
+} // namespace
+
+/// Every kind of reason by its name; what nothing acts on is superfluous, what is read alone is said to be.
+TEST(Partition, TellsWhatActsOnEveryCoordinate)
+{
+  const Partition partition = partition_of(
+      chain(reduced) +
+      element("stop", "stop", {{"from", "frame.a"}, {"direction", "[1, 0, 0]"}, {"gap", "0.1"}, {"stiffness", "10"}}) +
+      element("spring", "spring-damper",
+              {{"from", "frame.a"}, {"to", "frame.b"}, {"direction", "[1, 0, 0]"}, {"stiffness", "5"}}) +
+      element("shaker", "force",
+              {{"from", "frame.b"},
+               {"direction", "[1, 0, 0]"},
+               {"harmonics", "[{ amplitude = '1 N', frequency = '2 Hz' }]"}}) +
+      test::quoted("[output.signals]\nx = 'frame.c.ux'\n"));
+  ASSERT_EQ(partition.rows.size(), 4u);
+  EXPECT_EQ(partition.rows[0].coordinate, "frame.a.ux");
+  EXPECT_EQ(partition.rows[0].reasons, (std::vector<std::string>{"linear: spring", "nonlinear: stop"}));
+  EXPECT_EQ(partition.rows[1].reasons, (std::vector<std::string>{"excited: shaker", "linear: spring"}));
+  EXPECT_EQ(partition.rows[2].reasons, (std::vector<std::string>{"read by: x"}));
+  EXPECT_TRUE(partition.rows[3].reasons.empty());
+  EXPECT_EQ(partition.only_read, std::vector<std::string>{"c"});
+  ASSERT_EQ(partition.superfluous.size(), 1u);
+  EXPECT_EQ(partition.superfluous[0].interface, "d");
+  EXPECT_EQ(partition.superfluous[0].coordinates, 1);
+  EXPECT_EQ(partition.n2, 1);
+  EXPECT_EQ(partition.n_modes, 1);
+  EXPECT_EQ(partition.n_free, 0);
+}
+
+/// A frame of which every coordinate is kept has none.
+TEST(Partition, OfAnUnreducedFrameIsRefused)
+{
+  expect_refusal([] { partition_of(chain("")); }, "not reduced");
+}
+
+} // namespace gestell::tests
