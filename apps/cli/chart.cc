@@ -1,4 +1,5 @@
 #include "apps/cli/chart_methods.h"
+#include "apps/cli/chart_reductions.h"
 #include "apps/cli/chart_reference.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
@@ -46,6 +47,7 @@ struct ChartCommandOptions
   bool                     quick   = false;  ///< fewer methods and settings
   int                      samples = 2000;   ///< instants errors are measured at
   double                   limit   = 0.;     ///< [s] of CPU time for one run; 0: 20, quick 5
+  ReductionChart           reductions;       ///< these are compared instead of methods of integration
 };
 
 constexpr double resolved_above = 10.; ///< times the error of the reference
@@ -348,6 +350,12 @@ void write_chart(const std::filesystem::path &folder, const WorkPrecision &chart
 
 int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
+  if (chart_options.reductions.asked)
+  {
+    ReductionChart reductions = chart_options.reductions;
+    reductions.modes          = chart_options.modes;
+    return chart_reductions(options, reductions);
+  }
   Scene scene = read_scene(options.input, options.overrides, options.scripts);
   require_run(scene);
   check_scene(scene);
@@ -425,7 +433,12 @@ Command chart_command()
        {"--quick", &own->quick, "a minute instead of ten: fewer methods, steps and tolerances"},
        {"--samples", &own->samples, "instants that errors are measured at (default 2000)"},
        CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
-           .above_zero()},
+           .above_zero(),
+       {"--reductions", &own->reductions.asked, "reductions of the frame instead, over numbers of modes"},
+       CommandOption{"--outputs", &own->reductions.outputs, "whose largest error they have, such as F_P.max,F_P.min"}
+           .with("--reductions"),
+       CommandOption{"--full", &own->reductions.full, "the full frame as reference, not one with many modes (slow)"}
+           .with("--reductions")},
       [own](const CommonOptions &options) { return make_chart(options, *own); }};
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/session/prepared_machine.h"
 #include "coupling/modes/modes.h"
+#include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
 
 #include <algorithm>
@@ -94,6 +95,14 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
     size *= variant.mesh;
   if (variant.modes >= 0)
     other.reduction.options.n_modes = variant.modes;
+  for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
+    if (entry.name == variant.reduction)
+    {
+      other.reduction.method      = entry.name;
+      other.reduction.makes_frame = entry.makes == coupling::ReductionEntry::Makes::reduced_frame;
+      if (other.reduction.makes_frame)
+        other.reduction.options.method = entry.name;
+    }
   if (variant.method)
     other.run.options.method = *variant.method;
   return other;

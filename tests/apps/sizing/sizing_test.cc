@@ -2,6 +2,7 @@
 
 #include "apps/output/tables/size_table.h"
 #include "apps/session/session.h"
+#include "apps/sizing/reduction_comparison.h"
 #include "apps/sizing/size_search.h"
 #include "apps/sizing/sized_scene.h"
 #include "tests/support/refusal.h"
@@ -10,6 +11,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <map>
 
 namespace gestell::tests
 {
@@ -182,6 +185,39 @@ TEST(OutputName, IsRefusedWithTheWayOut)
     }
   EXPECT_EQ(outputs_named(" F_P.max , x slide.t_min,modes.2", signals, 4).size(), 3u);
   EXPECT_EQ(outputs_named("", signals, 4).size(), 4u);
+}
+
+/// With all its modes every reduction is the full rod; errors fall with their number, and statics alone err most.
+TEST(ReductionComparison, OfARodComesToTheFullOne)
+{
+  const Read        rod_scene(rod("method = 'craig-bampton'", "method = 'exact'\ntolerance = 1e-10\nend = 0.06\n"));
+  const auto        outputs = of_scene(rod_scene.scene, "x.max,x.min,F.max");
+  ComparisonOptions options;
+  options.full                         = true;
+  options.modes                        = {4, 12, links - 1};
+  const ReductionComparison comparison = compare_reductions(rod_scene.scene, outputs, options);
+  EXPECT_EQ(comparison.reference.coordinates, links);
+  std::map<std::string, std::vector<double>> errors;
+  for (const ReductionPoint &point : comparison.points)
+  {
+    EXPECT_EQ(point.failure, "") << point.method;
+    EXPECT_EQ(point.coordinates, 1 + point.modes) << point.method;
+    errors[point.method].push_back(point.error);
+  }
+  ASSERT_EQ(errors.size(), 3u);
+  for (const std::string method : {"craig-bampton", "free-interface"})
+  {
+    ASSERT_EQ(errors[method].size(), 3u) << method;
+    EXPECT_LT(errors[method][1], errors[method][0]) << method;
+    EXPECT_LT(errors[method][2], 1e-8) << method; // the tolerance of the steps, a hundred times
+    EXPECT_GT(errors["guyan"].at(0), errors[method][0]) << method;
+  }
+}
+
+TEST(ReductionComparison, NeedsAReducedFrame)
+{
+  const Read scene(rod("method = 'condensation'", by_steps));
+  expect_refusal([&] { compare_reductions(scene.scene, of_scene(scene.scene, "x.max"), {}); }, "not reduced");
 }
 
 } // namespace gestell::tests

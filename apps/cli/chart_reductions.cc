@@ -1,0 +1,129 @@
+#include "apps/cli/chart_reductions.h"
+
+#include "apps/cli/interruption.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/charts/chart.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/text/write_file.h"
+#include "apps/session/session.h"
+#include "apps/sizing/error_budget.h"
+#include "apps/sizing/reduction_comparison.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+void print_point(const ReductionPoint &point)
+{
+  std::cout << "  " << std::left << std::setw(16) << point.method << std::right << std::setw(7) << point.modes
+            << std::setw(13) << point.coordinates << std::setw(14) << short_text(point.prepare_cpu, 3)
+            << (point.from_cache ? " *" : "  ") << std::setw(10) << short_text(point.run_cpu, 3) << "  ";
+  if (!point.failure.empty())
+    std::cout << point.failure;
+  else if (point.worst.empty())
+    std::cout << "reference";
+  else
+    std::cout << short_text(point.error, 3) << ", " << point.worst;
+  std::cout << std::endl;
+}
+
+std::string csv_of(const ReductionComparison &comparison)
+{
+  std::string csv = "method,modes,coordinates,from cache,prepare cpu [s],run cpu [s],error,worst,failure";
+  for (const OutputName &output : comparison.outputs)
+    csv += ',' + output.text;
+  csv += '\n';
+  const auto add = [&](const ReductionPoint &point)
+  {
+    csv += point.method + ',' + std::to_string(point.modes) + ',' + std::to_string(point.coordinates) + ',' +
+           (point.from_cache ? "yes" : "no");
+    for (const double x : {point.prepare_cpu, point.run_cpu, point.error})
+      append_exact(csv += ',', x);
+    std::string failure = point.failure;
+    std::replace(failure.begin(), failure.end(), '"', '\'');
+    csv += ',' + point.worst + ",\"" + failure + '"';
+    for (std::size_t i = 0; i < comparison.outputs.size(); ++i)
+      if (csv += ','; i < point.values.size())
+        append_exact(csv, point.values[i]);
+    csv += '\n';
+  };
+  add(comparison.reference);
+  for (const ReductionPoint &point : comparison.points)
+    add(point);
+  return csv;
+}
+
+/// Error over `what` of a point, a line for each method.
+template <typename What>
+std::string svg_of(const ReductionComparison &comparison, const std::string &title, const std::string &label,
+                   const What &what)
+{
+  Chart chart{title};
+  chart.x.scale = chart.y.scale = Scale::logarithmic;
+  chart.x.label                 = label;
+  chart.y.label                 = "largest error of the outputs";
+  std::vector<Curve> curves;
+  for (const ReductionPoint &point : comparison.points)
+  {
+    if (!point.failure.empty() || !(point.error > 0.))
+      continue;
+    if (curves.empty() || curves.back().name != point.method)
+    {
+      curves.push_back({point.method});
+      curves.back().colour = int(curves.size()) - 1;
+      curves.back().marker = Marker::ring;
+    }
+    curves.back().add(what(point), point.error);
+    curves.back().notes.push_back({std::to_string(point.modes) + " modes; " + point.worst});
+  }
+  chart.panels[0].curves = curves;
+  return curves.empty() ? "" : chart_svg(chart);
+}
+
+} // namespace
+
+int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
+{
+  Session session(options.input, options.overrides, options.scripts);
+  session.check_run();
+  const Scene                &scene   = session.scene();
+  const auto                  outputs = budget_outputs(scene, asked.outputs);
+  const std::filesystem::path folder  = results_path(options, scene);
+  require_writable(folder);
+  ComparisonOptions how;
+  how.full     = asked.full;
+  how.on_point = print_point;
+  how.stop     = &interruption();
+  if (!asked.modes.empty())
+    how.modes = asked.modes;
+  std::sort(how.modes.begin(), how.modes.end());
+  std::cout << "  reduction         modes  coordinates  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
+  const ReductionComparison comparison = compare_reductions(scene, outputs, how);
+  prepare_folder(folder);
+  write_file(folder / "reductions.csv", csv_of(comparison));
+  const auto write = [&](const std::string &name, const std::string &svg)
+  {
+    if (!svg.empty())
+      write_file(folder / "charts" / name, svg);
+  };
+  write("reductions_cpu.svg", svg_of(comparison, "Reductions: " + scene.name, "CPU time of the run [s]",
+                                     [](const ReductionPoint &point) { return point.run_cpu; }));
+  write("reductions_coordinates.svg", svg_of(comparison, "Reductions: " + scene.name, "coordinates of the frame",
+                                             [](const ReductionPoint &point) { return double(point.coordinates); }));
+  if (std::any_of(comparison.points.begin(), comparison.points.end(),
+                  [](const auto &point) { return point.from_cache; }))
+    std::cout << "  * read from the cache of frames; with GESTELL_CACHE on an empty folder each is made\n";
+  std::cout << "table: " << (folder / "reductions.csv").string()
+            << "\nchart: " << (folder / "charts" / "reductions_cpu.svg").string() << '\n';
+  return interruption().load() ? exit_interrupted : exit_done;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "apps/cli/command.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// `gestell chart --reductions`: error against CPU time of the reductions of a scene's frame.
+struct ReductionChart
+{
+  bool             asked = false, full = false;
+  std::string      outputs; ///< empty: largest and smallest value of every signal
+  std::vector<int> modes;   ///< empty: as usual
+};
+
+int chart_reductions(const CommonOptions &options, const ReductionChart &asked);
+
+} // namespace gestell::apps
