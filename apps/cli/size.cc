@@ -23,6 +23,7 @@ struct SizeCommand
   double      tolerance = 0.;
   std::string outputs;
   double      max_cpu = 0., max_memory_gb = 0.;
+  bool        exhaustive = false;
 };
 
 SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked)
@@ -32,6 +33,7 @@ SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, c
   options.max_cpu    = asked.max_cpu;
   options.max_memory = 1e9 * asked.max_memory_gb;
   options.stop       = &interruption();
+  options.exhaustive = asked.exhaustive;
   options.on_rung    = [](const SizeRung &rung) { std::cout << rung_text(rung) << std::endl; };
   std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
   return size_search(scene, outputs, options);
@@ -62,6 +64,8 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   if (!model.result.met)
     result.warnings.push_back("no model of the ladder keeps all outputs within the tolerance: " + model.result.stopped);
   write_results(folder, result);
+  if (!model.result.all.empty())
+    write_file(folder / "size_all.csv", size_all_csv(model.result));
   write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
 
   std::cout << size_text(model.result) << "scene: " << file.string()
@@ -85,6 +89,8 @@ Command size_command()
             "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
            {"--max-cpu", &asked->max_cpu, "[s] that a model may take, from CAD to the end of the run",
             CommandOption::Range::above_zero},
+           {"--exhaustive", &asked->exhaustive,
+            "try every model up to one rung finer than the chosen one, too, to show what the climb has missed"},
            {"--max-memory", &asked->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
           [asked](const CommonOptions &options) { return size_scene(options, *asked); }};
 }

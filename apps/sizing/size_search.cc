@@ -81,6 +81,8 @@ private:
   void          coarsen(Place &place);
   void          prove(const Place &place, SizedModel &model);
   void          leave_out(const Place &place, SizeResult &result);
+  void          try_all(const Place &place, SizeResult &result);
+  SizeRung      rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer);
   double        scale_of(std::size_t output, const ModelAnswer &answer) const;
 
   const Scene                          &scene_;
@@ -92,6 +94,7 @@ private:
   std::map<Place, ModelAnswer>          answers_;
   std::map<std::pair<int, int>, double> prepare_cpu_; ///< by the rungs of mesh and modes [s]
   SizeResult                            result_;
+  ModelAnswer                           finer_; ///< of the proof
   int                                   most_modes_ = n_mode_numbers - 1;
 };
 
@@ -166,6 +169,24 @@ Shares Climb::shares_of(const ModelAnswer &answer, const SizeRung &rung) const
   return shares;
 }
 
+/// What the model is and costs.
+SizeRung Climb::rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer)
+{
+  const auto &method = scene.run.options.method;
+  SizeRung    rung;
+  rung.mesh_size   = mesh_is_made(scene) ? scene.frame.geometry.mesh.size : 0.;
+  rung.coordinates = answer.n_frame;
+  rung.interface   = answer.interface;
+  rung.modes       = modes_are_chosen(scene) ? answer.modes : -1;
+  rung.method      = method.method;
+  rung.step        = method.step;
+  rung.tolerance   = method.tolerance;
+  double &prepared = prepare_cpu_[{place.mesh, place.modes}]; // a frame in the cache has cost what it did
+  prepared         = std::max(prepared, answer.prepare_cpu);
+  rung.cpu_s       = prepared + answer.run_cpu;
+  return rung;
+}
+
 const Shares &Climb::look(const Place &place)
 {
   if (const auto known = known_.find(place); known != known_.end())
@@ -173,20 +194,9 @@ const Shares &Climb::look(const Place &place)
   const Scene       scene  = varied(scene_, variant_of(place));
   const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
   const ErrorBudget budget = error_budget(scene, outputs_, answer, options_.stop);
-  const auto       &method = scene.run.options.method;
-  SizeRung          rung;
-  rung.mesh_size      = mesh_is_made(scene) ? scene.frame.geometry.mesh.size : 0.;
-  rung.coordinates    = answer.n_frame;
-  rung.interface      = answer.interface;
-  rung.modes          = modes_are_chosen(scene) ? answer.modes : -1;
-  rung.method         = method.method;
-  rung.step           = method.step;
-  rung.tolerance      = method.tolerance;
-  double &prepared    = prepare_cpu_[{place.mesh, place.modes}]; // a frame in the cache has cost what it did
-  prepared            = std::max(prepared, answer.prepare_cpu);
-  rung.cpu_s          = prepared + answer.run_cpu;
-  rung.entries        = budget.entries;
-  const Shares shares = shares_of(answer, rung);
+  SizeRung          rung   = rung_of(place, scene, answer);
+  rung.entries             = budget.entries;
+  const Shares shares      = shares_of(answer, rung);
   while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.n_frame - answer.interface)
     --most_modes_;
   rung.share = shares.total;
@@ -248,6 +258,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   try
   {
     const ModelAnswer better = answer_of(scene_, finer, outputs_, options_.stop);
+    finer_                   = better;
     for (std::size_t i = 0; i < outputs_.size(); ++i)
       model.result.proof.push_back({outputs_[i].text, better.units[i], answers_[place].values[i], better.values[i]});
     model.result.finer = (better.n_frame > 0 ? std::to_string(better.n_frame) + " coordinates, " : "") +
@@ -310,6 +321,44 @@ void Climb::leave_out(const Place &place, SizeResult &result)
   }
 }
 
+/// Every model up to one rung finer than the chosen one in each part, against the finer one of the proof.
+void Climb::try_all(const Place &place, SizeResult &result)
+{
+  if (finer_.values.empty())
+    return;
+  const int last_mesh  = mesh_is_made(scene_) ? std::min(place.mesh + 1, finest_mesh - coarsest_mesh) : 0;
+  const int last_modes = modes_are_chosen(scene_) ? std::min(place.modes + 1, most_modes_) : 0;
+  const int last       = std::min(place.time + 1, last_time());
+  double    least      = unknown;
+  for (int mesh = 0; mesh <= last_mesh; ++mesh)
+    for (int modes = 0; modes <= last_modes; ++modes)
+      for (int time = 0; time <= last; ++time)
+      {
+        const Place       here{mesh, modes, time};
+        const Scene       scene  = varied(scene_, variant_of(here));
+        const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
+        SizeRung          rung   = rung_of(here, scene, answer);
+        for (std::size_t i = 0; i < outputs_.size(); ++i)
+          if (const double share =
+                  std::abs(answer.values[i] - finer_.values[i]) / (options_.tolerance * scale_of(i, finer_));
+              share >= rung.share)
+          {
+            rung.share = share;
+            rung.worst = outputs_[i].text;
+          }
+        if (!(here < place) && !(place < here))
+          result.chosen_of_all = result.all.size();
+        if (rung.share <= 1. && rung.cpu_s < least)
+        {
+          least           = rung.cpu_s;
+          result.cheapest = result.all.size();
+        }
+        result.all.push_back(rung);
+        if (options_.on_rung)
+          options_.on_rung(rung);
+      }
+}
+
 SizedModel Climb::run()
 {
   Place place;
@@ -346,6 +395,8 @@ SizedModel Climb::run()
   model.chosen      = variant_of(best);
   model.result      = result_;
   prove(best, model);
+  if (options_.exhaustive)
+    try_all(best, model.result);
   leave_out(best, model.result);
   return model;
 }

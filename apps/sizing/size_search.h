@@ -10,10 +10,11 @@ namespace gestell::apps
 
 struct SizeOptions
 {
-  double                                tolerance  = 0.; ///< relative, of the total error of each output
-  double                                max_cpu    = 0.; ///< [s] of a model; 0: any
-  double                                max_memory = 0.; ///< [byte] of the program; 0: any
-  std::function<void(const SizeRung &)> on_rung    = {}; ///< after each model
+  double                                tolerance  = 0.;    ///< relative, of the total error of each output
+  double                                max_cpu    = 0.;    ///< [s] of a model; 0: any
+  double                                max_memory = 0.;    ///< [byte] of the program; 0: any
+  bool                                  exhaustive = false; ///< every model up to a rung finer than the chosen one, too
+  std::function<void(const SizeRung &)> on_rung    = {};    ///< after each model
   const std::atomic<bool>              *stop       = nullptr;
 };
 

@@ -79,6 +79,19 @@ std::string size_csv(const SizeResult &size)
   return csv;
 }
 
+std::string size_all_csv(const SizeResult &size)
+{
+  if (size.all.empty())
+    return "";
+  std::string csv = "mesh size [m],coordinates,interface,modes,method,step [s],tolerance,cpu_s,share,worst\n";
+  for (const SizeRung &rung : size.all)
+    csv += (rung.mesh_size > 0. ? exact_text(rung.mesh_size) : "") + ',' + std::to_string(rung.coordinates) + ',' +
+           std::to_string(rung.interface) + ',' + (rung.modes >= 0 ? std::to_string(rung.modes) : "") + ',' +
+           rung.method + field(rung.step) + field(rung.tolerance) + field(rung.cpu_s) + field(rung.share) + ',' +
+           quoted(rung.worst) + '\n';
+  return csv;
+}
+
 std::string rung_text(const SizeRung &rung)
 {
   std::ostringstream text;
@@ -105,6 +118,14 @@ std::string size_text(const SizeResult &size)
   for (const SizeProof &proof : size.proof)
     text << "  " << proof.output << ' ' << short_text(proof.value, 6) << ", finer " << short_text(proof.finer, 6) << ' '
          << proof.unit << '\n';
+  if (!size.all.empty())
+  {
+    const SizeRung &chosen = size.all[size.chosen_of_all], &cheapest = size.all[size.cheapest];
+    text << "all " << size.all.size()
+         << " models tried: the cheapest that stays within the tolerance against the finer "
+         << "one takes " << short_text(cheapest.cpu_s, 3) << " CPU s, the chosen one " << short_text(chosen.cpu_s, 3)
+         << ": " << short_text(chosen.cpu_s / cheapest.cpu_s, 3) << " times; size_all.csv\n";
+  }
   for (const std::string &what : size.left_out)
     text << "may be left out: " << what << '\n';
   return text.str();

@@ -12,6 +12,9 @@ Json size_json(const SizeResult &size);
 /// size.csv: a row for each model that was tried.
 std::string size_csv(const SizeResult &size);
 
+/// size_all.csv: a row for each model of an exhaustive search; empty without one.
+std::string size_all_csv(const SizeResult &size);
+
 /// For a terminal: one model, and all of them with what follows.
 std::string rung_text(const SizeRung &rung);
 std::string size_text(const SizeResult &size);

@@ -20,7 +20,7 @@ struct SizeRung
   double                   cpu_s = 0.;                ///< from CAD to the end of the run
   std::vector<BudgetEntry> entries;                   ///< by output
   double                   share = 0.; ///< largest error of an output, of what is allowed; infinite: one is not known
-  std::string worst; ///< what takes most of it: \"mesh of F_P.max\"
+  std::string              worst;      ///< what takes most of it: \"mesh of F_P.max\"
 };
 
 struct SizeProof
@@ -40,6 +40,12 @@ struct SizeResult
   std::vector<SizeProof>   proof;          ///< chosen model against one that is finer in everything
   std::string              finer;          ///< what that was
   std::vector<std::string> left_out;
+
+  /// Every model about the chosen one, where all were asked for; `share` is the largest difference to the finer model
+  /// of the proof, of what is allowed, `worst` the output that has it.
+  std::vector<SizeRung> all;
+  std::size_t           cheapest      = 0; ///< of those whose share is 1 at most
+  std::size_t           chosen_of_all = 0;
 };
 
 } // namespace gestell::apps

@@ -187,6 +187,32 @@ TEST(OutputName, IsRefusedWithTheWayOut)
   EXPECT_EQ(outputs_named("", signals, 4).size(), 4u);
 }
 
+/// Among all models about the chosen one it is there with the answer that it has, within the tolerance of the finer
+/// one, as is the cheapest.
+TEST(Size, ShowsAllModelsAboutTheChosenOne)
+{
+  const Read  rod_scene(rod("tolerance = 0.01", by_steps));
+  const auto  outputs = of_scene(rod_scene.scene, "x.max,x.min");
+  SizeOptions options;
+  options.tolerance       = 0.02;
+  options.exhaustive      = true;
+  const SizeResult result = size_search(rod_scene.scene, outputs, options).result;
+  ASSERT_TRUE(result.met);
+  ASSERT_GT(result.all.size(), 1u);
+  const SizeRung &chosen = result.all.at(result.chosen_of_all), &climbed = result.ladder.at(result.chosen);
+  EXPECT_EQ(chosen.modes, climbed.modes);
+  EXPECT_EQ(chosen.tolerance, climbed.tolerance);
+  EXPECT_LE(chosen.share, 1.);
+  EXPECT_LE(result.all.at(result.cheapest).share, 1.);
+  double most = 0., size = 0.;
+  for (const SizeProof &proof : result.proof)
+  {
+    most = std::max(most, std::abs(proof.value - proof.finer));
+    size = std::max(size, std::abs(proof.finer)); // of the signal, whose extremes both are
+  }
+  EXPECT_NEAR(chosen.share, most / (options.tolerance * size), 1e-6);
+}
+
 /// With all its modes every reduction is the full rod; errors fall with their number, and statics alone err most.
 TEST(ReductionComparison, OfARodComesToTheFullOne)
 {
