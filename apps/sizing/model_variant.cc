@@ -126,6 +126,8 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
     answer.n_frame   = frame->n_full;
     answer.interface = frame->n_interface;
     answer.modes     = int(frame->M.rows()) - frame->n_interface;
+    if (frame->omega0.size() > 0)
+      answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);
   }
   take_modes(other, prepared.small(), outputs, answer);
   const double ready = cpu_now();

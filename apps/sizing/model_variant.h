@@ -33,6 +33,7 @@ struct ModelAnswer
   int                          n_frame     = 0;  ///< coordinates of the unreduced frame; 0: none
   int                          interface   = 0;  ///< coordinates that stay physical
   int                          modes       = -1; ///< that the frame keeps
+  double                       cutoff_hz   = 0.; ///< of the highest mode that the frame keeps; 0: none
   bool                         from_cache  = false;
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 

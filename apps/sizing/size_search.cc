@@ -22,6 +22,7 @@ constexpr int    mode_numbers[] = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192
 constexpr int    n_mode_numbers = int(std::size(mode_numbers));
 constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
+constexpr double near_cutoff        = 1.5; ///< times a frequency of a load: modes up to there answer to it
 constexpr double half               = 0.5;
 constexpr int    most_rungs         = 40;
 
@@ -81,6 +82,7 @@ private:
   void          coarsen(Place &place);
   void          prove(const Place &place, SizedModel &model);
   void          leave_out(const Place &place, SizeResult &result);
+  void          find_missing(const Place &place, SizeResult &result);
   void          try_all(const Place &place, SizeResult &result);
   SizeRung      rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer);
   double        scale_of(std::size_t output, const ModelAnswer &answer) const;
@@ -321,6 +323,23 @@ void Climb::leave_out(const Place &place, SizeResult &result)
   }
 }
 
+/// Loads that come near the highest mode kept, or pass it: the modes above answer to them, too.
+void Climb::find_missing(const Place &place, SizeResult &result)
+{
+  const double cutoff = answers_[place].cutoff_hz;
+  if (!modes_are_chosen(scene_) || !(cutoff > 0.))
+    return;
+  for (const LoadRequest &load : scene_.loads)
+  {
+    double highest = 0.;
+    for (const auto &harmonic : load.oscillations)
+      highest = std::max(highest, harmonic.omega / (2. * M_PI));
+    if (near_cutoff * highest > cutoff)
+      result.missing.push_back("modes above " + short_text(cutoff, 3) + " Hz, the highest that is kept: \"" +
+                               load.name + "\" acts with " + short_text(highest, 3) + " Hz");
+  }
+}
+
 /// Every model up to one rung finer than the chosen one in each part, against the finer one of the proof.
 void Climb::try_all(const Place &place, SizeResult &result)
 {
@@ -395,6 +414,7 @@ SizedModel Climb::run()
   model.chosen      = variant_of(best);
   model.result      = result_;
   prove(best, model);
+  find_missing(best, model.result);
   if (options_.exhaustive)
     try_all(best, model.result);
   leave_out(best, model.result);

@@ -48,7 +48,7 @@ Json size_json(const SizeResult &size)
                {"proof", Json::object()},
                {"finer", size.finer},
                {"left_out", size.left_out},
-               {"missing", Json::array()}};
+               {"missing", size.missing}};
   for (const SizeProof &proof : size.proof)
     json["proof"][proof.output] = {
         {"value", proof.value}, {"finer", proof.finer}, {"difference", std::abs(proof.finer - proof.value)}};
@@ -128,6 +128,8 @@ std::string size_text(const SizeResult &size)
   }
   for (const std::string &what : size.left_out)
     text << "may be left out: " << what << '\n';
+  for (const std::string &what : size.missing)
+    text << "missing: " << what << '\n';
   return text.str();
 }
 

@@ -39,7 +39,7 @@ struct SizeResult
   std::string              stopped;        ///< why nothing finer was tried, if it is not
   std::vector<SizeProof>   proof;          ///< chosen model against one that is finer in everything
   std::string              finer;          ///< what that was
-  std::vector<std::string> left_out;
+  std::vector<std::string> left_out, missing;
 
   /// Every model about the chosen one, where all were asked for; `share` is the largest difference to the finer model
   /// of the proof, of what is allowed, `worst` the output that has it.

@@ -213,6 +213,25 @@ TEST(Size, ShowsAllModelsAboutTheChosenOne)
   EXPECT_NEAR(chosen.share, most / (options.tolerance * size), 1e-6);
 }
 
+/// The fourth mode of the held rod, the last that a loose tolerance keeps, has 400 Hz: a load of 350 Hz is near it.
+TEST(Size, NamesLoadsNearTheHighestModeKept)
+{
+  for (const double hertz : {350., 2.})
+  {
+    std::string text = rod("tolerance = 0.01", by_steps);
+    for (const std::string f : {"55", "170", "250"})
+      text.replace(text.find("'" + f + " Hz'"), f.size() + 5, "'" + number(hertz) + " Hz'");
+    const Read  scene(text);
+    SizeOptions options;
+    options.tolerance       = 0.5;
+    const SizeResult result = size_search(scene.scene, of_scene(scene.scene, "x.max"), options).result;
+    const double     cutoff = hertz == 350. ? 1. : 0.;
+    EXPECT_EQ(result.missing.size(), std::size_t(cutoff));
+    for (const std::string &what : result.missing)
+      EXPECT_THAT(what, testing::HasSubstr("\"load\" acts with 350 Hz"));
+  }
+}
+
 /// With all its modes every reduction is the full rod; errors fall with their number, and statics alone err most.
 TEST(ReductionComparison, OfARodComesToTheFullOne)
 {
