@@ -51,7 +51,8 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
     sizes.emplace_back("reduction.modes", std::to_string(model.modes));
   const coupling::MethodOptions &method = sized.run.options.method;
   sizes.emplace_back("run.method", quoted(method.method));
-  sizes.emplace_back("run.step", number(method.step));
+  if (method.step > 0.) // of a controlled method the longest; none: as long as may be
+    sizes.emplace_back("run.step", number(method.step));
   if (controlled(method))
     sizes.emplace_back("run.tolerance", number(method.tolerance));
   if (method.method == "exact" && scene.run.options.method.method != "exact")

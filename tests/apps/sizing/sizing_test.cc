@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 
 namespace gestell::tests
@@ -230,6 +231,20 @@ TEST(Size, NamesLoadsNearTheHighestModeKept)
     for (const std::string &what : result.missing)
       EXPECT_THAT(what, testing::HasSubstr("\"load\" acts with 350 Hz"));
   }
+}
+
+/// A scene that leaves the longest step to the method: so does the sized one, which can be read.
+TEST(Size, WritesNoStepWhereNoneIsGiven)
+{
+  const std::string run = "method = 'exact'\norder = 6\ntolerance = 1e-6\nend = 0.06\n";
+  const Read        scene(rod("tolerance = 0.01", run));
+  SizeOptions       options;
+  options.tolerance           = 0.1;
+  const SizedModel  model     = size_search(scene.scene, of_scene(scene.scene, "x.max"), options);
+  const std::string sized     = scene.folder.write("sized.toml", "");
+  const auto        directory = std::filesystem::path(sized).parent_path();
+  const std::string text      = sized_scene(scene.scene, {}, model.chosen, directory);
+  EXPECT_NO_THROW(read_scene(scene.folder.write("sized.toml", text)));
 }
 
 /// With all its modes every reduction is the full rod; errors fall with their number, and statics alone err most.
