@@ -69,13 +69,15 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
 void EventDriver::hold_what_is_still()
 {
   EventSystem &events = system_.events();
-  for (int i = 0; i < events.n_guards() && options_.still > 0.; ++i)
+  int          left   = options_.still > 0. ? events.n_guards() : 0; // each measure once
+  for (int i = 0; i < events.n_guards() && left > 0; ++i)
   {
     probe_.resize(std::max<Eigen::Index>(probe_.size(), events.n_guards()));
     events.guard_values(before_, probe_);
     if (events.guard(i).kind != "stick" || std::abs(probe_[i]) > options_.still)
       continue;
     events.transition(i, before_);
+    --left;
     i = -1; // guards are others now
   }
 }
