@@ -63,18 +63,28 @@ void measure_error(const std::vector<OutputName> &outputs, const ModelAnswer &re
 } // namespace
 
 ReductionComparison compare_reductions(const Scene &scene, const std::vector<OutputName> &outputs,
-                                       const ComparisonOptions &options)
+                                       const ComparisonOptions &asked)
 {
+  ComparisonOptions options = asked;
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file +
                                 ": --reductions compares reductions of a frame, and this scene's frame is not reduced; "
                                 "give it a [reduction]");
   ReductionComparison comparison;
-  comparison.outputs    = outputs;
-  const int    most     = most_modes(scene);
-  const int    largest  = *std::max_element(options.modes.begin(), options.modes.end());
+  comparison.outputs = outputs;
+  const int most     = most_modes(scene);
+  std::sort(options.modes.begin(), options.modes.end());
+  options.modes.erase(std::unique(options.modes.begin(), options.modes.end()), options.modes.end());
+  if (options.usual)
+    options.modes.erase(std::upper_bound(options.modes.begin(), options.modes.end(), most), options.modes.end());
+  if (options.modes.empty())
+    options.modes = {most};
+  const int    largest  = options.modes.back();
   const double duration = scene.run.options.end - scene.run.options.begin;
-  ModelAnswer  reference, answer;
+  if (largest > most)
+    throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the inside of the frame has " +
+                                std::to_string(most) + " coordinates; name no more");
+  ModelAnswer reference, answer;
   comparison.reference = options.full ? point_of(scene, "condensation", -1, outputs, options.stop, reference)
                                       : point_of(scene, "craig-bampton", std::min(most, finer * largest), outputs,
                                                  options.stop, reference);
@@ -86,8 +96,6 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
       continue;
     for (const int modes : entry.takes("modes") ? options.modes : std::vector<int>{0})
     {
-      if (modes > most)
-        continue;
       ReductionPoint point;
       try
       {

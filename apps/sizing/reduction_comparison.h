@@ -34,6 +34,7 @@ struct ReductionComparison
 struct ComparisonOptions
 {
   std::vector<int>                            modes = {2, 4, 8, 16, 32, 64};
+  bool                                        usual = false; ///< numbers of modes that are too large are left out
   bool                                        full  = false; ///< the reference is the full frame
   std::function<void(const ReductionPoint &)> on_point{};
   const std::atomic<bool>                    *stop = nullptr;

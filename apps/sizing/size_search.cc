@@ -255,7 +255,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   ModelVariant       finer  = chosen;
   finer.mesh /= ratio_of_meshes;
   if (chosen.modes >= 0)
-    finer.modes = 2 * answers_[place].modes;
+    finer.modes = std::min(2 * answers_[place].modes, answers_[place].n_frame - answers_[place].interface);
   finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
   try
   {

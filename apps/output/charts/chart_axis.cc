@@ -18,6 +18,8 @@ std::string power_text(double value)
 {
   static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
 
+  if (!(value > 0.) || !std::isfinite(value))
+    return short_text(value, 6);
   const int exponent = static_cast<int>(std::floor(std::log10(value) + rounding));
   if (exponent >= -2 && exponent <= 3)
     return short_text(value, 6);

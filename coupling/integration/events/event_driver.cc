@@ -223,6 +223,7 @@ bool EventDriver::far_from_zero() const
   return true;
 }
 
+/// Part by part, where the motion turns far within the step.
 bool EventDriver::first_crossing(Crossing &first)
 {
   const int n = system_.events().n_guards();
@@ -230,7 +231,18 @@ bool EventDriver::first_crossing(Crossing &first)
     return false;
   if (n > probe_.size())
     make_room();
-  const double  begin = integrator_.step_begin(), end = integrator_.time();
+  const double begin = integrator_.step_begin(), end = integrator_.time();
+  const int    parts = integrator_.parts_of_step();
+  const auto   at    = [&](int k) { return k == parts ? end : begin + (end - begin) * k / parts; };
+  for (int k = 0; k < parts; ++k)
+    if (first_crossing_between(at(k), at(k + 1), first))
+      return true;
+  return false;
+}
+
+bool EventDriver::first_crossing_between(double begin, double end, Crossing &first)
+{
+  const int     n    = system_.events().n_guards();
   constexpr int last = n_inside + 1;
   double        t[last + 1];
   for (int k = 0; k <= last; ++k)
@@ -240,8 +252,14 @@ bool EventDriver::first_crossing(Crossing &first)
     integrator_.interpolate(t[k], between_);
     system_.events().guard_values(between_, g_[k]);
   };
-  system_.events().guard_values(before_, g_[0]);
-  system_.events().guard_values(integrator_.local(), g_[last]);
+  if (begin == integrator_.step_begin())
+    system_.events().guard_values(before_, g_[0]);
+  else
+    sample(0);
+  if (end == integrator_.time())
+    system_.events().guard_values(integrator_.local(), g_[last]);
+  else
+    sample(last);
   integrator_.interpolate(begin + off_middle * (end - begin), between_);
   system_.events().guard_values(between_, probe_);
   if (far_from_zero())

@@ -79,6 +79,7 @@ private:
   };
 
   bool   first_crossing(Crossing &crossing);
+  bool   first_crossing_between(double begin, double end, Crossing &crossing);
   bool   is_due_at_begin(int guard, double here, double next);
   bool   looks_at_held_force(int guard);
   bool   turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top);

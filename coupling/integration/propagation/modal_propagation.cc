@@ -13,6 +13,9 @@ namespace gestell::coupling
 namespace
 {
 constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the grid is joined with the next step
+constexpr double furthest_turn    = 3.2;  ///< [rad] of what moves a measure within a part of a step
+constexpr double looked_at        = 1e-3; ///< what a mode moves in a measure, of its largest excursion
+constexpr int    most_parts       = 4096; ///< of a step
 constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u moves too little for its rate to be read
 constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
 
@@ -333,6 +336,37 @@ bool ModalPropagation::is_smooth(double h) const
                                .all();
   }
   return smooth_;
+}
+
+/// By the modes that move a measure by more than a small share of its largest excursion, at the begin of the step or at
+/// its end, whatever their phase.
+int ModalPropagation::parts_of_step() const
+{
+  const double         h        = local_.t - t_begin_;
+  const ModalMeasures &measures = context_.measures;
+  double               most     = furthest_turn;
+  if (!(h * fastest_ > most))
+    return 1;
+  for (const bool at_end : {false, true})
+  {
+    if (at_end)
+      force_->end_state(x_work_);
+    else
+      force_->begin_state(x_work_);
+    for (int b = 0; b < measures.n_p; ++b)
+    {
+      const double rate = rate_of(measures.blocks[b]);
+      if (!(h * rate > most))
+        continue;
+      const double x_1 = std::abs(x_work_[b]), x_2 = std::abs(x_work_[measures.n_p + b]);
+      const auto   moved = [&](const auto &read)
+      { return x_1 * read.row(b).cwiseAbs().array() + x_2 * read.row(measures.n_p + b).cwiseAbs().array(); };
+      if (((moved(measures.read_u) + moved(measures.read_v) / rate).transpose() > looked_at * context_.scale.array())
+              .any())
+        most = h * rate;
+    }
+  }
+  return most > furthest_turn ? int(std::min(std::ceil(most / furthest_turn), double(most_parts))) : 1;
 }
 
 /// Collocation meets the rates that are held at its nodes only.

@@ -60,6 +60,7 @@ public:
   void              interpolate(double t, LocalState &state) const override;
   void              interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
   void motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
+  int  parts_of_step() const override;
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return context_.work; }

@@ -54,6 +54,10 @@ public:
   /// Begin of the last step [s]; equal to time() after begin(), cut() at its begin and restart().
   virtual double step_begin() const = 0;
 
+  /// Equal parts of the last step in each of which the measures turn by a few rad at most, so that what happens there is
+  /// seen by few looks.  Default: 1, of steps that are short against what they integrate.
+  virtual int parts_of_step() const { return 1; }
+
   /// Dense output at t in [step_begin(), time()], at least of third order: u, v of the measures; a and p are filled as
   /// far as the method has them.
   virtual void interpolate(double t, LocalState &state) const = 0;

@@ -5,6 +5,7 @@
 #include "coupling/periodic/harmonic/hill.h"
 #include "coupling/periodic/harmonic/orbit_series.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 
 #include <cmath>
 #include <sstream>
@@ -20,6 +21,9 @@ using Eigen::VectorXd;
 
 constexpr double shortest_share  = 1. / 256.; ///< of a Newton step
 constexpr double floor_of_steps  = 1e-13;     ///< a Newton step that is rounding, relative
+constexpr double closes_well     = 1e-5;      ///< of a period whose multipliers are those of the motion
+constexpr double near_by         = 0.1;       ///< distance of two motions that are one, of their size
+constexpr double poor_hill       = 1e-3;      ///< error of Hill's multipliers above which a period is integrated
 constexpr double another_motion  = 0.3;       ///< distance of two motions, of the unknowns
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
 constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500, most_asked = 8000;
@@ -105,12 +109,45 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 namespace
 {
 
-/// Of the motion that starts where the series does.
+/// Of the motion that starts where the series does; where that does not close, of the one near it that does.
 void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &solution)
 {
   PeriodFlow flow(problem, solution.integration);
-  if (flow.has_tangents())
-    solution.multipliers = multipliers_of(flow.pass(solution.q, solution.v, solution.period, true).monodromy);
+  if (!flow.has_tangents())
+    return;
+  const PeriodPassage &passage = flow.pass(solution.q, solution.v, solution.period, true);
+  const double         closing = closing_error(passage.q - solution.q - problem.turn, passage.v - solution.v,
+                                               2. * M_PI / solution.period, passage.fastest);
+  solution.multipliers         = multipliers_of(passage.monodromy);
+  if (closing <= closes_well)
+    return;
+  PeriodicOptions near;
+  near.integration = solution.integration;
+  near.lead_in     = 0;
+  try
+  {
+    const PeriodicSolution closed =
+        shooting_method().solve(problem, {solution.q, solution.v, solution.period}, near).front();
+    const double omega = 2. * M_PI / solution.period;
+    if (std::hypot(omega * (closed.q - solution.q).norm(), (closed.v - solution.v).norm()) <=
+        near_by * std::hypot(omega * solution.q.norm(), solution.v.norm()))
+    {
+      solution.multipliers = closed.multipliers;
+      return;
+    }
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const std::exception &) // no motion that closes near by
+  {
+  }
+  std::ostringstream note;
+  note.precision(2);
+  note << "whether it lasts is not known: followed for a period, it misses by " << closing << " of its speed";
+  solution.multipliers.resize(0);
+  solution.notes.push_back(note.str());
 }
 
 /// None where forces depend on accelerations.
@@ -128,8 +165,13 @@ void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, 
   for (const HarmonicForces::Derivative &d : balance.derivatives())
     if (d.of_a.size() > 0)
       return;
-  solution.multipliers =
-      hill_multipliers(problem, 2. * M_PI / balance.period(), balance.harmonics(), balance.derivatives()).multipliers;
+  const HillMultipliers hill =
+      hill_multipliers(problem, 2. * M_PI / balance.period(), balance.harmonics(), balance.derivatives());
+  solution.multipliers = hill.multipliers;
+  // The shift in time shows what the truncation leaves; far too few harmonics make a stable motion unstable.
+  const double shift = solution.trivial_multiplier ? (hill.multipliers.array() - 1.).abs().minCoeff() : 0.;
+  if (std::max(hill.left_out, shift) > poor_hill)
+    multipliers_by_a_period(problem, solution);
 }
 
 } // namespace

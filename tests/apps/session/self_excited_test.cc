@@ -82,6 +82,16 @@ TEST(SelfExcitedScene, HarmonicsAreAddedAlongABranch)
   EXPECT_NEAR(last.signals[0].max, here.entries[0].signals[0].max, 1e-7);
 }
 
+/// With too few harmonics for the corners of mu = 9 the motion is known to 3e-4, and a period that starts there does
+/// not close: multipliers are those of the one near by that does.
+TEST(SelfExcitedScene, ARelaxationOscillationIsStableByHarmonicBalanceToo)
+{
+  const PeriodicResult result = steady(van_der_pol("9*(1 N*s/m - 1 N*s/m^3*u^2)*v"), "harmonic-balance");
+  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+  EXPECT_TRUE(result.entries[0].solution.stable());
+  EXPECT_NEAR(result.entries[0].solution.period, 17.5521775, 1e-5); // by shooting
+}
+
 /// What turns has no extreme within a turn: its signal goes from the begin of the period to its end, 2 pi farther.
 TEST(SelfExcitedScene, AngleOfASeriesThatTurnsEndsWithTheTurn)
 {
