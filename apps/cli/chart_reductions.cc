@@ -102,9 +102,7 @@ int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
   how.full     = asked.full;
   how.on_point = print_point;
   how.stop     = &interruption();
-  how.usual    = asked.modes.empty();
-  if (!asked.modes.empty())
-    how.modes = asked.modes;
+  how.modes    = asked.modes;
   std::cout << "  reduction         modes  coordinates  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
   const ReductionComparison comparison = compare_reductions(scene, outputs, how);
   prepare_folder(folder);

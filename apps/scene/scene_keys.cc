@@ -62,16 +62,17 @@ std::vector<std::string> reduction_names()
 const std::vector<Key> &reduction_keys()
 {
   static const std::vector<Key> keys = {
-      key::choice("method", reduction_names(), true,
-                  "static shapes of the interface with modes of the inside: `\"craig-bampton\"` with the interface "
-                  "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
-                  "exactly. `\"guyan\"`: these static shapes alone, exact in statics; modes that the "
-                  "frame has with its interface held are missing, and "
-                  "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. "
-                  "`\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
-                  "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
-                  "): exact, and a thousand times as slow; `\"none\"` is another name of it. So does a frame given by "
-                  "matrices without `[reduction]`. A key that the method does not take is refused"),
+      key::choice(
+          "method", reduction_names(), true,
+          "static shapes of the interface with modes of the inside: `\"craig-bampton\"` with the interface "
+          "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
+          "exactly. `\"guyan\"`: these static shapes alone, exact in statics; modes that the "
+          "frame has with its interface held are missing, and "
+          "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. "
+          "`\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
+          "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
+          "): exact, and slower by orders of magnitude; `\"none\"` is another name of it. So does a frame given by "
+          "matrices without `[reduction]`. A key that the method does not take is refused"),
       key::number(
           "tolerance", kind::number,
           "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "

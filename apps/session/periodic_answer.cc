@@ -48,36 +48,6 @@ std::vector<double> signal_rows(const coupling::RunResult &run, std::size_t n_si
   return rows;
 }
 
-/// The extreme of the parabola through three samples about the middle one, where it is one: the samples bend alike
-/// there as beside, and do not at a kink.
-double vertex(double x_2, double x_1, double x0, double x1, double x2)
-{
-  constexpr double alike = 2.;
-  const double     bend = x1 - 2. * x0 + x_1, left = x0 - 2. * x_1 + x_2, right = x2 - 2. * x1 + x0;
-  for (const double beside : {left, right})
-    if (!(beside * bend > 0.) || std::abs(beside) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(beside))
-      return x0;
-  if (std::abs(x1 - x_1) > std::abs(bend)) // an end of what turns, not its extreme
-    return x0;
-  return x0 - (x1 - x_1) * (x1 - x_1) / (8. * bend);
-}
-
-/// Largest and least value of a periodic signal by samples of one period, the last being the first again.
-void find_extremes(const std::vector<double> &x, SignalOrbit &signal)
-{
-  const auto n  = std::ptrdiff_t(x.size()) - 1;
-  const auto at = [&](std::ptrdiff_t i)
-  {
-    return i < 0   ? x[std::size_t(i + n)] - (x.back() - x.front())
-           : i > n ? x[std::size_t(i - n)] + (x.back() - x.front())
-                   : x[std::size_t(i)];
-  };
-  const auto high = std::max_element(x.begin(), x.end()) - x.begin(),
-             low  = std::min_element(x.begin(), x.end()) - x.begin();
-  signal.max = std::max(x[std::size_t(high)], vertex(at(high - 2), at(high - 1), at(high), at(high + 1), at(high + 2)));
-  signal.min = std::min(x[std::size_t(low)], vertex(at(low - 2), at(low - 1), at(low), at(low + 1), at(low + 2)));
-}
-
 /// The signals of a motion that is a series, at instants equally spaced; extremes between them from more.
 void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                    const PeriodicSolution &solution, const std::vector<coupling::Signal> &signals, int rows,
@@ -108,9 +78,11 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
   for (std::size_t j = 0; j < signals.size(); ++j)
   {
     SignalOrbit signal;
-    signal.name = signals[j].name;
-    signal.unit = signals[j].unit;
-    find_extremes(samples[j], signal);
+    signal.name                             = signals[j].name;
+    signal.unit                             = signals[j].unit;
+    const coupling::SignalExtremes extremes = coupling::signal_extremes(samples[j]);
+    signal.max                              = extremes.max;
+    signal.min                              = extremes.min;
     entry.signals.push_back(signal);
   }
 }

@@ -13,7 +13,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int finer = 4; ///< times the largest number of modes, of the reference
+constexpr int most_unasked = 64; ///< modes
+constexpr int finer        = 4;  ///< times the largest number of modes, of the reference
 
 /// Largest number of modes a frame can keep; where it is not known, any.
 int most_modes(const Scene &scene)
@@ -24,6 +25,19 @@ int most_modes(const Scene &scene)
   for (const fem::Interface &one : scene.frame.matrices.interfaces)
     interface += int(std::count_if(one.coordinate.begin(), one.coordinate.end(), [](int i) { return i >= 0; }));
   return int(scene.frame.matrices.M.rows()) - interface;
+}
+
+/// Ascending, each once.
+std::vector<int> modes_of(const ComparisonOptions &options, int most)
+{
+  std::vector<int> modes = options.modes;
+  for (int number = 2; options.modes.empty() && number <= std::min(most, most_unasked); number *= 2)
+    modes.push_back(number);
+  if (modes.empty())
+    modes.push_back(most);
+  std::sort(modes.begin(), modes.end());
+  modes.erase(std::unique(modes.begin(), modes.end()), modes.end());
+  return modes;
 }
 
 ReductionPoint point_of(const Scene &scene, const std::string &method, int modes,
@@ -63,23 +77,17 @@ void measure_error(const std::vector<OutputName> &outputs, const ModelAnswer &re
 } // namespace
 
 ReductionComparison compare_reductions(const Scene &scene, const std::vector<OutputName> &outputs,
-                                       const ComparisonOptions &asked)
+                                       const ComparisonOptions &options)
 {
-  ComparisonOptions options = asked;
   if (frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file +
                                 ": --reductions compares reductions of a frame, and this scene's frame is not reduced; "
                                 "give it a [reduction]");
   ReductionComparison comparison;
-  comparison.outputs = outputs;
-  const int most     = most_modes(scene);
-  std::sort(options.modes.begin(), options.modes.end());
-  options.modes.erase(std::unique(options.modes.begin(), options.modes.end()), options.modes.end());
-  if (options.usual)
-    options.modes.erase(std::upper_bound(options.modes.begin(), options.modes.end(), most), options.modes.end());
-  if (options.modes.empty())
-    options.modes = {most};
-  const int    largest  = options.modes.back();
+  comparison.outputs    = outputs;
+  const int    most     = most_modes(scene);
+  const auto   modes    = modes_of(options, most);
+  const int    largest  = modes.back();
   const double duration = scene.run.options.end - scene.run.options.begin;
   if (largest > most)
     throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the inside of the frame has " +
@@ -94,12 +102,12 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
   {
     if (entry.makes == coupling::ReductionEntry::Makes::no_frame)
       continue;
-    for (const int modes : entry.takes("modes") ? options.modes : std::vector<int>{0})
+    for (const int number : entry.takes("modes") ? modes : std::vector<int>{0})
     {
       ReductionPoint point;
       try
       {
-        point = point_of(scene, entry.name, modes, outputs, options.stop, answer);
+        point = point_of(scene, entry.name, number, outputs, options.stop, answer);
         measure_error(outputs, reference, duration, point);
       }
       catch (const std::exception &failure)
@@ -107,7 +115,7 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
         if (options.stop && *options.stop)
           return comparison;
         point.method  = entry.name;
-        point.modes   = modes;
+        point.modes   = number;
         point.failure = failure.what();
       }
       comparison.points.push_back(point);

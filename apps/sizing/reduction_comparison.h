@@ -33,9 +33,8 @@ struct ReductionComparison
 
 struct ComparisonOptions
 {
-  std::vector<int>                            modes = {2, 4, 8, 16, 32, 64};
-  bool                                        usual = false; ///< numbers of modes that are too large are left out
-  bool                                        full  = false; ///< the reference is the full frame
+  std::vector<int>                            modes{};      ///< empty: 2 to 64 by doubling, as many as there are
+  bool                                        full = false; ///< the reference is the full frame
   std::function<void(const ReductionPoint &)> on_point{};
   const std::atomic<bool>                    *stop = nullptr;
 };

@@ -348,7 +348,6 @@ void Climb::try_all(const Place &place, SizeResult &result)
   const int last_mesh  = mesh_is_made(scene_) ? std::min(place.mesh + 1, finest_mesh - coarsest_mesh) : 0;
   const int last_modes = modes_are_chosen(scene_) ? std::min(place.modes + 1, most_modes_) : 0;
   const int last       = std::min(place.time + 1, last_time());
-  double    least      = unknown;
   for (int mesh = 0; mesh <= last_mesh; ++mesh)
     for (int modes = 0; modes <= last_modes; ++modes)
       for (int time = 0; time <= last; ++time)
@@ -367,11 +366,6 @@ void Climb::try_all(const Place &place, SizeResult &result)
           }
         if (!(here < place) && !(place < here))
           result.chosen_of_all = result.all.size();
-        if (rung.share <= 1. && rung.cpu_s < least)
-        {
-          least           = rung.cpu_s;
-          result.cheapest = result.all.size();
-        }
         result.all.push_back(rung);
         if (options_.on_rung)
           options_.on_rung(rung);

@@ -36,14 +36,21 @@ constexpr double beside_point  = 1e-9; ///< [m, rad] to both sides of a contact 
 constexpr double another_slope = 0.01; ///< difference of two slopes, of the largest
 constexpr double least_contact = 1e-6; ///< share of the stiffness of a closed element that tells it from an open one
 
-/// Names of the elements that may be open, by whether they are: between what acts always and what acts when they are
-/// closed, dp/du lies at the one end or nearer to the other.
-void tell_contacts(const Machine &machine, MachinePoint &at)
+/// An element that may be open, linearised at the point.
+struct Contact
 {
-  const LocalState &local = at.point.local;
-  const auto        n_u   = local.u.size();
-  Eigen::VectorXd   p     = Eigen::VectorXd::Zero(n_u);
-  Eigen::MatrixXd   dp    = Eigen::MatrixXd::Zero(n_u, n_u);
+  const std::string &name;
+  int                first;      ///< of its measures
+  Eigen::MatrixXd    open, more; ///< stiffness when it is open, and what it has more when it is closed
+  Eigen::MatrixXd    here;       ///< -dp/du
+};
+
+template <typename Look>
+void for_contacts(const Machine &machine, const LocalState &local, const Look &look)
+{
+  const auto      n_u = local.u.size();
+  Eigen::VectorXd p   = Eigen::VectorXd::Zero(n_u);
+  Eigen::MatrixXd dp  = Eigen::MatrixXd::Zero(n_u, n_u);
   machine.forces().tangent(local, 1., 0., 0., p, dp);
   int first = 0;
   for (const ElementPlacement &placement : machine.model().elements())
@@ -54,21 +61,30 @@ void tell_contacts(const Machine &machine, MachinePoint &at)
     open_branch(*placement.element, local.u.data() + first, open.data(), open_D.data());
     K -= open;
     if (!K.isZero(0.))
-    {
-      const Eigen::MatrixXd own       = -dp.block(first, first, k, k) - open;
-      const bool            is_closed = own.cwiseProduct(K).sum() > least_contact * K.squaredNorm();
-      (is_closed ? at.closed : at.open).push_back(placement.name);
-    }
+      look(Contact{placement.name, first, open, K, -dp.block(first, first, k, k)});
     first += k;
   }
 }
 
-/// Whether the force of a measure has one slope at the point and on both sides of it, laws following the motion itself.
+/// Names of the elements that may be open, by whether they are: between what acts always and what acts when they are
+/// closed, dp/du lies at the one end or nearer to the other.
+void tell_contacts(const Machine &machine, MachinePoint &at)
+{
+  for_contacts(machine, at.point.local,
+               [&](const Contact &contact)
+               {
+                 const bool is_closed = (contact.here - contact.open).cwiseProduct(contact.more).sum() >
+                                        least_contact * contact.more.squaredNorm();
+                 (is_closed ? at.closed : at.open).push_back(contact.name);
+               });
+}
+
+/// Whether the force of a measure has one slope dp/du at the point and on both sides of it, laws following the motion
+/// itself.
 bool is_smooth(const Machine &machine, const LocalState &local, int measure, double slope)
 {
-  LocalState            beside = local;
-  const Eigen::VectorXd p      = local.p;
-  Eigen::VectorXd       here = p, there = p;
+  LocalState      beside = local;
+  Eigen::VectorXd here = local.p, there = local.p;
   machine.forces().force(beside, here);
   double slopes[2];
   for (const int side : {0, 1})
@@ -87,27 +103,18 @@ bool is_smooth(const Machine &machine, const LocalState &local, int measure, dou
 void tell_touching(Machine &machine, MachinePoint &at)
 {
   const LocalState &local = at.point.local;
-  const auto        n_u   = local.u.size();
-  Eigen::VectorXd   p     = Eigen::VectorXd::Zero(n_u);
-  Eigen::MatrixXd   dp    = Eigen::MatrixXd::Zero(n_u, n_u);
-  machine.forces().tangent(local, 1., 0., 0., p, dp);
-  machine.events().follow_history(false);
-  int first = 0;
-  for (const ElementPlacement &placement : machine.model().elements())
-  {
-    const int       k = placement.element->n_measures();
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K, open = K, open_D = K;
-    engaged(*placement.element, local.u.data() + first, K.data(), D.data());
-    open_branch(*placement.element, local.u.data() + first, open.data(), open_D.data());
-    for (int i = 0; i < k; ++i)
-      if (K(i, i) != open(i, i) && !is_smooth(machine, local, first + i, dp(first + i, first + i)))
-      {
-        at.touching.push_back(placement.name);
-        break;
-      }
-    first += k;
-  }
-  machine.events().follow_history(true);
+  for_contacts(machine, local,
+               [&](const Contact &contact)
+               {
+                 machine.events().follow_history(false);
+                 bool smooth = true;
+                 for (int i = 0; i < contact.more.rows() && smooth; ++i)
+                   smooth =
+                       contact.more(i, i) == 0. || is_smooth(machine, local, contact.first + i, -contact.here(i, i));
+                 machine.events().follow_history(true);
+                 if (!smooth)
+                   at.touching.push_back(contact.name);
+               });
 }
 
 /// A derivative, with an estimate of its error.

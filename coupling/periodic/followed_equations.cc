@@ -132,7 +132,9 @@ public:
   /// By Newton's method at the value of the parameter; numbers of harmonics that have no solution near by are passed.
   bool refit(const PeriodicSolution &, MatrixXd &Z) override
   {
-    if (options_.harmonics > 0 || points_to_rest_ > 0)
+    if (options_.harmonics > 0)
+      return false;
+    if (points_to_rest_ > 0)
     {
       --points_to_rest_;
       return false;

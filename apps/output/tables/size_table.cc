@@ -105,6 +105,15 @@ std::string rung_text(const SizeRung &rung)
   return text.str();
 }
 
+const SizeRung *cheapest_of(const SizeResult &size)
+{
+  const SizeRung *cheapest = nullptr;
+  for (const SizeRung &rung : size.all)
+    if (rung.share <= 1. && (!cheapest || rung.cpu_s < cheapest->cpu_s))
+      cheapest = &rung;
+  return cheapest;
+}
+
 std::string size_text(const SizeResult &size)
 {
   std::ostringstream text;
@@ -120,11 +129,16 @@ std::string size_text(const SizeResult &size)
          << proof.unit << '\n';
   if (!size.all.empty())
   {
-    const SizeRung &chosen = size.all[size.chosen_of_all], &cheapest = size.all[size.cheapest];
-    text << "all " << size.all.size()
-         << " models tried: the cheapest that stays within the tolerance against the finer "
-         << "one takes " << short_text(cheapest.cpu_s, 3) << " CPU s, the chosen one " << short_text(chosen.cpu_s, 3)
-         << ": " << short_text(chosen.cpu_s / cheapest.cpu_s, 3) << " times; size_all.csv\n";
+    text << "all " << size.all.size() << " models tried: ";
+    if (const SizeRung *cheapest = cheapest_of(size))
+    {
+      const double chosen = size.all[size.chosen_of_all].cpu_s;
+      text << "the cheapest that stays within the tolerance against the finer one takes "
+           << short_text(cheapest->cpu_s, 3) << " CPU s, the chosen one " << short_text(chosen, 3) << ": "
+           << short_text(chosen / cheapest->cpu_s, 3) << " times; size_all.csv\n";
+    }
+    else
+      text << "none stays within the tolerance against the finer one; size_all.csv\n";
   }
   for (const std::string &what : size.left_out)
     text << "may be left out: " << what << '\n';

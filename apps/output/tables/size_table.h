@@ -15,6 +15,9 @@ std::string size_csv(const SizeResult &size);
 /// size_all.csv: a row for each model of an exhaustive search; empty without one.
 std::string size_all_csv(const SizeResult &size);
 
+/// Of all models tried the cheapest within the tolerance against the finer one; null: there is none.
+const SizeRung *cheapest_of(const SizeResult &size);
+
 /// For a terminal: one model, and all of them with what follows.
 std::string rung_text(const SizeRung &rung);
 std::string size_text(const SizeResult &size);

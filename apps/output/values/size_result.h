@@ -44,7 +44,6 @@ struct SizeResult
   /// Every model about the chosen one, where all were asked for; `share` is the largest difference to the finer model
   /// of the proof, of what is allowed, `worst` the output that has it.
   std::vector<SizeRung> all;
-  std::size_t           cheapest      = 0; ///< of those whose share is 1 at most
   std::size_t           chosen_of_all = 0;
 };
 

@@ -26,4 +26,14 @@ struct SignalHarmonics
  */
 SignalHarmonics signal_harmonics(const std::vector<double> &samples, double begin, int ratio, int count);
 
+struct SignalExtremes
+{
+  double min = 0., max = 0.;
+};
+
+/// Least and largest value over a period, by parabolas between samples where these bend alike; a kink and the ends of
+/// what turns keep their samples.
+/// @param samples  equally spaced, the last one a period behind the first
+SignalExtremes signal_extremes(const std::vector<double> &samples);
+
 } // namespace gestell::coupling

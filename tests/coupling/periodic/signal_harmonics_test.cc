@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::tests
@@ -49,6 +50,28 @@ TEST(SignalHarmonics, AreRefusedWhereSamplesCannotTellThem)
 {
   expect_refusal([] { coupling::signal_harmonics(signal(), 0., ratio, 22); }, "132");
   expect_refusal([] { coupling::signal_harmonics(std::vector<double>(71, 0.), 0., 1, 5); }, "multiple of 4");
+}
+
+/// Parabolas through samples h apart err by h^4/64 of a cosine at most; |cos| has its kink at a sample, a ramp its
+/// ends.
+TEST(SignalExtremes, LieBetweenTheSamplesButNotAtKinksAndEnds)
+{
+  constexpr int       n = 256;
+  const double        h = 2. * M_PI / n;
+  std::vector<double> cosine, kink, ramp;
+  for (int k = 0; k <= n; ++k)
+  {
+    const double t = h * k;
+    cosine.push_back(std::cos(t - 0.3 * h));
+    kink.push_back(std::abs(std::cos(t)));
+    ramp.push_back(t + 0.1 * std::sin(t));
+  }
+  EXPECT_NEAR(coupling::signal_extremes(cosine).max, 1., std::pow(h, 4) / 64.);
+  EXPECT_NEAR(coupling::signal_extremes(cosine).min, -1., std::pow(h, 4) / 64.);
+  EXPECT_LT(*std::max_element(cosine.begin(), cosine.end()), 1. - 1e-5) << "samples alone miss it";
+  EXPECT_NEAR(coupling::signal_extremes(kink).min, 0., 1e-15);
+  EXPECT_EQ(coupling::signal_extremes(ramp).min, ramp.front());
+  EXPECT_EQ(coupling::signal_extremes(ramp).max, ramp.back());
 }
 
 } // namespace gestell::tests
