@@ -65,6 +65,17 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     request.options.method = request.method;
   if (table.choice("inside") == "free-interface")
     request.options.method = "free-interface";
+  if (method.makes == coupling::ReductionEntry::Makes::modes_of_machine)
+  {
+    coupling::SuperpositionOptions &modes = request.superposition.emplace();
+    modes.n_modes                         = request.options.n_modes;
+    modes.frequency                       = request.options.frequency;
+    modes.tolerance                       = request.options.tolerance;
+    modes.diagonal_damping                = table.choice("damping") == "diagonal";
+    modes.place                           = request.options.place;
+    request.options                       = {}; // of the companion, which shows start and pictures
+    request.options.place                 = table.place();
+  }
   request.options.eigensolver    = table.choice("eigensolver");
   request.options.inertia_relief = table.truth("inertia_relief");
   return request;
@@ -231,7 +242,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   read_elements(table, names, scene);
   read_joints(table, names, scene);
   read_switches(table, scene);
-  scene.run   = read_run(table);
+  scene.run   = read_run(table, scene.reduction.superposition.has_value());
   scene.start = read_start(table, names);
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);

@@ -69,7 +69,9 @@ const std::vector<Key> &reduction_keys()
           "exactly. `\"guyan\"`: these static shapes alone, exact in statics; modes that the "
           "frame has with its interface held are missing, and "
           "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. "
-          "`\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
+          "`\"modal\"` superposes [modes of frame and mechanism](../theory/reduction.md#modal-superposition), which "
+          "must all "
+          "vibrate. `\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
           "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
           "): exact, and slower by orders of magnitude; `\"none\"` is another name of it. So does a frame given by "
           "matrices without `[reduction]`. A key that the method does not take is refused"),
@@ -97,6 +99,8 @@ const std::vector<Key> &reduction_keys()
           .by_default("automatic"),
       key::choice("inside", {"fixed-interface", "free-interface"}, true,
                   "beside `\"craig-bampton\"`: `\"free-interface\"` is the method of that name"),
+      key::choice("damping", {"full", "diagonal"}, true,
+                  "of `\"modal\"`: `\"diagonal\"` leaves out what couples modes"),
       key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
                   "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time; the second may break "
                   "down by rounding, and says so. Options of PETSc and "

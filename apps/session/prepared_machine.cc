@@ -3,6 +3,7 @@
 #include "apps/scene/build/carried_bodies.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/superposed_machine.h"
 #include "apps/scene/read/frame/matrix_units.h"
 #include "apps/session/commit.h"
 #include "apps/version.h"
@@ -77,7 +78,7 @@ void add_warnings(const Scene &scene, PreparedMachine &prepared)
 {
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
-    prepared.warnings = frame->notes;
+    prepared.warnings.insert(prepared.warnings.end(), frame->notes.begin(), frame->notes.end());
     if (scene.frame.source == FrameSource::matrices)
       if (const std::string suspicion = suspect_frequency(*frame); !suspicion.empty())
         prepared.warnings.push_back(suspicion);
@@ -118,12 +119,56 @@ PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &p
   return on_full_frame(scene, progress);
 }
 
+/// q of the configuration that modes are asked for, of the whole machine.
+Eigen::VectorXd whole_configuration(const Scene &scene, PreparedMachine &prepared)
+{
+  const Eigen::VectorXd q = modes_configuration(scene, prepared.small());
+  if (!prepared.companion)
+    return q;
+  const coupling::InitialState at{scene.run.options.begin, q, Eigen::VectorXd::Zero(q.size())};
+  return coupling::expand_statically(prepared.machine, *prepared.companion, at).q;
+}
+
+/// The same machine in the modes that the scene asks for; itself it becomes the companion, unless it has one.
+PreparedMachine in_modes(const Scene &scene, PreparedMachine physical)
+{
+  SuperposedMachine modes  = superposed(scene, physical.machine, whole_configuration(scene, physical));
+  auto              link   = std::make_shared<MachineInModes>();
+  const bool        sparse = physical.companion.has_value();
+  link->projection         = std::move(modes.projection);
+  link->largest_step       = modes.largest_step;
+  link->statements         = std::move(modes.statements);
+  link->companion.resize(physical.small().size(), modes.V.cols());
+  for (Eigen::Index j = 0; j < modes.V.cols(); ++j)
+    link->companion.col(j) = sparse ? physical.project(modes.V.col(j)) : Eigen::VectorXd(modes.V.col(j));
+  PreparedMachine result{std::move(modes.machine), std::move(physical.companion), false, std::move(modes.notes)};
+  if (sparse)
+    link->whole = std::move(physical.machine);
+  else
+    result.companion = std::move(physical.machine);
+  result.in_modes = std::move(link);
+  return result;
+}
+
 } // namespace
+
+void keep_stable_step(PreparedMachine &prepared, RunRequest &run)
+{
+  if (!prepared.in_modes)
+    return;
+  if (const std::string text = keep_stable_step(prepared.in_modes->largest_step, run); !text.empty())
+    prepared.warnings.push_back(text);
+}
 
 PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
 {
   tell(progress, "frame");
   PreparedMachine prepared = without_warnings(scene, progress);
+  if (scene.reduction.superposition)
+  {
+    tell(progress, "modes of the machine");
+    prepared = in_modes(scene, std::move(prepared));
+  }
   add_warnings(scene, prepared);
   return prepared;
 }
@@ -137,6 +182,8 @@ PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFr
 
 Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 {
+  if (in_modes)
+    return in_modes->companion * state;
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(companion->size());
   const auto      n_bodies  = machine.model().n_mechanism();
   projected.tail(n_bodies)  = state.tail(n_bodies);
@@ -152,7 +199,13 @@ Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared)
 {
   const coupling::InitialState state = initial_state(scene, prepared.small());
-  return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+  if (!prepared.in_modes)
+    return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+  const MachineInModes &modes = *prepared.in_modes;
+  if (!modes.whole)
+    return start_in_modes(scene, prepared.machine, *prepared.companion, modes.projection, state);
+  return start_in_modes(scene, prepared.machine, *modes.whole, modes.projection,
+                        coupling::expand_statically(*modes.whole, *prepared.companion, state));
 }
 
 std::string mesh_text(const FrameRequest &frame)
@@ -189,6 +242,13 @@ ModelFacts model_facts(const PreparedMachine &prepared)
         if (frame->frequencies_hz[j] <= frame->frequency_limit_hz)
           facts.frequency_error = std::fmax(facts.frequency_error, frame->frequency_error[j]); // nan gives way
     }
+  }
+  if (prepared.in_modes)
+  {
+    facts.interface = 0;
+    facts.modes     = prepared.machine.size();
+    facts.statements.insert(facts.statements.end(), prepared.in_modes->statements.begin(),
+                            prepared.in_modes->statements.end());
   }
   return facts;
 }

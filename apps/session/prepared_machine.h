@@ -5,6 +5,7 @@
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/frame/reduction_options.h"
 
+#include <memory>
 #include <optional>
 
 namespace gestell::apps
@@ -13,17 +14,31 @@ namespace gestell::apps
 /// Tells that a phase begins or goes on, share 0..1 of it done, negative: unknown; `progress` may be empty.
 void tell(const coupling::Progress &progress, const std::string &phase, double share = -1.);
 
+/// How a machine in modes p hangs together with the one it is made of.
+struct MachineInModes
+{
+  std::optional<coupling::Machine> whole;        ///< on an unreduced frame; none: the companion is it
+  Eigen::MatrixXd                  companion;    ///< [n_c x m] p in the companion's coordinates
+  Eigen::MatrixXd                  projection;   ///< see SuperposedMachine
+  double                           largest_step; ///< [s] of central differences
+  std::vector<std::string>         statements;
+};
+
 /// A scene's machine, ready to compute with.
 struct PreparedMachine
 {
   coupling::Machine machine;
-  /// With an unreduced frame: the same machine on the reduced one, which serves start, modes and pictures.
+  /// With an unreduced frame or in modes: the same machine on the reduced frame or in its own coordinates, which serves
+  /// start, modes and pictures.
   std::optional<coupling::Machine> companion;
   bool                             from_cache = false;
   std::vector<std::string>         warnings;
 
   const coupling::Machine &small() const { return companion ? *companion : machine; }
   coupling::Machine       &small() { return companion ? *companion : machine; }
+
+  /// Of a machine in modes, null otherwise.
+  std::shared_ptr<const MachineInModes> in_modes{};
 
   /// A state of the unreduced frame in the companion's coordinates: interfaces and bodies; its modes are left at rest.
   Eigen::VectorXd project(const Eigen::VectorXd &state) const;
@@ -34,6 +49,9 @@ PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &pr
 
 /// The same on a reduced frame that was made before.
 PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
+
+/// Of a machine in modes a step of central differences that is stable, see the other keep_stable_step().
+void keep_stable_step(PreparedMachine &prepared, RunRequest &run);
 
 /// Its initial state, that of an unreduced frame expanded from the companion's.
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared);

@@ -183,7 +183,10 @@ PreparedMachine &Session::machine()
 {
   check();
   if (!machine_)
+  {
     machine_ = prepare_machine(scene_, progress());
+    keep_stable_step(*machine_, scene_.run);
+  }
   return *machine_;
 }
 

@@ -93,16 +93,21 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
   other.frame.geometry.mesh.size *= variant.mesh;
   for (auto &[surface, size] : other.frame.geometry.mesh.surface_size)
     size *= variant.mesh;
-  if (variant.modes >= 0)
-    other.reduction.options.n_modes = variant.modes;
   for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
     if (entry.name == variant.reduction)
     {
       other.reduction.method      = entry.name;
       other.reduction.makes_frame = entry.makes == coupling::ReductionEntry::Makes::reduced_frame;
+      other.reduction.superposition.reset();
+      if (entry.makes == coupling::ReductionEntry::Makes::modes_of_machine)
+        other.reduction.superposition.emplace().place = other.reduction.options.place;
       if (other.reduction.makes_frame)
         other.reduction.options.method = entry.name;
     }
+  if (variant.modes >= 0 && other.reduction.superposition)
+    other.reduction.superposition->n_modes = variant.modes;
+  else if (variant.modes >= 0)
+    other.reduction.options.n_modes = variant.modes;
   if (variant.method)
     other.run.options.method = *variant.method;
   return other;
@@ -111,7 +116,7 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
 ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
                       const std::atomic<bool> *stop)
 {
-  const Scene other = varied(scene, variant);
+  Scene       other = varied(scene, variant);
   ModelAnswer answer;
   answer.values.resize(outputs.size());
   answer.sizes.resize(outputs.size());
@@ -119,6 +124,7 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   answer.decided_s.assign(outputs.size(), other.run.options.begin);
   const double    begin    = cpu_now();
   PreparedMachine prepared = prepare_machine(other);
+  keep_stable_step(prepared, other.run);
   answer.prepare_cpu       = cpu_now() - begin;
   answer.from_cache        = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
@@ -126,7 +132,13 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
     answer.n_frame   = frame->n_full;
     answer.interface = frame->n_interface;
     answer.modes     = int(frame->M.rows()) - frame->n_interface;
-    if (frame->omega0.size() > 0)
+    if (prepared.in_modes)
+    {
+      answer.interface = 0;
+      answer.modes     = prepared.machine.size();
+      answer.cutoff_hz = prepared.machine.superposed_frequencies().maxCoeff() / (2. * M_PI);
+    }
+    else if (frame->omega0.size() > 0)
       answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);
   }
   take_modes(other, prepared.small(), outputs, answer);
@@ -178,7 +190,7 @@ bool mesh_is_made(const Scene &scene)
 
 bool modes_are_chosen(const Scene &scene)
 {
-  return frame_path(scene) == FramePath::reduce && scene.reduction.method != "guyan";
+  return scene.reduction.superposition || (frame_path(scene) == FramePath::reduce && scene.reduction.method != "guyan");
 }
 
 std::vector<std::string> signal_names(const Scene &scene)

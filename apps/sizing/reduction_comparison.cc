@@ -79,7 +79,7 @@ void measure_error(const std::vector<OutputName> &outputs, const ModelAnswer &re
 ReductionComparison compare_reductions(const Scene &scene, const std::vector<OutputName> &outputs,
                                        const ComparisonOptions &options)
 {
-  if (frame_path(scene) != FramePath::reduce)
+  if (frame_path(scene) != FramePath::reduce && !scene.reduction.superposition)
     throw std::invalid_argument(scene.file +
                                 ": --reductions compares reductions of a frame, and this scene's frame is not reduced; "
                                 "give it a [reduction]");
@@ -107,7 +107,10 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
       ReductionPoint point;
       try
       {
-        point = point_of(scene, entry.name, number, outputs, options.stop, answer);
+        // As many coordinates as the others have with their interface.
+        const bool in_modes = entry.makes == coupling::ReductionEntry::Makes::modes_of_machine;
+        const int  kept     = in_modes ? number + reference.interface : number;
+        point               = point_of(scene, entry.name, kept, outputs, options.stop, answer);
         measure_error(outputs, reference, duration, point);
       }
       catch (const std::exception &failure)

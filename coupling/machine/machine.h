@@ -15,6 +15,7 @@ namespace gestell::coupling
 
 class LinearBase;
 struct MachineParts;
+struct ModalCoordinates;
 struct MachineSystem;
 
 /**
@@ -151,6 +152,16 @@ public:
   /// Load of a unit acceleration of the machine in x, y, z: M R [n x 3], for effective masses.
   Eigen::MatrixXd translation_loads() const;
 
+  /**
+   * The same machine in modes p, q = V p: base matrices V^T M V, V^T B V, V^T C V, directions V^T W, loads V^T f_t; its
+   * coordinates are the modes (5.5.3/11). Frame, bodies and pictures stay with this one, whose signals it knows.
+   */
+  Machine in_modes(const ModalCoordinates &modes) const;
+  /// [m] rad/s of the modes that its coordinates are; empty: they are no modes.
+  const Eigen::VectorXd &superposed_frequencies() const;
+  /// M, B, C as they are stored.
+  const LinearBase &base() const;
+
   /// Contacts that are closed at a motion, in words: by how much they lie inside.
   std::vector<std::string> closed_contacts(const LocalState &state) const;
   /// @param a  q'' [n]; only signals that reads_acceleration() look at it
@@ -176,6 +187,11 @@ public:
   const EnergyAccount &energy() const override;
 
 private:
+  struct Assembled
+  {
+  };
+  Machine(MachineModel model, Assembled);
+
   MachineModel                   model_;
   MachineParts                  *parts_; ///< of the model
   std::unique_ptr<MachineSystem> system_;

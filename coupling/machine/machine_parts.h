@@ -4,6 +4,7 @@
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/machine/linear_base.h"
 #include "coupling/machine/machine_model.h"
+#include "coupling/machine/modal_coordinates.h"
 #include "mechanism/transmitted_element.h"
 
 #include <map>
@@ -145,6 +146,9 @@ struct MachineParts
   std::vector<Load>                   loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
+  std::map<std::string, Signal>       superposed_signals;     ///< of a machine in modes: all there are
+  Eigen::VectorXd                     superposed_frequencies; ///< [m] rad/s; empty: it is not in modes
+
   // finished
   std::unique_ptr<LinearBase>  base;
   Eigen::SparseMatrix<double>  W;
@@ -178,6 +182,8 @@ struct MachineParts
   bool                   moves_with_frame(const Marker &marker) const;
 
   void   finish();
+  /// Machine::in_modes(), assembled.
+  std::unique_ptr<MachineParts> in_modes(const ModalCoordinates &modes) const;
   void   assemble_dense(int n);
   void   assemble_sparse(int n);
   void   assemble_mechanism(int n);

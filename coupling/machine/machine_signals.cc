@@ -226,7 +226,7 @@ private:
 
 std::map<std::string, Signal> MachineParts::signals() const
 {
-  return SignalList(*this).all();
+  return superposed_signals.empty() ? SignalList(*this).all() : superposed_signals;
 }
 
 std::vector<std::string> MachineModel::signal_paths() const

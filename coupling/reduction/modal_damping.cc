@@ -1,9 +1,11 @@
 #include "coupling/reduction/modal_damping.h"
 
+#include "coupling/eigensolvers/sparse_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_modes.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/assembly/rigid_motions.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -16,12 +18,16 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   if (n_modes < 0 || n_modes > n)
     throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested of a frame with " +
                                 std::to_string(n) + " coordinates; ask for 0 to " + std::to_string(n));
-  if (const auto motions = fem::free_motions(frame, {}); !motions.empty())
-    throw std::invalid_argument(
-        "modal damping: the frame floats (" + std::to_string(motions.size()) + " motions are free, one of them " +
-        motions[0] +
-        "), and an unreduced frame is damped by the modes of a supported one; support it, reduce it "
-        "(reduction.method = \"craig-bampton\"), or damp it by rayleigh");
+  if (const int n_free = int(fem::free_motions(frame, {}).size()); n_free > 0)
+  {
+    if (progress)
+      progress("modes of the floating frame", -1.);
+    const DenseModes modes   = sparse_modes(frame.C, frame.M, std::min(n, n_modes + n_free));
+    const auto       elastic = std::min<Eigen::Index>(n_modes, modes.omega.size() - n_free);
+    frame.modal_damping.Z    = symmetric_product(frame.M, modes.V.rightCols(elastic));
+    frame.modal_damping.d    = frame.modal_damping_ratio.modal_dampers(modes.omega.tail(elastic));
+    return;
+  }
   if (progress)
     progress("factorisation", -1.);
   FixedInterfaceFrame free_frame(frame, {});

@@ -4,6 +4,7 @@
 #include "coupling/reduction/methods/craig_bampton.h"
 #include "coupling/reduction/methods/free_interface.h"
 #include "coupling/reduction/methods/guyan.h"
+#include "coupling/reduction/methods/modal_superposition.h"
 
 namespace gestell::coupling
 {
@@ -27,7 +28,8 @@ struct ReductionTable
 using Reductions = ReductionTable<CraigBampton,  //
                                   FreeInterface, //
                                   Guyan,         //
-                                  Condensation,  //
+                                  ModalSuperposition,
+                                  Condensation, //
                                   Unreduced>;
 
 } // namespace gestell::coupling

@@ -7,6 +7,7 @@
 #include "coupling/simulation/checks/fast_forces.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
 #include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/stiffness_check.h"
 #include "coupling/simulation/recorder.h"
 #include "mechanism/elements/journal_bearing.h"
@@ -301,6 +302,7 @@ public:
     cylinders_   = std::make_unique<HydraulicLimits>(machine_, *integrator_);
     stiffness_   = std::make_unique<StiffnessCheck>(machine_, initial, method_);
     fast_forces_ = std::make_unique<FastForces>(machine_, *integrator_);
+    momentary_   = std::make_unique<MomentaryModes>(machine_, options_.begin, options_.end);
     driver_.on_step([this] { look_at_step(); });
     driver_.on_event(
         [this](const Event &event)
@@ -327,6 +329,7 @@ private:
     if (!options_.force_unstable)
       stiffness_->step(integrator_->local());
     fast_forces_->step();
+    momentary_->step(integrator_->local());
   }
 
   Machine                         &machine_;
@@ -339,6 +342,7 @@ private:
   std::unique_ptr<HydraulicLimits> cylinders_;
   std::unique_ptr<StiffnessCheck>  stiffness_;
   std::unique_ptr<FastForces>      fast_forces_;
+  std::unique_ptr<MomentaryModes>  momentary_;
 };
 
 /// A step that cannot be made ends the run, with its reason in the result.
@@ -378,8 +382,9 @@ void Run::finish(const InitialState &initial)
   take_work(integrator_->work(), driver_, options_, result_);
   const Eigen::VectorXd   &v        = integrator_->instant().v;
   std::vector<std::string> warnings = cylinders_->warnings();
-  if (std::string warning = fast_forces_->warning(); !warning.empty())
-    warnings.push_back(std::move(warning));
+  for (std::string warning : {fast_forces_->warning(), momentary_->warning()})
+    if (!warning.empty())
+      warnings.push_back(std::move(warning));
   for (const std::string &warning : tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v))
     warnings.push_back(warning);
   add(warnings, result_.warnings);

@@ -36,6 +36,8 @@ std::vector<std::string> check_scene(const Scene &scene)
 {
   auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
+  if (scene.reduction.superposition)
+    coupling::check_superposition(machine, scene.reduction.options.place);
   if (coupling::has_joints(machine) && !places_known(scene))
     check_start_names(scene, machine);
   else

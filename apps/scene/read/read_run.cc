@@ -15,6 +15,9 @@ using coupling::IntegrationMethod;
 using coupling::MethodOptions;
 using coupling::MethodParameter;
 
+constexpr auto   method_in_modes  = "central-difference"; ///< of a superposition, unless another is given
+constexpr double provisional_step = 1e-6;                 ///< of the run, until the modes are known
+
 /// Keys that not every method has.
 std::vector<std::string> own_keys(const IntegrationMethod &method)
 {
@@ -34,8 +37,10 @@ bool has_key(const IntegrationMethod &method, const std::string &key)
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-const IntegrationMethod &read_method(const SceneTable &run)
+const IntegrationMethod &read_method(const SceneTable &run, bool in_modes)
 {
+  if (in_modes && !run.has("method"))
+    return coupling::integration_method(method_in_modes);
   return coupling::integration_method(run.choice("method"));
 }
 
@@ -106,13 +111,16 @@ void read_steps(const SceneTable &run, const IntegrationMethod &method, MethodOp
   o.step = run.value("step");
 }
 
-MethodOptions read_method_options(const SceneTable &run)
+MethodOptions read_method_options(const SceneTable &run, bool in_modes)
 {
   MethodOptions            o;
-  const IntegrationMethod &method = read_method(run);
+  const IntegrationMethod &method = read_method(run, in_modes);
   o.method                        = method.name();
   refuse_keys_of_other_methods(run, method);
-  read_steps(run, method, o);
+  if (in_modes && !run.has("step") && !run.has("tolerance") && !method.can_control_error())
+    o.step = provisional_step * (run.value("end") - run.value("begin"));
+  else
+    read_steps(run, method, o);
   read_parameters(run, method, o);
   o.max_halvings = run.whole("max_halvings");
   if (o.max_halvings < 0 || o.max_halvings > 40)
@@ -201,7 +209,7 @@ std::string seconds(double t)
   return text.str();
 }
 
-RunRequest read_run(const SceneTable &scene)
+RunRequest read_run(const SceneTable &scene, bool in_modes)
 {
   RunRequest run;
   run.place = scene.place();
@@ -211,7 +219,8 @@ RunRequest read_run(const SceneTable &scene)
   run.place              = table.place();
   auto &o                = run.options;
   run.given              = true;
-  o.method               = read_method_options(table);
+  o.method               = read_method_options(table, in_modes);
+  run.step_given         = !in_modes || table.has("step") || table.has("tolerance");
   o.begin                = table.value("begin");
   o.end                  = table.value("end");
   if (o.end <= o.begin)

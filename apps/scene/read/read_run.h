@@ -7,7 +7,7 @@ namespace gestell::apps
 {
 
 /// [run]: the method with its parameters, times, events.  Without it nothing is run: `modes` and `reduce` need none.
-RunRequest read_run(const SceneTable &scene);
+RunRequest read_run(const SceneTable &scene, bool in_modes);
 
 /// Of [run].
 const std::vector<Key> &run_keys();

@@ -2,6 +2,7 @@
 
 #include "apps/scene/language/quantity.h"
 #include "coupling/machine/machine.h"
+#include "coupling/modes/superposition.h"
 #include "coupling/plugin/frame_service.h"
 #include "coupling/simulation/simulation.h"
 #include "fem/values/cad_body.h"
@@ -43,6 +44,8 @@ struct ReductionRequest
 {
   std::string                method = "none"; ///< a name of coupling::Reductions
   coupling::ReductionOptions options;         ///< of an unreduced frame those of its companion
+
+  std::optional<coupling::SuperpositionOptions> superposition{}; ///< the machine moves in its modes
 
   bool makes_frame = false; ///< a reduced one
   bool reduces() const { return makes_frame; }
@@ -315,7 +318,8 @@ struct ModesRequest
 
 struct RunRequest
 {
-  bool                 given = false; ///< there is a [run]
+  bool                 given      = false; ///< there is a [run]
+  bool                 step_given = true;  ///< else it follows from the modes of a superposition
   coupling::RunOptions options;
   std::string          place;
 };

@@ -46,6 +46,21 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine)
 namespace
 {
 
+/// Calls add(first measure, K, D) for every element.
+template <typename Matrices, typename Add>
+void of_elements(const Machine &machine, const Eigen::VectorXd &u, const Matrices &of_element, const Add &add)
+{
+  int first = 0;
+  for (const ElementPlacement &placement : machine.model().elements())
+  {
+    const int       k = placement.element->n_measures();
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+    of_element(placement, u.data() + first, K, D);
+    add(first, K, D);
+    first += k;
+  }
+}
+
 template <typename Matrices>
 void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping,
             const Matrices &of_element)
@@ -55,17 +70,51 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
   const Eigen::VectorXd u = W.transpose() * q;
   stiffness.setZero(n, n);
   damping.setZero(n, n);
-  int first = 0;
+  of_elements(machine, u, of_element,
+              [&](int first, const Eigen::MatrixXd &K, const Eigen::MatrixXd &D)
+              {
+                const Eigen::MatrixXd own = W.middleCols(first, K.cols());
+                stiffness += own * K * own.transpose();
+                damping += own * D * own.transpose();
+              });
+}
+
+/// Of engaged elements, or those in `open` open.
+class Engaged
+{
+public:
+  Engaged(const Machine &machine, const std::vector<std::string> &open) : open_(open) { check(machine); }
+
+  void operator()(const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D) const;
+
+private:
+  void check(const Machine &machine) const;
+
+  const std::vector<std::string> &open_;
+};
+
+void Engaged::check(const Machine &machine) const
+{
+  std::vector<std::string> names;
   for (const ElementPlacement &placement : machine.model().elements())
-  {
-    const int       k = placement.element->n_measures();
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
-    of_element(placement, u.data() + first, K, D);
-    const Eigen::MatrixXd own = W.middleCols(first, k);
-    stiffness += own * K * own.transpose();
-    damping += own * D * own.transpose();
-    first += k;
-  }
+    names.push_back(placement.name);
+  for (const std::string &name : open_)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
+}
+
+void Engaged::operator()(const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K,
+                         Eigen::MatrixXd &D) const
+{
+  engaged(*placement.element, u, K.data(), D.data());
+  if (std::find(open_.begin(), open_.end(), placement.name) == open_.end())
+    return;
+  const Eigen::MatrixXd engaged_K = K, engaged_D = D;
+  open_branch(*placement.element, u, K.data(), D.data());
+  if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
+    throw std::invalid_argument("modes: element \"" + placement.name +
+                                "\" acts in every position, so that it cannot be open; leave it out of "
+                                "modes.open, and for modes without it take it out of the scene");
 }
 
 } // namespace
@@ -73,25 +122,26 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping)
 {
-  std::vector<std::string> names;
-  for (const ElementPlacement &placement : machine.model().elements())
-    names.push_back(placement.name);
-  for (const std::string &name : open)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw std::invalid_argument("modes: there is no element \"" + name + "\" to be open" + suggestion(name, names));
-  add_up(machine, q, stiffness, damping,
-         [&open](const ElementPlacement &placement, const double *u, Eigen::MatrixXd &K, Eigen::MatrixXd &D)
-         {
-           engaged(*placement.element, u, K.data(), D.data());
-           if (std::find(open.begin(), open.end(), placement.name) == open.end())
-             return;
-           const Eigen::MatrixXd engaged_K = K, engaged_D = D;
-           open_branch(*placement.element, u, K.data(), D.data());
-           if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
-             throw std::invalid_argument("modes: element \"" + placement.name +
-                                         "\" acts in every position, so that it cannot be open; leave it out of "
-                                         "modes.open, and for modes without it take it out of the scene");
-         });
+  add_up(machine, q, stiffness, damping, Engaged(machine, open));
+}
+
+Eigen::SparseMatrix<double> engaged_stiffness(const Machine &machine, const Eigen::VectorXd &q,
+                                              const std::vector<std::string> &open)
+{
+  const auto                         &W = machine.forces().directions();
+  const Eigen::VectorXd               u = W.transpose() * q;
+  std::vector<Eigen::Triplet<double>> entries;
+  of_elements(machine, u, Engaged(machine, open),
+              [&](int first, const Eigen::MatrixXd &K, const Eigen::MatrixXd &)
+              {
+                for (int i = 0; i < K.rows(); ++i)
+                  for (int j = 0; j < K.cols(); ++j)
+                    if (K(i, j) != 0.)
+                      entries.emplace_back(first + i, first + j, K(i, j));
+              });
+  Eigen::SparseMatrix<double> K(W.cols(), W.cols());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return W * K * W.transpose();
 }
 
 void stiffest_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &stiffness,

@@ -16,6 +16,10 @@ Eigen::MatrixXd dense_stiffness(const Machine &machine);
 void engaged_matrices(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                       Eigen::MatrixXd &stiffness, Eigen::MatrixXd &damping);
 
+/// W K W^T of the same as a sparse matrix, for machines of any size.
+Eigen::SparseMatrix<double> engaged_stiffness(const Machine &machine, const Eigen::VectorXd &q,
+                                              const std::vector<std::string> &open);
+
 /// Which elements have forces.
 enum class Acting
 {

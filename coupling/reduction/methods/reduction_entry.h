@@ -22,7 +22,8 @@ struct ReductionEntry
   enum class Makes
   {
     reduced_frame,
-    no_frame ///< the machine takes the full one
+    no_frame,        ///< the machine takes the full one
+    modes_of_machine ///< the machine on the full one is superposed of its modes
   };
 
   std::string              name;  ///< reduction.method = "guyan"

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gestell::coupling
+{
+
+/**
+ * Modes in place of coordinates (5.5.3/8-10): q = V p with m columns, m << n, of
+ *
+ *     (K - omega^2 M) v = 0,     V^T M V = E.
+ */
+struct ModalCoordinates
+{
+  Eigen::VectorXd omega; ///< [m] rad/s, ascending
+  Eigen::MatrixXd V;     ///< [n x m]
+  bool            diagonal_damping = false; ///< of V^T B V what couples modes is left out
+};
+
+} // namespace gestell::coupling

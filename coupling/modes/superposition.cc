@@ -1,0 +1,333 @@
+#include "coupling/modes/superposition.h"
+
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/eigensolvers/sparse_modes.h"
+#include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/dense_base.h"
+#include "coupling/machine/sparse_base.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+constexpr int    few_coordinates    = 600; ///< all modes are found at once
+constexpr int    first_search       = 16;  ///< modes
+constexpr int    most_automatic     = 512;
+constexpr double above_loads        = 4.;   ///< the book's rule: 3 to 4 times the highest excitation frequency
+constexpr double much_left          = 0.05; ///< of a static deflection, worth a note
+constexpr double considerable_share = 0.1;  ///< of damping between two modes, worth a note
+constexpr double no_mass            = 1e-14;
+
+struct AveragedSystem
+{
+  SparseMatrix M, K;
+};
+
+AveragedSystem averaged(const Machine &machine, const VectorXd &q, const std::vector<std::string> &open)
+{
+  AveragedSystem system;
+  if (const auto *sparse = dynamic_cast<const SparseBase *>(&machine.base()))
+  {
+    system.M = sparse->mass();
+    system.K = sparse->stiffness();
+  }
+  else
+  {
+    system.M = dense_mass(machine).sparseView();
+    system.K = dense_stiffness(machine).sparseView();
+  }
+  system.K = SparseMatrix(system.K + engaged_stiffness(machine, q, open));
+  return system;
+}
+
+[[noreturn]] void refuse(const std::string &place, const std::string &reason, const std::string &way_out)
+{
+  throw std::invalid_argument(place + ": method = \"modal\" does not apply: " + reason + "; " + way_out);
+}
+
+const char *const other_methods = "take method = \"craig-bampton\", which keeps such coordinates as they are";
+
+/// A rotor that a drive turns; empty: none.
+std::string driven_rotor(const Machine &machine, std::string &drive)
+{
+  for (const ElementPlacement &placement : machine.model().elements())
+    for (const Measure &u : placement.measures)
+      for (const auto &term : u)
+        for (const Body &body : machine.model().bodies())
+          if (body.kind == BodyKind::rotor && body.coordinate == term.first &&
+              placement.element->work() == mechanism::Work::input)
+          {
+            drive = placement.name;
+            return body.name;
+          }
+  return "";
+}
+
+void refuse_massless(const Machine &machine, const SparseMatrix &M, const std::string &place)
+{
+  const VectorXd mass = M.diagonal();
+  for (int i = 0; i < machine.size(); ++i)
+    if (!(mass[i] > no_mass * mass.maxCoeff()))
+      refuse(place, "the coordinate \"" + machine.coordinate_name(i) + "\" has no mass",
+             std::string("give it one, or ") + other_methods);
+}
+
+/// The coordinate with most of the kinetic energy.
+std::string moving_most(const Machine &machine, const SparseMatrix &M, const VectorXd &v)
+{
+  Eigen::Index most;
+  (M.diagonal().array() * v.array().square()).maxCoeff(&most);
+  return most < machine.model().n_frame() ? "the frame" : "\"" + machine.coordinate_name(int(most)) + "\"";
+}
+
+void refuse_free_motions(const Machine &machine, const SparseMatrix &M, const DenseModes &modes,
+                         const std::string &place)
+{
+  for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
+    if (modes.omega[j] == 0.)
+      refuse(place,
+             moving_most(machine, M, modes.V.col(j)) +
+                 " moves freely: this motion has no stiffness, its frequency is zero",
+             std::string("hold it by a spring, or ") + other_methods);
+}
+
+SparseCholesky factor(const Machine &machine, const SparseMatrix &K, const std::string &place)
+{
+  try
+  {
+    return SparseCholesky(K);
+  }
+  catch (const NotPositiveDefinite &failure)
+  {
+    refuse(place, "the motion of \"" + machine.coordinate_name(failure.row) + "\" has no stiffness",
+           std::string("hold it by a spring, or ") + other_methods);
+  }
+}
+
+double fastest_load(const Machine &machine)
+{
+  double omega = 0.;
+  for (const Excitation::Harmonic &harmonic : machine.linear().excitation().harmonics())
+    omega = std::max(omega, harmonic.omega);
+  return omega;
+}
+
+/// Directions of elements and loads [n x k].
+MatrixXd directions(const Machine &machine)
+{
+  const auto           &loads = machine.linear().excitation();
+  std::vector<VectorXd> columns;
+  for (int j = 0; j < machine.forces().directions().cols(); ++j)
+    columns.emplace_back(machine.forces().directions().col(j));
+  if (!loads.constant().isZero(0.))
+    columns.push_back(loads.constant());
+  for (const Excitation::Harmonic &harmonic : loads.harmonics())
+  {
+    VectorXd cosine = VectorXd::Zero(machine.size()), sine = cosine;
+    for (const Excitation::Entry &entry : harmonic.load)
+    {
+      cosine[entry.coordinate] += entry.cosine;
+      sine[entry.coordinate] += entry.sine;
+    }
+    columns.push_back(cosine);
+    columns.push_back(sine);
+  }
+  MatrixXd result(machine.size(), Eigen::Index(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    result.col(Eigen::Index(j)) = columns[j];
+  return result;
+}
+
+/// What numbers of modes leave out of static deflections.
+class StaticShortfall
+{
+public:
+  StaticShortfall(const Machine &machine, const SparseCholesky &stiffness) : w_(directions(machine))
+  {
+    MatrixXd deflections = w_;
+    if (w_.cols() > 0)
+      stiffness.solve_in_place(deflections);
+    full_ = w_.cwiseProduct(deflections).colwise().sum();
+  }
+
+  /// Of the first 1, 2, ... modes, the largest share.
+  VectorXd of(const DenseModes &modes) const
+  {
+    VectorXd left = VectorXd::Zero(modes.omega.size()), carried = VectorXd::Zero(w_.cols());
+    for (Eigen::Index j = 0; j < left.size(); ++j)
+    {
+      carried += ((w_.transpose() * modes.V.col(j)) / modes.omega[j]).cwiseAbs2();
+      for (Eigen::Index k = 0; k < carried.size(); ++k)
+        if (full_[k] > 0.)
+          left[j] = std::max(left[j], 1. - carried[k] / full_[k]);
+    }
+    return left;
+  }
+
+private:
+  MatrixXd w_;
+  VectorXd full_;
+};
+
+DenseModes lowest(const AveragedSystem &system, int count)
+{
+  const int n = int(system.M.rows());
+  if (n > few_coordinates)
+    return sparse_modes(system.K, system.M, std::min(count, n));
+  DenseModes modes = dense_modes(MatrixXd(system.K), MatrixXd(system.M));
+  const auto m     = std::min<Eigen::Index>(count, modes.omega.size());
+  return {VectorXd(modes.omega.head(m)), MatrixXd(modes.V.leftCols(m)), VectorXd(modes.growth.head(m))};
+}
+
+/// How many modes the options ask for, of those found; more than these where they do not suffice.
+class ModeCount
+{
+public:
+  ModeCount(const Machine &machine, const SuperpositionOptions &options, const StaticShortfall &shortfall)
+      : options_(options), shortfall_(shortfall), n_(machine.size()),
+        limit_(options.frequency > 0. ? two_pi * options.frequency : above_loads * fastest_load(machine))
+  {
+    const auto wrong = [&](const std::string &text) { throw std::invalid_argument(options.place + ": " + text); };
+    if (options.n_modes == 0)
+      wrong("modes is 0, but method = \"modal\" moves in modes alone; give one at least");
+    if (options.n_modes > n_)
+      wrong("modes is " + std::to_string(options.n_modes) + ", but frame and mechanism have " + std::to_string(n_) +
+            " coordinates; give no more");
+  }
+
+  int first() const { return options_.n_modes > 0 ? options_.n_modes : std::min(first_search, n_); }
+
+  /// @return 0: not known from these
+  int of(const DenseModes &modes) const
+  {
+    const int found = int(modes.omega.size());
+    if (options_.n_modes > 0)
+      return std::min(options_.n_modes, found);
+    int count = 0;
+    if (limit_ > 0.)
+      count = int((modes.omega.array() <= limit_).count());
+    else
+    {
+      const VectorXd left = shortfall_.of(modes);
+      while (count < found && left[count] > options_.tolerance)
+        ++count;
+    }
+    if (count < found) // one more lies above the limit, or meets the tolerance
+      return limit_ > 0. ? std::max(1, count) : count + 1;
+    return found == n_ || found >= most_automatic ? found : 0;
+  }
+
+  std::string rule() const
+  {
+    std::ostringstream text;
+    text.precision(4);
+    if (options_.n_modes > 0)
+      text << "as many as reduction.modes says";
+    else if (options_.frequency > 0.)
+      text << "all up to reduction.frequency, " << options_.frequency << " Hz";
+    else if (limit_ > 0.)
+      text << "all up to " << above_loads << " times the highest frequency of the loads, " << limit_ / two_pi << " Hz";
+    else
+      text << "as many as leave at most " << 100. * options_.tolerance << " % of a static deflection out";
+    return text.str();
+  }
+
+private:
+  const SuperpositionOptions &options_;
+  const StaticShortfall      &shortfall_;
+  int                         n_;
+  double                      limit_; ///< [rad/s]; 0: by the tolerance
+};
+
+/// Largest |b_ij| / sqrt(b_ii b_jj) of V^T B V.
+double damping_between_modes(const Machine &machine, const MatrixXd &V)
+{
+  MatrixXd BV(V.rows(), V.cols());
+  VectorXd column(V.rows());
+  for (Eigen::Index j = 0; j < V.cols(); ++j)
+  {
+    machine.linear().damping_times(V.col(j), column);
+    BV.col(j) = column;
+  }
+  const MatrixXd B    = V.transpose() * BV;
+  double         most = 0.;
+  for (Eigen::Index i = 0; i < B.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (B(i, i) > 0. && B(j, j) > 0.)
+        most = std::max(most, std::abs(B(i, j)) / std::sqrt(B(i, i) * B(j, j)));
+  return most;
+}
+
+void tell(const SuperpositionOptions &options, const std::string &rule, Superposition &result)
+{
+  std::ostringstream text;
+  text.precision(3);
+  const VectorXd &omega = result.modes.omega;
+  text << "modal superposition: " << omega.size() << " modes of frame and mechanism, " << rule << "; the highest has "
+       << omega[omega.size() - 1] / two_pi << " Hz, static deflections under forces and loads are up to "
+       << 100. * result.static_residual << " % short";
+  result.statements.push_back(text.str());
+  if (result.static_residual > much_left)
+    result.notes.push_back("modal superposition: static deflections under forces and loads are up to " +
+                           std::to_string(int(std::lround(100. * result.static_residual))) +
+                           " % short of the full ones, as nothing stands for the modes left out; give more modes, or "
+                           "take method = \"craig-bampton\", whose statics are exact");
+  if (options.diagonal_damping && result.coupling > considerable_share)
+    result.notes.push_back("modal superposition: damping = \"diagonal\" leaves out what couples two modes by up to " +
+                           std::to_string(int(std::lround(100. * result.coupling))) +
+                           " % of their own damping; damping = \"full\" keeps it");
+}
+
+} // namespace
+
+void check_superposition(const Machine &machine, const std::string &place)
+{
+  if (machine.joints().n_rows() > 0)
+    refuse(place, machine.joints().name(0) + " is an ideal joint, which no superposition of modes closes",
+           std::string("give it a compliance, or ") + other_methods);
+  for (const int i : machine.linear().virtual_coordinates())
+    refuse(place, "\"" + machine.coordinate_name(i) + "\" is a virtual coordinate without mass", other_methods);
+  std::string drive;
+  if (const std::string rotor = driven_rotor(machine, drive); !rotor.empty())
+    refuse(place, "\"" + drive + "\" turns \"" + rotor + "\", whose angle is no vibration about a position",
+           other_methods);
+}
+
+Superposition superpose(const Machine &machine, const VectorXd &q, const SuperpositionOptions &options)
+{
+  check_superposition(machine, options.place);
+  const AveragedSystem system = averaged(machine, q, options.open);
+  refuse_massless(machine, system.M, options.place);
+  refuse_free_motions(machine, system.M, lowest(system, 1), options.place);
+  const StaticShortfall shortfall(machine, factor(machine, system.K, options.place));
+  const ModeCount       rule(machine, options, shortfall);
+  DenseModes            modes;
+  int                   count = 0;
+  for (int asked = rule.first(); count == 0; asked *= 2)
+  {
+    modes = lowest(system, asked);
+    count = rule.of(modes);
+  }
+  Superposition result;
+  result.modes = {modes.omega.head(count), modes.V.leftCols(count), options.diagonal_damping};
+  if (machine.forces().directions().cols() > 0 || !machine.linear().excitation().constant().isZero(0.) ||
+      fastest_load(machine) > 0.)
+    result.static_residual = shortfall.of(modes)[count - 1];
+  result.coupling = damping_between_modes(machine, result.modes.V);
+  tell(options, rule.rule(), result);
+  return result;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "coupling/machine/machine.h"
+#include "coupling/machine/modal_coordinates.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+struct SuperpositionOptions
+{
+  int                      n_modes          = -1;    ///< below zero: by `frequency`, the loads or `tolerance`
+  double                   frequency        = 0.;    ///< [Hz] up to which modes are kept; 0: four times the loads'
+  double                   tolerance        = 0.01;  ///< of static deflections, where no load has a frequency
+  bool                     diagonal_damping = false; ///< what couples modes is left out
+  std::vector<std::string> open{};                   ///< elements that the averaged system has open
+  std::string              place{};                  ///< heads messages: "portal.toml:60: reduction"
+};
+
+/// The modes that a machine is superposed of, and what they leave out.
+struct Superposition
+{
+  ModalCoordinates         modes;
+  double                   static_residual = 0.; ///< largest share of a static deflection that they do not carry
+  double                   coupling        = 0.; ///< of damping: largest |b_ij| / sqrt(b_ii b_jj), i != j
+  std::vector<std::string> statements{}, notes{};
+};
+
+/**
+ * Modes of the averaged system, the base with the stiffness of all elements engaged at q as in linearised_modes(),
+ *
+ *     (C + W K_e W^T - omega^2 M) v = 0,     q = V p,     V^T M V = E,
+ *
+ * up to four times the highest frequency of the loads. Their static deflections along the directions w of elements and
+ * loads are short of the full ones by
+ *
+ *     1 - sum_j (w.v_j)^2 / omega_j^2  /  w^T (C + W K_e W^T)^-1 w,
+ *
+ * which is what `tolerance` bounds where no load has a frequency, and what is noted where it is more.
+ *
+ * Source: (5.5.3/8 to 13); docs/theory/reduction.md, "Modal superposition".
+ *
+ * @param machine  dense or on an unreduced frame
+ * @throws std::invalid_argument where the eigenproblem is singular or the coordinates are no vibrations: ideal joints,
+ *         virtual coordinates, coordinates without mass, motions without stiffness such as a drive that turns freely,
+ *         each named; more modes than coordinates, or none.
+ */
+/// Refuses what can be known without the modes: joints, virtual coordinates, rotors that a drive turns.
+void check_superposition(const Machine &machine, const std::string &place);
+
+Superposition superpose(const Machine &machine, const Eigen::VectorXd &q, const SuperpositionOptions &options);
+
+} // namespace gestell::coupling
