@@ -11,6 +11,7 @@
 
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -41,6 +42,8 @@ SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, c
 
 int size_scene(const CommonOptions &options, const SizeCommand &asked)
 {
+  if (asked.tolerance == 0.)
+    throw std::invalid_argument("--tolerance is missing: the relative error that each output may have, such as 0.01");
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
   const Scene                &scene   = session.scene();
@@ -63,6 +66,10 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   result.budget    = budget;
   if (!model.result.met)
     result.warnings.push_back("no model of the ladder keeps all outputs within the tolerance: " + model.result.stopped);
+  if (asked.exhaustive && model.result.all.empty())
+    result.warnings.push_back(
+        "--exhaustive: all models are compared with the finer one of the proof, and there is none: " +
+        model.result.finer);
   write_results(folder, result);
   if (!model.result.all.empty())
     write_file(folder / "size_all.csv", size_all_csv(model.result));

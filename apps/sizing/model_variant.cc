@@ -125,13 +125,14 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   const double    begin    = cpu_now();
   PreparedMachine prepared = prepare_machine(other);
   keep_stable_step(prepared, other.run);
-  answer.prepare_cpu       = cpu_now() - begin;
-  answer.from_cache        = prepared.from_cache;
+  answer.prepare_cpu = cpu_now() - begin;
+  answer.from_cache  = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     answer.n_frame   = frame->n_full;
     answer.interface = frame->n_interface;
     answer.modes     = int(frame->M.rows()) - frame->n_interface;
+    answer.whole     = prepared.companion && !prepared.in_modes;
     if (prepared.in_modes)
     {
       answer.interface = 0;

@@ -29,11 +29,12 @@ struct ModelAnswer
   std::vector<std::string>     units;
   std::vector<double>          decided_s; ///< time until which each is decided; of a mode the begin of the run
   std::vector<coupling::Event> events;
-  std::string                  method;           ///< of integration, for people
-  int                          n_frame     = 0;  ///< coordinates of the unreduced frame; 0: none
-  int                          interface   = 0;  ///< coordinates that stay physical
-  int                          modes       = -1; ///< that the frame keeps
-  double                       cutoff_hz   = 0.; ///< of the highest mode that the frame keeps; 0: none
+  std::string                  method;              ///< of integration, for people
+  int                          n_frame     = 0;     ///< coordinates of the unreduced frame; 0: none
+  int                          interface   = 0;     ///< coordinates that stay physical
+  int                          modes       = -1;    ///< that the frame keeps
+  double                       cutoff_hz   = 0.;    ///< of the highest mode that the frame keeps; 0: none
+  bool                         whole       = false; ///< the frame is not reduced
   bool                         from_cache  = false;
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 

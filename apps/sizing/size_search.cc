@@ -1,5 +1,6 @@
 #include "apps/sizing/size_search.h"
 
+#include "apps/sizing/omissions.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/number_text.h"
 
@@ -22,8 +23,6 @@ constexpr int    mode_numbers[] = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192
 constexpr int    n_mode_numbers = int(std::size(mode_numbers));
 constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
-constexpr double near_cutoff        = 1.5; ///< times a frequency of a load: modes up to there answer to it
-constexpr double half               = 0.5;
 constexpr int    most_rungs         = 40;
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -81,8 +80,7 @@ private:
   bool          finer(Place &place);
   void          coarsen(Place &place);
   void          prove(const Place &place, SizedModel &model);
-  void          leave_out(const Place &place, SizeResult &result);
-  void          find_missing(const Place &place, SizeResult &result);
+  void          question(const Place &place, SizeResult &result);
   void          try_all(const Place &place, SizeResult &result);
   SizeRung      rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer);
   double        scale_of(std::size_t output, const ModelAnswer &answer) const;
@@ -274,70 +272,16 @@ void Climb::prove(const Place &place, SizedModel &model)
   }
 }
 
-/// What changes no output by half of what is allowed when it is not there.
-void Climb::leave_out(const Place &place, SizeResult &result)
+void Climb::question(const Place &place, SizeResult &result)
 {
-  const Scene        chosen = varied(scene_, variant_of(place));
-  const ModelAnswer &answer = answers_[place];
-  const auto         tried  = [&](const std::string &what, Scene without)
-  {
-    without.run.options.method = chosen.run.options.method;
-    try
-    {
-      const ModelAnswer other = answer_of(without, {}, outputs_, options_.stop);
-      double            most  = 0.;
-      std::size_t       worst = 0;
-      for (std::size_t i = 0; i < outputs_.size(); ++i)
-        if (const double change = std::abs(other.values[i] - answer.values[i]) / scale_of(i, answer); change > most)
-        {
-          most  = change;
-          worst = i;
-        }
-      if (most <= half * options_.tolerance)
-        result.left_out.push_back(what + ": changes " + outputs_[worst].text + " by " + short_text(100. * most, 2) +
-                                  " %");
-    }
-    catch (const std::exception &)
-    {
-      if (options_.stop && *options_.stop)
-        throw;
-    } // what others rest on cannot be left out
-  };
-  if (chosen.gravity != Vector3{})
-  {
-    Scene without   = chosen;
-    without.gravity = {};
-    tried("gravity", std::move(without));
-  }
-  for (std::size_t i = 0; i < chosen.elements.size(); ++i)
-  {
-    Scene without = chosen;
-    without.elements.erase(without.elements.begin() + std::ptrdiff_t(i));
-    tried("element \"" + chosen.elements[i].name + "\"", std::move(without));
-  }
-  for (std::size_t i = 0; i < chosen.linear.size(); ++i)
-  {
-    Scene without = chosen;
-    without.linear.erase(without.linear.begin() + std::ptrdiff_t(i));
-    tried("element \"" + chosen.linear[i].name + "\"", std::move(without));
-  }
-}
-
-/// Loads that come near the highest mode kept, or pass it: the modes above answer to them, too.
-void Climb::find_missing(const Place &place, SizeResult &result)
-{
-  const double cutoff = answers_[place].cutoff_hz;
-  if (!modes_are_chosen(scene_) || !(cutoff > 0.))
-    return;
-  for (const LoadRequest &load : scene_.loads)
-  {
-    double highest = 0.;
-    for (const auto &harmonic : load.oscillations)
-      highest = std::max(highest, harmonic.omega / (2. * M_PI));
-    if (near_cutoff * highest > cutoff)
-      result.missing.push_back("modes above " + short_text(cutoff, 3) + " Hz, the highest that is kept: \"" +
-                               load.name + "\" acts with " + short_text(highest, 3) + " Hz");
-  }
+  const Scene         chosen = varied(scene_, variant_of(place));
+  std::vector<double> scales;
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    scales.push_back(scale_of(i, answers_[place]));
+  const Omissions found =
+      find_omissions({chosen, answers_[place], outputs_, scales, options_.tolerance}, options_.stop);
+  result.left_out = found.left_out;
+  result.missing  = found.missing;
 }
 
 /// Every model up to one rung finer than the chosen one in each part, against the finer one of the proof.
@@ -408,10 +352,9 @@ SizedModel Climb::run()
   model.chosen      = variant_of(best);
   model.result      = result_;
   prove(best, model);
-  find_missing(best, model.result);
   if (options_.exhaustive)
     try_all(best, model.result);
-  leave_out(best, model.result);
+  question(best, model.result);
   return model;
 }
 

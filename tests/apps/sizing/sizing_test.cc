@@ -234,6 +234,29 @@ TEST(Size, NamesLoadsNearTheHighestModeKept)
   }
 }
 
+/// A stop that is never reached, a soft spring and a link far stiffer than the rod do nothing; the load does.
+TEST(Size, NamesWhatMayBeLeftOut)
+{
+  std::string text = rod("tolerance = 0.01", by_steps);
+  text.replace(text.find("gap = '1 mm'"), 12, "gap = '1 m'");
+  text.replace(text.find("[output.signals]"), 0,
+               "[element.thread]\ntype = 'spring-damper'\nfrom = 'frame.tip'\nto = 'ground'\ndirection = [1, 0, 0]\n"
+               "stiffness = 1e-3\n[body.weight]\ntype = 'slider'\naxis = [1, 0, 0]\nmass = 0.05\n"
+               "[element.link]\ntype = 'spring-damper'\nfrom = 'weight'\nto = 'frame.tip'\ndirection = [1, 0, 0]\n"
+               "stiffness = 1e9\n");
+  const Read  scene(text);
+  SizeOptions options;
+  options.tolerance       = 0.02;
+  const SizeResult result = size_search(scene.scene, of_scene(scene.scene, "x.max,x.min"), options).result;
+  std::string      told;
+  for (const std::string &what : result.left_out)
+    told += what + '\n';
+  for (const std::string what : {"element \"stop\"", "element \"thread\"", "elasticity of \"link\"",
+                                 "play, stops or sticking of \"stop\": no event"})
+    EXPECT_THAT(told, testing::HasSubstr(what));
+  EXPECT_THAT(told, testing::Not(testing::HasSubstr("element \"link\"")));
+}
+
 /// A scene that leaves the longest step to the method: so does the sized one, which can be read.
 TEST(Size, WritesNoStepWhereNoneIsGiven)
 {
