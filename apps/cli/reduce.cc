@@ -97,7 +97,12 @@ void print_partition(const Partition &partition)
   }
   if (partition.n_free > 0)
     std::cout << "the frame has " << partition.n_free
-              << " motions without stiffness; held at its interfaces it has none, so that C22 is definite\n";
+              << " motions without stiffness; held at its interfaces it has none, so that C22 is definite; coordinates "
+                 "with other reasons hold "
+              << partition.n_held_by_acted << " of them\n";
+  if (partition.n_massless > 0)
+    std::cout << partition.n_massless
+              << " coordinates of the inside have no mass: M22 is singular, they follow statically and have no modes\n";
   for (const Partition::Idle &idle : partition.superfluous)
     std::cout
         << "superfluous: interface "

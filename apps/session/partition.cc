@@ -1,6 +1,7 @@
 #include "apps/session/partition.h"
 
 #include "apps/scene/build/build_measures.h"
+#include "coupling/algebra/dense_modes.h"
 
 #include <algorithm>
 #include <map>
@@ -89,6 +90,62 @@ void add_acting(const Scene &scene, const coupling::Machine &machine, Reasons &r
     reasons.add(measure_of(load.u, model), load.oscillations.empty() ? "constant load" : "excited", load.name);
 }
 
+constexpr double no_rank = 1e-6; ///< of the largest row
+
+/// Takes from the rows R [n1 x f] what the row at i spans; its length before.
+double take(Eigen::MatrixXd &R, Eigen::Index i)
+{
+  const double length = R.row(i).norm();
+  if (length > 0.)
+  {
+    const Eigen::RowVectorXd e = R.row(i) / length;
+    R -= (R * e.transpose()) * e;
+  }
+  return length;
+}
+
+/// Gives coordinates that hold free motions of the frame their reason, see partition_of().
+void hold_free_motions(const coupling::ReducedFrame &frame, Reasons &reasons, Partition &partition)
+{
+  partition.n_free = frame.n_rigid();
+  if (partition.n_free == 0)
+    return;
+  const auto      modes = coupling::dense_modes(frame.C, frame.M, coupling::cancelled_by_reduction, partition.n_free);
+  Eigen::MatrixXd R     = modes.V.topLeftCorner(frame.n_interface, partition.n_free);
+  const double    most  = R.rowwise().norm().maxCoeff();
+  const auto      rank  = [&](auto counts, auto act)
+  {
+    for (int found = 0;; ++found)
+    {
+      Eigen::Index best = -1;
+      for (Eigen::Index i = 0; i < R.rows(); ++i)
+        if (counts(int(i)) && (best < 0 || R.row(i).norm() > R.row(best).norm()))
+          best = i;
+      if (best < 0 || take(R, best) <= no_rank * most)
+        return found;
+      act(int(best));
+    }
+  };
+  partition.n_held_by_acted = rank([&](int i) { return !reasons.none(i); }, [](int) {});
+  std::vector<int> holding;
+  rank([](int) { return true; }, [&](int i) { holding.push_back(i); });
+  for (const int i : holding)
+    reasons.add(i, "holds", "a free motion, C22 would be singular");
+}
+
+/// Inner coordinates without mass.
+int massless_inside(const FrameRequest &frame)
+{
+  if (frame.source != FrameSource::matrices)
+    return 0;
+  const auto  interface = frame.matrices.interface_coordinates();
+  const auto &M         = frame.matrices.M;
+  int         n         = 0;
+  for (int i = 0; i < M.rows(); ++i)
+    n += M.coeff(i, i) == 0. && !std::binary_search(interface.begin(), interface.end(), i) ? 1 : 0;
+  return n;
+}
+
 } // namespace
 
 Partition partition_of(const Scene &scene, const coupling::Machine &machine,
@@ -109,9 +166,10 @@ Partition partition_of(const Scene &scene, const coupling::Machine &machine,
         reasons.add(*measure, reads, signal.name);
 
   Partition partition;
-  partition.n2      = frame->n_full - frame->n_interface;
-  partition.n_modes = int(frame->omega0.size());
-  partition.n_free  = frame->n_rigid();
+  partition.n2         = frame->n_full - frame->n_interface;
+  partition.n_modes    = int(frame->omega0.size());
+  partition.n_massless = massless_inside(scene.frame);
+  hold_free_motions(*frame, reasons, partition);
   for (int i = 0; i < frame->n_interface; ++i)
     partition.rows.push_back({machine.coordinate_name(i), reasons.of(i)});
   for (const fem::Interface &interface : frame->interfaces)

@@ -67,6 +67,32 @@ TEST(Partition, TellsWhatActsOnEveryCoordinate)
   EXPECT_EQ(partition.n_free, 0);
 }
 
+/// Two masses and one without mass between them, floating along x: one coordinate must stay to hold the motion, by
+/// rank.
+TEST(Partition, KeepsWhatHoldsAFloatingFrame)
+{
+  const auto floating = [](const std::string &acting)
+  {
+    return partition_of("name = \"bar\"\n" +
+                        table("frame", {{"mass", "[[1,0,0],[0,0,0],[0,0,1]]"},
+                                        {"stiffness", "[[1e3,-1e3,0],[-1e3,2e3,-1e3],[0,-1e3,1e3]]"}}) +
+                        table("frame.interface.a", {{"rows", "{ ux = 1 }"}, {"position", "[0, 0, 0]"}}) +
+                        table("frame.interface.b", {{"rows", "{ ux = 3 }"}, {"position", "[1, 0, 0]"}}) +
+                        table("reduction", {{"method", "craig-bampton"}, {"modes", "0"}}) + acting);
+  };
+  const Partition alone = floating("");
+  EXPECT_EQ(alone.n_free, 1);
+  EXPECT_EQ(alone.n_held_by_acted, 0);
+  EXPECT_EQ(alone.n_massless, 1);
+  EXPECT_EQ(alone.rows[0].reasons.size() + alone.rows[1].reasons.size(), 1u);
+  ASSERT_EQ(alone.superfluous.size(), 1u);
+  const Partition held = floating(
+      element("spring", "spring-damper", {{"from", "frame.b"}, {"direction", "[1, 0, 0]"}, {"stiffness", "5"}}));
+  EXPECT_EQ(held.n_held_by_acted, 1);
+  EXPECT_TRUE(held.rows[0].reasons.empty());
+  EXPECT_EQ(held.superfluous.at(0).interface, "a");
+}
+
 /// A frame of which every coordinate is kept has none.
 TEST(Partition, OfAnUnreducedFrameIsRefused)
 {
