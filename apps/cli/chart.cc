@@ -287,7 +287,7 @@ std::vector<ChartMethod> methods_of(const ChartCommandOptions &chart, int n_coor
 SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkPrecision &chart, ProgressLine &progress)
 {
   PreparedMachine prepared = prepare_machine(scene, progress.callback());
-  if (prepared.companion)
+  if (prepared.companion && !prepared.in_modes)
     throw std::invalid_argument(scene.frame.place + ": the chart needs a small model; reduce the frame "
                                                     "(reduction.method = \"craig-bampton\")");
   progress.show("start");

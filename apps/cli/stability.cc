@@ -73,10 +73,14 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
 {
   ProgressLine    progress(options.quiet);
   PreparedMachine prepared = prepare_machine(scene, progress.callback());
+  RunRequest      run      = scene.run;
+  keep_stable_step(prepared, run);
   progress.show("modes");
-  const coupling::Machine     &machine = prepared.small();
-  const coupling::InitialState start   = initial_state(scene, prepared.small());
-  coupling::MethodOptions      method  = scene.run.options.method;
+  const bool                   in_modes = prepared.in_modes != nullptr;
+  const coupling::Machine     &machine  = in_modes ? prepared.machine : prepared.small();
+  const coupling::InitialState start =
+      in_modes ? prepare_start(scene, prepared) : initial_state(scene, prepared.small());
+  coupling::MethodOptions method = run.options.method;
   if (stability.step > 0.)
     method.step = stability.step;
   if (!(method.step > 0.))
@@ -84,7 +88,7 @@ void study_scene(const CommonOptions &options, const StabilityCommandOptions &st
   if (method.tolerance > 0.)
     study.notes.push_back("The scene controls its step; its modes are shown at " + short_text(method.step) + " s.");
   method.tolerance = 0.;
-  if (prepared.companion)
+  if (prepared.companion && !in_modes)
     study.notes.push_back("The frame is unreduced; modes are those of its reduced companion.");
 
   std::ostringstream name;

@@ -70,10 +70,11 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     coupling::SuperpositionOptions &modes = request.superposition.emplace();
     modes.n_modes                         = request.options.n_modes;
     modes.frequency                       = request.options.frequency;
-    modes.tolerance                       = request.options.tolerance;
+    modes.tolerance                       = table.has("tolerance") ? request.options.tolerance : 0.;
     modes.diagonal_damping                = table.choice("damping") == "diagonal";
     modes.place                           = request.options.place;
     request.options                       = {}; // of the companion, which shows start and pictures
+    request.options.frequency             = modes.frequency;
     request.options.place                 = table.place();
   }
   request.options.eigensolver    = table.choice("eigensolver");

@@ -83,18 +83,21 @@ const std::vector<Key> &reduction_keys()
           "theirs; [tried](../theory/reduction.md#how-many-modes-for-the-interface) from 0.05 down to 1e-5, with "
           "dampers up to 200 times as stiff as the supports they stand beside. The error is one number for all "
           "interfaces, Frobenius' norm with each coordinate scaled by its inertia: an interface far stiffer than the "
-          "others may be worse by itself, and the worst is listed beside it. A note says what cannot be reached")
+          "others may be worse by itself, and the worst is listed beside it. A note says what cannot be reached. Of "
+          "`\"modal\"`: the share of static deflections that may be left out")
           .as_share()
           .by_default(ReductionRequest().options.tolerance),
       key::plain(
           "modes", Key::Form::whole,
           "fixed number of modes instead; a `tolerance` beside it is not used. Of `\"free-interface\"` without it: "
           "all up to 1.5 times `frequency`, or the twelfth elastic one. A note gives the error up to "
-          "`frequency`, or that the modes kept end below it")
+          "`frequency`, or that the modes kept end below it. Of `\"modal\"` without it: all up to four times the "
+          "highest "
+          "frequency of the loads, and as many as `tolerance` asks for")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,
                   "highest frequency of interest; of `\"guyan\"` without it: as far as frequencies stay within "
-                  "`tolerance`")
+                  "`tolerance`. Of `\"modal\"` that of the highest mode kept")
           .above_zero()
           .by_default("automatic"),
       key::choice("inside", {"fixed-interface", "free-interface"}, true,

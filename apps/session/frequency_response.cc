@@ -235,7 +235,10 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   sweep.run(asked_frequencies(options, modes, limit), modes, response, warnings);
   response.not_condensed = sweep.not_condensed();
   response.measured      = measured_responses(options.measured, response);
-  if (prepared.companion)
+  if (prepared.in_modes)
+    warnings.push_back("the frequency response is that of the machine with all its " + std::to_string(machine.size()) +
+                       " coordinates; runs move in " + std::to_string(prepared.machine.size()) + " modes of it");
+  else if (prepared.companion)
     warnings.push_back("the frequency response is that of the machine on its reduced frame, with " +
                        std::to_string(machine.size()) + " coordinates; the unreduced frame has " +
                        std::to_string(prepared.machine.size()));

@@ -137,6 +137,7 @@ PreparedMachine in_modes(const Scene &scene, PreparedMachine physical)
   const bool        sparse = physical.companion.has_value();
   link->projection         = std::move(modes.projection);
   link->largest_step       = modes.largest_step;
+  link->shortest_decay     = modes.shortest_decay;
   link->statements         = std::move(modes.statements);
   link->companion.resize(physical.small().size(), modes.V.cols());
   for (Eigen::Index j = 0; j < modes.V.cols(); ++j)
@@ -156,7 +157,9 @@ void keep_stable_step(PreparedMachine &prepared, RunRequest &run)
 {
   if (!prepared.in_modes)
     return;
-  if (const std::string text = keep_stable_step(prepared.in_modes->largest_step, run); !text.empty())
+  if (const std::string text =
+          keep_stable_step(prepared.in_modes->largest_step, prepared.in_modes->shortest_decay, run);
+      !text.empty())
     prepared.warnings.push_back(text);
 }
 
@@ -245,8 +248,9 @@ ModelFacts model_facts(const PreparedMachine &prepared)
   }
   if (prepared.in_modes)
   {
-    facts.interface = 0;
-    facts.modes     = prepared.machine.size();
+    facts.interface  = 0;
+    facts.modes      = prepared.machine.size();
+    facts.superposed = int(prepared.in_modes->projection.cols());
     facts.statements.insert(facts.statements.end(), prepared.in_modes->statements.begin(),
                             prepared.in_modes->statements.end());
   }

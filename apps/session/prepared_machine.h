@@ -14,13 +14,13 @@ namespace gestell::apps
 /// Tells that a phase begins or goes on, share 0..1 of it done, negative: unknown; `progress` may be empty.
 void tell(const coupling::Progress &progress, const std::string &phase, double share = -1.);
 
-/// How a machine in modes p hangs together with the one it is made of.
+/// How a machine in modes p relates to the one it is made of.
 struct MachineInModes
 {
-  std::optional<coupling::Machine> whole;        ///< on an unreduced frame; none: the companion is it
-  Eigen::MatrixXd                  companion;    ///< [n_c x m] p in the companion's coordinates
-  Eigen::MatrixXd                  projection;   ///< see SuperposedMachine
-  double                           largest_step; ///< [s] of central differences
+  std::optional<coupling::Machine> whole;      ///< on an unreduced frame; none: the companion is it
+  Eigen::MatrixXd                  companion;  ///< [n_c x m] p in the companion's coordinates
+  Eigen::MatrixXd                  projection; ///< see SuperposedMachine
+  double                           largest_step = 0., shortest_decay = 0.; ///< [s] see SuperposedMachine
   std::vector<std::string>         statements;
 };
 

@@ -270,6 +270,10 @@ Result Session::periodic(const PeriodicRequest &request)
 {
   if (request.along.empty())
     return periodic_here(request);
+  if (scene_.reduction.superposition)
+    throw std::invalid_argument(
+        "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
+        "; take reduction.method = \"craig-bampton\"");
   require_parameter(path_, overrides_, request.along);
   // Branches begin where the parameter does.
   std::vector<std::string> overrides = overrides_;

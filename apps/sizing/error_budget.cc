@@ -146,11 +146,11 @@ SecondModel BudgetMaker::finer_in_modes()
     second.reason = "the frame is not reduced";
     return second;
   }
-  const int most = run_.n_frame - run_.interface;
+  const int most = run_.most_modes;
   if (run_.modes >= most)
   {
     second.exact  = true;
-    second.reason = "the frame keeps all modes";
+    second.reason = "all modes are kept";
     return second;
   }
   return tried(

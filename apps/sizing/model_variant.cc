@@ -76,7 +76,9 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
   answer.n_frame   = std::max(0, result.model.frame_dofs);
   answer.interface = std::max(0, result.model.interface);
   answer.modes     = result.model.modes;
-  answer.run_cpu   = result.run->wall_s;
+  answer.most_modes =
+      result.model.superposed > 0 ? result.model.superposed : std::max(0, answer.n_frame - answer.interface);
+  answer.run_cpu = result.run->wall_s;
   take_run(*result.run, outputs, result.asked.run->end, answer);
   for (std::size_t i = 0; i < outputs.size(); ++i)
     if (!outputs[i].of_signal())
@@ -109,7 +111,10 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
   else if (variant.modes >= 0)
     other.reduction.options.n_modes = variant.modes;
   if (variant.method)
+  {
     other.run.options.method = *variant.method;
+    other.run.step_given     = true;
+  }
   return other;
 }
 
@@ -129,15 +134,17 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   answer.from_cache  = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
-    answer.n_frame   = frame->n_full;
-    answer.interface = frame->n_interface;
-    answer.modes     = int(frame->M.rows()) - frame->n_interface;
-    answer.whole     = prepared.companion && !prepared.in_modes;
+    answer.n_frame    = frame->n_full;
+    answer.interface  = frame->n_interface;
+    answer.modes      = int(frame->M.rows()) - frame->n_interface;
+    answer.most_modes = answer.n_frame - answer.interface;
+    answer.whole      = prepared.companion && !prepared.in_modes;
     if (prepared.in_modes)
     {
-      answer.interface = 0;
-      answer.modes     = prepared.machine.size();
-      answer.cutoff_hz = prepared.machine.superposed_frequencies().maxCoeff() / (2. * M_PI);
+      answer.interface  = 0;
+      answer.modes      = prepared.machine.size();
+      answer.most_modes = int(prepared.in_modes->projection.cols());
+      answer.cutoff_hz  = prepared.machine.superposed_frequencies().maxCoeff() / (2. * M_PI);
     }
     else if (frame->omega0.size() > 0)
       answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);

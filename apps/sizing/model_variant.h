@@ -32,7 +32,8 @@ struct ModelAnswer
   std::string                  method;              ///< of integration, for people
   int                          n_frame     = 0;     ///< coordinates of the unreduced frame; 0: none
   int                          interface   = 0;     ///< coordinates that stay physical
-  int                          modes       = -1;    ///< that the frame keeps
+  int                          modes       = -1;    ///< that the frame keeps, or that the machine is superposed of
+  int                          most_modes  = 0;     ///< that it could keep
   double                       cutoff_hz   = 0.;    ///< of the highest mode that the frame keeps; 0: none
   bool                         whole       = false; ///< the frame is not reduced
   bool                         from_cache  = false;

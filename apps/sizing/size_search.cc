@@ -66,6 +66,9 @@ public:
       throw std::invalid_argument("--tolerance: needs a relative error between 1e-8, below which rounding decides, and "
                                   "1, got " +
                                   short_text(options.tolerance));
+    if (!by_exact_ && !scene.run.step_given)
+      throw std::invalid_argument(scene.run.place + ": the step follows from the modes, and `size` varies a given one: "
+                                                    "give run.step, or a method with a tolerance");
   }
 
   SizedModel run();
@@ -197,7 +200,7 @@ const Shares &Climb::look(const Place &place)
   SizeRung          rung   = rung_of(place, scene, answer);
   rung.entries             = budget.entries;
   const Shares shares      = shares_of(answer, rung);
-  while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.n_frame - answer.interface)
+  while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.most_modes)
     --most_modes_;
   rung.share = shares.total;
   if (shares.total > 0.)
@@ -253,7 +256,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   ModelVariant       finer  = chosen;
   finer.mesh /= ratio_of_meshes;
   if (chosen.modes >= 0)
-    finer.modes = std::min(2 * answers_[place].modes, answers_[place].n_frame - answers_[place].interface);
+    finer.modes = std::min(2 * answers_[place].modes, answers_[place].most_modes);
   finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
   try
   {

@@ -25,6 +25,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr int    few_coordinates    = 600; ///< all modes are found at once
 constexpr int    first_search       = 16;  ///< modes
 constexpr int    most_automatic     = 512;
+constexpr double usual_tolerance    = 0.01; ///< of static deflections
 constexpr double above_loads        = 4.;   ///< the book's rule: 3 to 4 times the highest excitation frequency
 constexpr double much_left          = 0.05; ///< of a static deflection, worth a note
 constexpr double considerable_share = 0.1;  ///< of damping between two modes, worth a note
@@ -59,19 +60,35 @@ AveragedSystem averaged(const Machine &machine, const VectorXd &q, const std::ve
 
 const char *const other_methods = "take method = \"craig-bampton\", which keeps such coordinates as they are";
 
-/// A rotor that a drive turns; empty: none.
-std::string driven_rotor(const Machine &machine, std::string &drive)
+/// The angle of a body that turns, or -1.
+int angle_of(const Body &body)
 {
+  return body.kind == BodyKind::rotor ? body.coordinate : body.kind == BodyKind::planar ? body.coordinate + 2 : -1;
+}
+
+/// A body that a drive turns, whose torque depends on the speed; empty: none.
+std::string driven_body(const Machine &machine, std::string &drive)
+{
+  const Eigen::Index n_u = machine.forces().directions().cols();
+  LocalState         rest;
+  rest.resize(machine);
+  VectorXd p    = VectorXd::Zero(n_u);
+  MatrixXd by_u = MatrixXd::Zero(n_u, n_u), by_v = by_u;
+  machine.forces().derivatives(rest, p, by_u, by_v);
+  Eigen::Index measure = 0;
   for (const ElementPlacement &placement : machine.model().elements())
     for (const Measure &u : placement.measures)
-      for (const auto &term : u)
-        for (const Body &body : machine.model().bodies())
-          if (body.kind == BodyKind::rotor && body.coordinate == term.first &&
-              placement.element->work() == mechanism::Work::input)
+    {
+      const bool by_speed = placement.element->work() == mechanism::Work::input && by_v(measure, measure) != 0.;
+      ++measure;
+      for (const Body &body : machine.model().bodies())
+        for (const auto &term : u)
+          if (by_speed && angle_of(body) == term.first)
           {
             drive = placement.name;
             return body.name;
           }
+    }
   return "";
 }
 
@@ -96,11 +113,16 @@ void refuse_free_motions(const Machine &machine, const SparseMatrix &M, const De
                          const std::string &place)
 {
   for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
+  {
+    if (j < modes.growth.size() && modes.growth[j] > 0.)
+      refuse(place, "the position is unstable, " + moving_most(machine, M, modes.V.col(j)) + " leaves it",
+             "superpose vibrations about a stable one");
     if (modes.omega[j] == 0.)
       refuse(place,
              moving_most(machine, M, modes.V.col(j)) +
                  " moves freely: this motion has no stiffness, its frequency is zero",
              std::string("hold it by a spring, or ") + other_methods);
+  }
 }
 
 SparseCholesky factor(const Machine &machine, const SparseMatrix &K, const std::string &place)
@@ -197,7 +219,8 @@ class ModeCount
 public:
   ModeCount(const Machine &machine, const SuperpositionOptions &options, const StaticShortfall &shortfall)
       : options_(options), shortfall_(shortfall), n_(machine.size()),
-        limit_(options.frequency > 0. ? two_pi * options.frequency : above_loads * fastest_load(machine))
+        limit_(options.frequency > 0. ? two_pi * options.frequency : above_loads * fastest_load(machine)),
+        tolerance_(options.tolerance > 0. || limit_ > 0. ? options.tolerance : usual_tolerance)
   {
     const auto wrong = [&](const std::string &text) { throw std::invalid_argument(options.place + ": " + text); };
     if (options.n_modes == 0)
@@ -209,46 +232,62 @@ public:
 
   int first() const { return options_.n_modes > 0 ? options_.n_modes : std::min(first_search, n_); }
 
+  /// @param asked  how many were searched for
   /// @return 0: not known from these
-  int of(const DenseModes &modes) const
+  int of(const DenseModes &modes, int asked)
   {
     const int found = int(modes.omega.size());
     if (options_.n_modes > 0)
       return std::min(options_.n_modes, found);
-    int count = 0;
-    if (limit_ > 0.)
-      count = int((modes.omega.array() <= limit_).count());
-    else
-    {
-      const VectorXd left = shortfall_.of(modes);
-      while (count < found && left[count] > options_.tolerance)
-        ++count;
-    }
-    if (count < found) // one more lies above the limit, or meets the tolerance
-      return limit_ > 0. ? std::max(1, count) : count + 1;
-    return found == n_ || found >= most_automatic ? found : 0;
+    const int by_limit     = limit_ > 0. ? std::max(1, int((modes.omega.array() <= limit_).count())) : 0;
+    const int by_tolerance = tolerance_ > 0. ? enough_for_statics(modes) : 0;
+    const int count        = std::max(by_limit, by_tolerance);
+    if (count < found || found == n_ || found < asked)
+      return std::min(count, found);
+    ended_ = found >= most_automatic;
+    return ended_ ? found : 0;
   }
 
+  bool        ended() const { return ended_; } ///< more would have been wanted
   std::string rule() const
   {
     std::ostringstream text;
     text.precision(4);
+    const auto statics = [&]
+    { text << "as many as leave at most " << 100. * tolerance_ << " % of a static deflection out"; };
     if (options_.n_modes > 0)
       text << "as many as reduction.modes says";
     else if (options_.frequency > 0.)
       text << "all up to reduction.frequency, " << options_.frequency << " Hz";
     else if (limit_ > 0.)
       text << "all up to " << above_loads << " times the highest frequency of the loads, " << limit_ / two_pi << " Hz";
-    else
-      text << "as many as leave at most " << 100. * options_.tolerance << " % of a static deflection out";
+    if (options_.n_modes <= 0 && tolerance_ > 0.)
+    {
+      text << (limit_ > 0. ? ", and at least " : "");
+      statics();
+    }
+    if (ended_)
+      text << ": the search ended at " << most_automatic;
     return text.str();
   }
 
 private:
+  /// found + 1 where all that were found do not suffice.
+  int enough_for_statics(const DenseModes &modes) const
+  {
+    const VectorXd left  = shortfall_.of(modes);
+    int            count = 0;
+    while (count < left.size() && left[count] > tolerance_)
+      ++count;
+    return count + 1;
+  }
+
   const SuperpositionOptions &options_;
   const StaticShortfall      &shortfall_;
   int                         n_;
-  double                      limit_; ///< [rad/s]; 0: by the tolerance
+  double                      limit_;     ///< [rad/s]; 0: by the tolerance
+  double                      tolerance_; ///< 0: by the limit
+  bool                        ended_ = false;
 };
 
 /// Largest |b_ij| / sqrt(b_ii b_jj) of V^T B V.
@@ -290,6 +329,40 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
                            " % of their own damping; damping = \"full\" keeps it");
 }
 
+/// Loads whose frequencies the modes do not reach, or nobody knows.
+void note_loads(const Machine &machine, const SuperpositionOptions &options, const ModeCount &rule,
+                Superposition &result)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << "modal superposition: ";
+  const double highest = result.modes.omega[result.modes.omega.size() - 1], fastest = fastest_load(machine);
+  const auto   note = [&](const std::string &way_out) { result.notes.push_back(text.str() + way_out); };
+  if (fastest > highest)
+  {
+    text << "a load has " << fastest / two_pi << " Hz, above the highest mode kept, " << highest / two_pi << " Hz; ";
+    note("give more modes");
+    return;
+  }
+  if (rule.ended())
+  {
+    text << "the search for modes ended at " << result.modes.omega.size() << ", of " << highest / two_pi << " Hz; ";
+    note("give reduction.modes, or take method = \"craig-bampton\"");
+    return;
+  }
+  if (options.n_modes > 0 || options.frequency > 0.)
+    return;
+  for (const ElementPlacement &placement : machine.model().elements())
+    if (placement.element->work() == mechanism::Work::input)
+    {
+      text << "\"" << placement.name
+           << "\" feeds the machine with a force whose frequencies are not known, and modes up to " << highest / two_pi
+           << " Hz are kept without it; ";
+      note("give reduction.frequency, four times the highest that counts");
+      return;
+    }
+}
+
 } // namespace
 
 void check_superposition(const Machine &machine, const std::string &place)
@@ -300,7 +373,7 @@ void check_superposition(const Machine &machine, const std::string &place)
   for (const int i : machine.linear().virtual_coordinates())
     refuse(place, "\"" + machine.coordinate_name(i) + "\" is a virtual coordinate without mass", other_methods);
   std::string drive;
-  if (const std::string rotor = driven_rotor(machine, drive); !rotor.empty())
+  if (const std::string rotor = driven_body(machine, drive); !rotor.empty())
     refuse(place, "\"" + drive + "\" turns \"" + rotor + "\", whose angle is no vibration about a position",
            other_methods);
 }
@@ -312,13 +385,13 @@ Superposition superpose(const Machine &machine, const VectorXd &q, const Superpo
   refuse_massless(machine, system.M, options.place);
   refuse_free_motions(machine, system.M, lowest(system, 1), options.place);
   const StaticShortfall shortfall(machine, factor(machine, system.K, options.place));
-  const ModeCount       rule(machine, options, shortfall);
+  ModeCount             rule(machine, options, shortfall);
   DenseModes            modes;
   int                   count = 0;
   for (int asked = rule.first(); count == 0; asked *= 2)
   {
     modes = lowest(system, asked);
-    count = rule.of(modes);
+    count = rule.of(modes, std::min(asked, machine.size()));
   }
   Superposition result;
   result.modes = {modes.omega.head(count), modes.V.leftCols(count), options.diagonal_damping};
@@ -327,6 +400,7 @@ Superposition superpose(const Machine &machine, const VectorXd &q, const Superpo
     result.static_residual = shortfall.of(modes)[count - 1];
   result.coupling = damping_between_modes(machine, result.modes.V);
   tell(options, rule.rule(), result);
+  note_loads(machine, options, rule, result);
   return result;
 }
 

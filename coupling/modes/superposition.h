@@ -13,7 +13,7 @@ struct SuperpositionOptions
 {
   int                      n_modes          = -1;    ///< below zero: by `frequency`, the loads or `tolerance`
   double                   frequency        = 0.;    ///< [Hz] up to which modes are kept; 0: four times the loads'
-  double                   tolerance        = 0.01;  ///< of static deflections, where no load has a frequency
+  double                   tolerance        = 0.;    ///< of static deflections; 0: 0.01 where no frequency is known
   bool                     diagonal_damping = false; ///< what couples modes is left out
   std::vector<std::string> open{};                   ///< elements that the averaged system has open
   std::string              place{};                  ///< heads messages: "portal.toml:60: reduction"
@@ -28,6 +28,10 @@ struct Superposition
   std::vector<std::string> statements{}, notes{};
 };
 
+/// Refuses what can be known without the modes: joints, virtual coordinates, bodies that a drive turns.
+/// @throws std::invalid_argument naming it
+void check_superposition(const Machine &machine, const std::string &place);
+
 /**
  * Modes of the averaged system, the base with the stiffness of all elements engaged at q as in linearised_modes(),
  *
@@ -38,7 +42,7 @@ struct Superposition
  *
  *     1 - sum_j (w.v_j)^2 / omega_j^2  /  w^T (C + W K_e W^T)^-1 w,
  *
- * which is what `tolerance` bounds where no load has a frequency, and what is noted where it is more.
+ * which is what `tolerance` bounds, and what is noted where it is more than a twentieth.
  *
  * Source: (5.5.3/8 to 13); docs/theory/reduction.md, "Modal superposition".
  *
@@ -47,9 +51,6 @@ struct Superposition
  *         virtual coordinates, coordinates without mass, motions without stiffness such as a drive that turns freely,
  *         each named; more modes than coordinates, or none.
  */
-/// Refuses what can be known without the modes: joints, virtual coordinates, rotors that a drive turns.
-void check_superposition(const Machine &machine, const std::string &place);
-
 Superposition superpose(const Machine &machine, const Eigen::VectorXd &q, const SuperpositionOptions &options);
 
 } // namespace gestell::coupling

@@ -29,6 +29,7 @@ struct ModelFacts
   int modes      = -1; ///< kept internal modes of the frame
   int nonlinear  = -1; ///< measures of the nonlinear elements, the size of a Newton step
   int frame_dofs = -1; ///< coordinates of the unreduced frame
+  int superposed = -1; ///< coordinates of frame and mechanism that modes stand for
   int cells      = -1; ///< finite elements
 
   double frame_mass      = std::numeric_limits<double>::quiet_NaN(); ///< [kg]

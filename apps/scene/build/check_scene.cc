@@ -1,6 +1,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/stand_in_frame.h"
+#include "apps/scene/build/superposed_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/machine/configuration/sticking_conflict.h"
@@ -37,7 +38,10 @@ std::vector<std::string> check_scene(const Scene &scene)
   auto machine = machine_to_check(scene);
   scene_signals(scene, machine);
   if (scene.reduction.superposition)
+  {
+    refuse_turning(scene);
     coupling::check_superposition(machine, scene.reduction.options.place);
+  }
   if (coupling::has_joints(machine) && !places_known(scene))
     check_start_names(scene, machine);
   else

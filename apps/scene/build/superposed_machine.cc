@@ -4,9 +4,10 @@
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
-#include <cmath>
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace gestell::apps
 {
@@ -16,7 +17,8 @@ namespace
 
 constexpr double kept_off_limit = 0.95; ///< share of 2 / omega_max
 constexpr double step_by_itself = 0.25; ///< of it: the period of the highest mode is right to 1 %
-constexpr double worth_a_note   = 0.02; ///< share of the kinetic energy of a start
+constexpr double worth_a_note   = 0.02; ///< share of the energy of a start
+constexpr double many_steps     = 1e7;
 
 Eigen::MatrixXd mass_projection(const coupling::Machine &machine, const Eigen::MatrixXd &V)
 {
@@ -30,7 +32,43 @@ Eigen::MatrixXd mass_projection(const coupling::Machine &machine, const Eigen::M
   return projection;
 }
 
-/// A start whose rotors turn is no vibration about a position.
+/// [s] 2 / omega_max with all elements in the stiffest branch of their laws, and 1 / lambda_max of the dampers that act
+/// there, p' = -lambda p.
+std::pair<double, double> largest_steps(const coupling::Machine &machine)
+{
+  Eigen::MatrixXd K, D;
+  coupling::stiffest_matrices(machine, Eigen::VectorXd::Zero(machine.size()), K, D);
+  const Eigen::MatrixXd M     = coupling::dense_mass(machine);
+  const auto            modes = coupling::dense_modes(coupling::dense_stiffness(machine) + K, M);
+  const Eigen::MatrixXd B     = coupling::dense_damping(machine) + D;
+  const double          decay = coupling::dense_modes(0.5 * (B + B.transpose()), M).omega.maxCoeff(); // sqrt(lambda)
+  return {2. / modes.omega.maxCoeff(), 1. / (decay * decay)};
+}
+
+/// What the modes do not carry of an energy of the start; empty: little.
+std::string lost(const std::string &energy, double whole, double in_modes)
+{
+  if (!(whole - in_modes > worth_a_note * whole))
+    return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << "modal superposition: the modes kept carry " << 100. * std::max(0., in_modes / whole) << " % of the "
+       << energy << " energy of the given start, which is changed by the rest; give more modes";
+  return text.str();
+}
+
+double energy_of(const coupling::Machine &machine, const Eigen::VectorXd &x, bool kinetic)
+{
+  Eigen::VectorXd product(x.size());
+  if (kinetic)
+    machine.linear().mass_times(x, product);
+  else
+    machine.linear().stiffness_times(x, product);
+  return x.dot(product);
+}
+
+} // namespace
+
 void refuse_turning(const Scene &scene)
 {
   if (scene.start.rule != StartRule::steady)
@@ -42,40 +80,15 @@ void refuse_turning(const Scene &scene)
                                   "method = \"craig-bampton\"");
 }
 
-double stability_limit(const coupling::Machine &machine)
-{
-  Eigen::MatrixXd K, D;
-  coupling::stiffest_matrices(machine, Eigen::VectorXd::Zero(machine.size()), K, D);
-  const auto modes = coupling::dense_modes(coupling::dense_stiffness(machine) + K, coupling::dense_mass(machine));
-  return 2. / modes.omega.maxCoeff();
-}
-
-/// What the modes do not carry of the motion at the start; empty: little.
-std::string lost_motion(const coupling::Machine &whole, const Eigen::VectorXd &v, const Eigen::VectorXd &in_modes)
-{
-  Eigen::VectorXd momentum(v.size());
-  whole.linear().mass_times(v, momentum);
-  const double energy = v.dot(momentum), lost = energy - in_modes.squaredNorm();
-  if (!(lost > worth_a_note * energy))
-    return "";
-  std::ostringstream text;
-  text.precision(2);
-  text << "modal superposition: the modes kept carry " << 100. * (1. - lost / energy)
-       << " % of the kinetic energy of the start; give more modes";
-  return text.str();
-}
-
-} // namespace
-
 SuperposedMachine superposed(const Scene &scene, const coupling::Machine &whole, const Eigen::VectorXd &q)
 {
   coupling::SuperpositionOptions options = *scene.reduction.superposition;
   options.open                           = scene.modes.open;
   coupling::Superposition found          = coupling::superpose(whole, q, options);
-  SuperposedMachine       result{whole.in_modes(found.modes), {}, {}, 0., found.statements, found.notes};
-  result.projection   = mass_projection(whole, found.modes.V);
-  result.V            = std::move(found.modes.V);
-  result.largest_step = stability_limit(result.machine);
+  SuperposedMachine       result{whole.in_modes(found.modes), {}, {}, 0., 0., found.statements, found.notes};
+  result.projection                                    = mass_projection(whole, found.modes.V);
+  result.V                                             = std::move(found.modes.V);
+  std::tie(result.largest_step, result.shortest_decay) = largest_steps(result.machine);
   return result;
 }
 
@@ -86,29 +99,46 @@ coupling::InitialState start_in_modes(const Scene &scene, coupling::Machine &mac
   coupling::InitialState state = start;
   state.q                      = projection * start.q;
   state.v                      = projection * start.v;
-  if (const std::string text = lost_motion(whole, start.v, state.v); !text.empty())
-    state.notes.push_back(text);
   if (scene.start.rule == StartRule::rest)
+  {
     state.q = coupling::static_equilibrium(machine, state, coupling::Drift::none).q;
+    return state;
+  }
+  for (const bool kinetic : {true, false})
+  {
+    const std::string text =
+        lost(kinetic ? "kinetic" : "elastic", energy_of(whole, kinetic ? start.v : start.q, kinetic),
+             energy_of(machine, kinetic ? state.v : state.q, kinetic));
+    if (!text.empty())
+      state.notes.push_back(text);
+  }
   return state;
 }
 
-std::string keep_stable_step(double largest, RunRequest &run)
+std::string keep_stable_step(double largest, double decay, RunRequest &run)
 {
   coupling::MethodOptions &method = run.options.method;
   if (method.method != "central-difference")
     return "";
+  std::ostringstream text;
   if (!run.step_given)
   {
-    method.step = step_by_itself * largest;
-    return "";
+    method.step        = std::min(step_by_itself * largest, decay);
+    const double steps = (run.options.end - run.options.begin) / method.step;
+    if (steps > many_steps)
+      text << "central differences take " << steps << " steps of " << method.step << " s, as the fastest motion of the "
+           << "modes kept asks for; keep fewer modes, or take method = \"exact\"";
+    return text.str();
   }
-  if (method.step <= kept_off_limit * largest)
-    return "";
-  std::ostringstream text;
-  text << "run.step is " << method.step << " s, but central differences are stable up to 2 / omega_max = " << largest
-       << " s of the modes kept; " << kept_off_limit * largest << " s is taken";
-  method.step = kept_off_limit * largest;
+  if (method.step > kept_off_limit * largest)
+  {
+    text << "run.step is " << method.step << " s, but central differences are stable up to 2 / omega_max = " << largest
+         << " s of the modes kept; " << kept_off_limit * largest << " s is taken";
+    method.step = kept_off_limit * largest;
+  }
+  else if (method.step > decay)
+    text << "run.step is " << method.step << " s, but dampers end motions within " << decay
+         << " s, which central differences do not show with longer steps; take a smaller one, or method = \"exact\"";
   return text.str();
 }
 

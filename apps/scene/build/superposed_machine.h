@@ -3,18 +3,17 @@
 #include "apps/scene/scene.h"
 #include "coupling/modes/superposition.h"
 
-#include <functional>
-
 namespace gestell::apps
 {
 
-/// A machine in modes p, and how it hangs together with the one it is made of, q = V p.
+/// A machine in modes p, and how it relates to the one it is made of, q = V p.
 struct SuperposedMachine
 {
   coupling::Machine        machine;
-  Eigen::MatrixXd          V;            ///< [n x m]
-  Eigen::MatrixXd          projection;   ///< [m x n] V^T M
-  double                   largest_step; ///< [s] 2 / omega_max with all elements in the stiffest branch of their laws
+  Eigen::MatrixXd          V;              ///< [n x m]
+  Eigen::MatrixXd          projection;     ///< [m x n] V^T M
+  double                   largest_step;   ///< [s] 2 / omega_max with all elements in the stiffest branch of their laws
+  double                   shortest_decay; ///< [s] of motions that dampers end alone, 1 / lambda_max of V^T B V
   std::vector<std::string> statements, notes;
 };
 
@@ -28,8 +27,11 @@ coupling::InitialState start_in_modes(const Scene &scene, coupling::Machine &mac
                                       const Eigen::MatrixXd &projection, const coupling::InitialState &start);
 
 /// A step of central differences that keeps omega_max h <= 2, where the scene gives a longer one or none.
-/// @param largest  [s]
+/// @param largest, decay  [s] of the machine
 /// @return what is to be said of it; empty: nothing
-std::string keep_stable_step(double largest, RunRequest &run);
+std::string keep_stable_step(double largest, double decay, RunRequest &run);
+
+/// Refuses a steady start with rotors that turn.
+void refuse_turning(const Scene &scene);
 
 } // namespace gestell::apps

@@ -164,10 +164,13 @@ const std::vector<Key> &run_keys()
   const coupling::RunOptions    run;
   const coupling::MethodOptions own;
   static const std::vector<Key> keys = joined(
-      {{key::choice("method", method_names(), true, "integrator"),
-        key::number("step", kind::time,
-                    "fixed step; with `tolerance` the largest step, by default a fiftieth of the run and an eighth of "
-                    "the shortest period of a load")
+      {{key::choice(
+            "method", method_names(), true,
+            "integrator; in modes (`reduction.method = \"modal\"`) `central-difference` unless another is given"),
+        key::number(
+            "step", kind::time,
+            "fixed step; with `tolerance` the largest step, by default a fiftieth of the run and an eighth of "
+            "the shortest period of a load. Central differences in modes take a quarter of their limit by themselves")
             .above_zero()
             .by_default("by `tolerance`"),
         key::number(

@@ -63,7 +63,8 @@ std::string MomentaryModes::warning() const
        << " % of " << looks_ << " instants the machine of the moment had frequencies more than "
        << 100. * allowed_difference << " % away from them, the most mode " << mode_ << " at t = " << t_ << " s with "
        << omega_ / two_pi << " Hz in place of " << averaged_[mode_ - 1] / two_pi
-       << " Hz; see that more modes change nothing, or take method = \"craig-bampton\"";
+       << " Hz; see that more modes change nothing (modes.open names contacts that are open most of the time), or take "
+          "method = \"craig-bampton\"";
   return text.str();
 }
 

@@ -47,8 +47,10 @@ TEST(ReductionMethods, TakeTheirOwnKeysAndRefuseThoseOfOthers)
     for (const auto &[key, value] : values)
     {
       const std::string text = reduced_by(method.name, key + " = " + value + "\n");
-      if (method.takes(key))
-        EXPECT_NO_THROW(read(text)) << method.name;
+      if (method.name == "modal" && method.takes(key))
+        EXPECT_NO_THROW(read(text)); // the motor of this machine is what it refuses
+      else if (method.takes(key))
+        EXPECT_EQ(test::complaint(text), "") << method.name;
       else
       {
         const std::string message = test::complaint(text);

@@ -103,6 +103,33 @@ TEST(ErrorBudget, IsNearTheTrueErrorOfStepsAndModes)
   }
 }
 
+/// Modes count against the coordinates of frame and mechanism together, also where the frame has but one.
+TEST(ErrorBudget, OfASuperpositionCountsTheModesLeftOut)
+{
+  std::string text =
+      "name = 'few'\n[frame]\nmass = [[1]]\nstiffness = [[4e5]]\n[frame.interface.tip]\n"
+      "rows = { ux = 1 }\n[reduction]\nmethod = 'modal'\nmodes = 2\n"
+      "[element.load]\ntype = 'force'\nfrom = 'frame.tip'\nto = 'ground'\ndirection = [1, 0, 0]\n"
+      "constant = '30 N'\nharmonics = [{ amplitude = '40 N', frequency = '110 Hz' }]\n[output.signals]\nx = "
+      "'frame.tip.ux'\n[run]\nmethod = 'exact'\ntolerance = 1e-9\nend = 0.05\n";
+  std::string before = "frame.tip";
+  for (const std::string name : {"a", "b", "c"})
+  {
+    text += "[body." + name + "]\ntype = 'slider'\naxis = [1, 0, 0]\nmass = 1\n[element.s" + name +
+            "]\ntype = 'spring-damper'\nfrom = '" + name + "'\nto = '" + before +
+            "'\ndirection = [1, 0, 0]\nstiffness = 4e5\n";
+    before = name;
+  }
+  const Read   read(text);
+  const Scene &scene   = read.scene;
+  const auto   outputs = budget_outputs(scene, "x.max");
+  const auto   budget  = error_budget(scene, outputs, answer_of(scene, {}, outputs));
+  const auto   truth   = answer_of(scene, {1., 4}, outputs);
+  const double error   = std::abs(budget.entries.at(0).value - truth.values.at(0));
+  EXPECT_GT(error, 1e-3 * truth.values[0]);
+  EXPECT_GE(*budget.entries[0].reduction.error, 0.5 * error);
+}
+
 TEST(ErrorBudget, HasNothingToTellOfPartsThatDoNotErr)
 {
   const Read        whole(rod("method = 'none'", by_steps));
