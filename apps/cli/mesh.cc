@@ -26,12 +26,13 @@ struct MeshCommandOptions
   std::string size; ///< a length such as "80 mm", plain numbers in m; empty: chosen for some 25 000 cells
   std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
   double      max_cells = 2e6;
-  std::string gap;                   ///< a length: solids at most that far apart are joined
-  std::string density;               ///< solids are weighed with; steel by default
-  std::string defeature;             ///< a length: smaller faces and edges are removed
-  std::string overlaps  = "refused"; ///< or "once"
-  int         bodies    = 1;         ///< expected
-  bool        selectors = false;     ///< surfaces as entries of a scene
+  std::string gap;                      ///< a length: solids at most that far apart are joined
+  std::string density;                  ///< solids are weighed with; steel by default
+  std::string defeature;                ///< a length: smaller faces and edges are removed
+  std::string overlaps  = "refused";    ///< or "once"
+  std::string plates    = "tetrahedra"; ///< or "swept"
+  int         bodies    = 1;            ///< expected
+  bool        selectors = false;        ///< surfaces as entries of a scene
 };
 
 /// A quantity given on the command line, in SI units; 0 if it is not given.
@@ -97,6 +98,7 @@ fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommand
   frame.mesh.defeature = length_option("--defeature", mesh.defeature);
   frame.mesh.bodies    = mesh.bodies;
   frame.mesh.overlaps  = mesh.overlaps == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  frame.mesh.plates    = mesh.plates == "swept" ? fem::Plates::swept : fem::Plates::tetrahedra;
   frame.mesh.max_cells = mesh.max_cells;
   frame.mesh.place     = "gestell mesh";
   const double density = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
@@ -189,21 +191,24 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
 Command mesh_command()
 {
   const auto own = std::make_shared<MeshCommandOptions>();
-  return {"mesh",
-          "mesh a CAD file; report its quality, surfaces and solids",
-          {"gestell mesh meshes/press_frame.step --size '80 mm'"},
-          CommandInput::cad,
-          {{"--size", &own->size, "element size, such as \"80 mm\""},
-           {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
-           CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
-           {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},
-           CommandOption{"--bodies", &own->bodies, "number of bodies expected that do not hang together"}.above_zero(),
-           CommandOption{"--overlaps", &own->overlaps, "refused, or once: a common part of solids belongs to the first"}
-               .one_of({"refused", "once"}),
-           {"--density", &own->density, "what solids are weighed with, such as \"2700 kg/m^3\" (steel)"},
-           {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
-           {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
-          [own](const CommonOptions &options) { return make_mesh(options, *own); }};
+  return {
+      "mesh",
+      "mesh a CAD file; report its quality, surfaces and solids",
+      {"gestell mesh meshes/press_frame.step --size '80 mm'"},
+      CommandInput::cad,
+      {{"--size", &own->size, "element size, such as \"80 mm\""},
+       {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
+       CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
+       {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},
+       CommandOption{"--bodies", &own->bodies, "number of bodies expected that do not hang together"}.above_zero(),
+       CommandOption{"--overlaps", &own->overlaps, "refused, or once: a common part of solids belongs to the first"}
+           .one_of({"refused", "once"}),
+       CommandOption{"--plates", &own->plates, "tetrahedra, or swept: hexahedra through the thickness of walls"}.one_of(
+           {"tetrahedra", "swept"}),
+       {"--density", &own->density, "what solids are weighed with, such as \"2700 kg/m^3\" (steel)"},
+       {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
+       {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
+      [own](const CommonOptions &options) { return make_mesh(options, *own); }};
 }
 
 } // namespace gestell::apps

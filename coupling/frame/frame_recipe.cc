@@ -155,7 +155,7 @@ public:
   }
   void add(const std::string &name, const fem::MeshOptions &value)
   {
-    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, place] = value;
+    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, plates, layers, place] = value;
     add(name + ".size", size);
     add(name + ".surface", surface_size);
     add(name + ".max_cells", max_cells);
@@ -164,6 +164,8 @@ public:
     add(name + ".defeature", defeature);
     add(name + ".overlaps", overlaps);
     add(name + ".curved", curved);
+    add(name + ".plates", plates);
+    add(name + ".layers", layers);
   }
   void add(const fem::FrameSpecification &value)
   {

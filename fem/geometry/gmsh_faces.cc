@@ -133,9 +133,8 @@ void find_neighbours(std::map<int, Face> &faces, const Mesh &mesh, const std::ve
     }
 }
 
-} // namespace
-
-std::vector<Face> outer_faces(double unit, double diagonal)
+/// Those that bound so many solids.
+std::vector<Face> faces_of_geometry(std::size_t n_solids, double unit, double diagonal)
 {
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, 2);
@@ -146,13 +145,25 @@ std::vector<Face> outer_faces(double unit, double diagonal)
   {
     std::vector<int> solids, curves;
     gmsh::model::getAdjacencies(2, tag, solids, curves);
-    if (solids.size() != 1)
+    if (solids.size() != n_solids)
       continue;
     faces.push_back(face_of_geometry(tag, unit, no_names));
     faces.back().edges = curves;
     recognise(faces.back(), relative_tolerance * diagonal);
   }
   return faces;
+}
+
+} // namespace
+
+std::vector<Face> outer_faces(double unit, double diagonal)
+{
+  return faces_of_geometry(1, unit, diagonal);
+}
+
+std::vector<Face> inner_faces(double unit, double diagonal)
+{
+  return faces_of_geometry(2, unit, diagonal);
 }
 
 std::vector<Face> faces_of_skin(const Mesh &mesh, const std::vector<int> &skin_surface,

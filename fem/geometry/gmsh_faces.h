@@ -18,6 +18,9 @@ namespace gestell::fem
  */
 std::vector<Face> outer_faces(double unit, double diagonal);
 
+/// The same of those between two solids.
+std::vector<Face> inner_faces(double unit, double diagonal);
+
 /**
  * The surfaces of a mesh without geometry, from the skin's triangles: normals are those of the facets.
  *

@@ -15,6 +15,7 @@
 #include "fem/mesh/mesh_groups.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/mesh/mesh_size.h"
+#include "fem/mesh/plates/swept_mesh.h"
 #include "fem/mesh/point_freedom.h"
 #include "fem/mesh/watched_meshing.h"
 #include "fem/values/vector3.h"
@@ -183,12 +184,31 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
   return options;
 }
 
+/// @return whether plates are to be swept and could be; a note says why not.
+bool sweep(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
+{
+  if (options.plates != Plates::swept)
+    return false;
+  try
+  {
+    result.extracted = swept_mesh(result.model, result.selection, specification, options);
+    return true;
+  }
+  catch (const NotSwept &reason)
+  {
+    result.model.notes.push_back("plates are not swept but meshed in tetrahedra, as " + std::string(reason.what()));
+    return false;
+  }
+}
+
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
                    MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
-  const bool               script_has_sizes = has_size_fields();
-  const MeshOptions        options          = prepare_geometry(result, specification, missing);
-  const auto               report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  const bool        script_has_sizes = has_size_fields();
+  const MeshOptions options          = prepare_geometry(result, specification, missing);
+  const auto        report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  if (sweep(result, specification, options))
+    return judge_memory(result, specification);
   std::optional<SizeField> field;
   if (!refined.empty())
     set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
@@ -245,7 +265,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
     throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
                                 specification.cad + " is a mesh already; remove the size, or give the geometry.");
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
-  result.extracted.mesh.made_by_script = true;
+  result.extracted.mesh.takes_one_size = true;
   require_straight(result.extracted, specification);
   const Mesh &mesh = result.extracted.mesh;
   if (mesh.n_cells() > options.max_cells)

@@ -275,7 +275,7 @@ std::map<Key, int> surfaces_of(const MeshNodes &nodes)
 }
 
 /// Quadrilaterals first, with their halves, then triangles.
-void add_skin(const std::vector<CellFace> &outer, const std::map<Key, int> &surface_of, ExtractedMesh &result)
+void add_skin(const std::vector<CellFace> &outer, const SurfaceOf &surface_of, ExtractedMesh &result)
 {
   Mesh &mesh = result.mesh;
   for (const std::size_t n : {4u, 3u})
@@ -284,8 +284,7 @@ void add_skin(const std::vector<CellFace> &outer, const std::map<Key, int> &surf
       const std::vector<int> corners = corners_of(mesh, face);
       if (corners.size() != n)
         continue;
-      const auto surface = surface_of.find(face.key);
-      result.skin_surface.insert(result.skin_surface.end(), n - 2, surface == surface_of.end() ? 0 : surface->second);
+      result.skin_surface.insert(result.skin_surface.end(), n - 2, surface_of(corners));
       mesh.skin.push_back({corners[0], corners[1], corners[2]});
       if (n == 3)
         continue;
@@ -296,6 +295,17 @@ void add_skin(const std::vector<CellFace> &outer, const std::map<Key, int> &surf
 
 } // namespace
 
+void add_skin(ExtractedMesh &result, const std::string &head, int bodies, const SurfaceOf &surface_of)
+{
+  Mesh            &mesh = result.mesh;
+  std::vector<int> parent(mesh.n_cells());
+  std::iota(parent.begin(), parent.end(), 0);
+  const std::vector<CellFace> outer = outer_faces(mesh, parent, head);
+  add_skin(outer, surface_of, result);
+  require_matching(mesh, head);
+  check_bodies(mesh, parent, bodies, head);
+}
+
 ExtractedMesh extract_mixed(const CadModel &model, const std::string &head, const ExtractionOptions &options)
 {
   ExtractedMesh result;
@@ -303,14 +313,14 @@ ExtractedMesh extract_mixed(const CadModel &model, const std::string &head, cons
   MeshNodes     nodes(model.unit, options.gap, head);
   read_cells(model, head, nodes, mesh);
   note_straight_sides(largest_offset(model, head, nodes), mesh);
-  result.node = nodes.tags();
-
-  std::vector<int> parent(mesh.n_cells());
-  std::iota(parent.begin(), parent.end(), 0);
-  const std::vector<CellFace> outer = outer_faces(mesh, parent, head);
-  add_skin(outer, surfaces_of(nodes), result);
-  require_matching(mesh, head);
-  check_bodies(mesh, parent, options.bodies, head);
+  result.node                       = nodes.tags();
+  const std::map<Key, int> surfaces = surfaces_of(nodes);
+  add_skin(result, head, options.bodies,
+           [&](const std::vector<int> &corners)
+           {
+             const auto surface = surfaces.find(key_of(corners));
+             return surface == surfaces.end() ? 0 : surface->second;
+           });
   if (model.meshed)
     note_nodes(mesh, nodes);
   return result;

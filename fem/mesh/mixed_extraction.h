@@ -3,7 +3,9 @@
 #include "fem/geometry/cad_model.h"
 #include "fem/mesh/extracted_mesh.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace gestell::fem
 {
@@ -17,5 +19,16 @@ namespace gestell::fem
  *         meets triangles of others, or there is another number of bodies than wanted.
  */
 ExtractedMesh extract_mixed(const CadModel &model, const std::string &head, const ExtractionOptions &options);
+
+/// Tag of the surface on which an outer face with these corners (points of the mesh) lies, 0 for none.
+using SurfaceOf = std::function<int(const std::vector<int> &corners)>;
+
+/**
+ * The faces of one cell only, outward, with their surfaces.
+ *
+ * @param bodies  expected number that hang together by common faces; 0: any
+ * @throws std::invalid_argument where triangles meet quadrilaterals, or for another number of bodies.
+ */
+void add_skin(ExtractedMesh &mesh, const std::string &head, int bodies, const SurfaceOf &surface_of);
 
 } // namespace gestell::fem

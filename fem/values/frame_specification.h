@@ -123,6 +123,13 @@ enum class Overlaps
   once ///< it belongs to the solid that comes first in the file
 };
 
+/// How solids of plates are meshed.
+enum class Plates
+{
+  tetrahedra, ///< as all others
+  swept       ///< in hexahedra and prisms through their thickness, where the solids can be divided so
+};
+
 struct MeshOptions
 {
   double                        size = 0.;    ///< [m]
@@ -133,6 +140,8 @@ struct MeshOptions
   double                        defeature = 0.; ///< [m]: faces and edges smaller than this are removed
   Overlaps                      overlaps  = Overlaps::refused;
   bool                          curved    = false; ///< sides follow the geometry
+  Plates                        plates    = Plates::tetrahedra;
+  int                           layers    = 1; ///< of cells through a swept plate, at least
   std::string                   place;
 };
 

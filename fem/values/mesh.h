@@ -29,7 +29,7 @@ struct Mesh
   /// Of a mesh of tetrahedra alone: middles of edges that are curved, by the points at their ends, the smaller first.
   std::map<std::array<int, 2>, Point3> middles;
 
-  bool made_by_script = false; ///< which takes one size for all: no field of sizes refines it
+  bool takes_one_size = false; ///< swept, or made by a script: no field of sizes refines it
 
   std::vector<std::string> notes;      ///< what a user should look at in the geometry and the mesh
   std::vector<std::string> statements; ///< what is as it should be

@@ -301,7 +301,7 @@ public:
    * A mesh with `growth` times the coordinates of the last one, or as many as are allowed; none where those are hardly
    * more than the last one had, or gmsh makes no finer mesh, and stopped() says so.
    *
-   * @param by_itself  a script made the mesh, which knows one size alone.
+   * @param by_itself  a script or the sweeping of plates made the mesh, which know one size alone.
    */
   std::optional<fem::Mesh> next(const Computed &last, bool by_itself, double growth, const Progress &progress)
   {
@@ -350,7 +350,7 @@ private:
     return fem::make_mesh(specification_, progress, fem::refine(*last.mesh_error, last.eta2, refinement));
   }
 
-  /// Of a script that meshes by itself.
+  /// Of plates that are swept, or a script that meshes by itself.
   fem::Mesh finer_everywhere(double size, double growth, const Progress &progress)
   {
     specification_.mesh.size = size * std::pow(growth, -1. / 3.);
@@ -423,7 +423,7 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
     }
     begin               = cpu_seconds();
     const double growth = std::clamp(bound / (aim * options.tolerance), least_growth, greatest_growth);
-    mesh                = meshes.next(last, mesh->made_by_script, growth, phases);
+    mesh                = meshes.next(last, mesh->takes_one_size, growth, phases);
     result.stopped      = meshes.stopped();
   }
   if (options.compliances)

@@ -53,6 +53,12 @@ const std::vector<Key> &mesh_keys()
       key::choice("overlaps", {"refused", "once"}, true,
                   "solids that overlap would count twice what they share; `\"once\"` gives it to the solid that comes "
                   "first in the file"),
+      key::choice("plates", {"tetrahedra", "swept"}, true,
+                  "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
+                  "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
+                  "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
+                  "other face all is meshed in tetrahedra, and a note names the face"),
+      key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(1.),
       key::truth(
           "curved", false,
           "sides of tetrahedra follow bores, fillets and other curved faces, so that coarse elements keep the "

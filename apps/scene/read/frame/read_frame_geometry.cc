@@ -192,6 +192,10 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
   mesh.defeature = table.value("defeature");
   mesh.curved    = table.truth("curved");
   mesh.overlaps  = table.choice("overlaps") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
+  mesh.plates    = table.choice("plates") == "swept" ? fem::Plates::swept : fem::Plates::tetrahedra;
+  mesh.layers    = table.whole("layers");
+  if (mesh.layers < 1)
+    throw table.error("layers", "needs the number of cells through a plate, 1 or more");
   if (mesh.bodies < 1)
     throw table.error("bodies", "needs the number of bodies expected, 1 or more");
   std::vector<std::string> own;

@@ -1,0 +1,318 @@
+#include "fem/mesh/plates/swept_mesh.h"
+
+#include "fem/mesh/mixed_extraction.h"
+#include "fem/mesh/plates/cell_widths.h"
+#include "fem/mesh/plates/section_mesh.h"
+#include "fem/mesh/plates/swept_regions.h"
+#include "fem/mesh/watched_meshing.h"
+#include "fem/values/vector3.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+using Limits = std::array<std::vector<std::vector<double>>, 3>; // of each sheet
+
+class Sweeping
+{
+public:
+  Sweeping(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
+           const MeshOptions &options)
+      : model_(model), specification_(specification), options_(options), solids_(plate_solids(model)),
+        lattice_(lattice_with_regions(solids_, model.diagonal())), sheets_(sheets_of(lattice_))
+  {
+    (void)selection;
+    for (int d = 0; d < 3; ++d)
+      for (const Sheet &sheet : sheets_.across[d])
+        limits_[d].push_back(cell_limits(sheet, options.size, options.layers));
+    judge_cells();
+  }
+
+  ExtractedMesh mesh()
+  {
+    Mesh &mesh = result_.mesh;
+    for (const Solid &solid : model_.solids)
+      mesh.solids.push_back(solid.name);
+    std::set<std::array<int, 3>> done;
+    for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
+      if (lattice_.solid[brick] >= 0 && lattice_.region[brick] < 0)
+        if (const auto [sheet, is_new] = done.insert(sheets_at(brick)); is_new)
+          add_block(*sheet, lattice_.solid[brick]);
+    for (const SweptRegion &region : lattice_.regions)
+      add_region(region);
+    mesh.cell_solid.insert(mesh.cell_solid.end(), solid_of_prism_.begin(), solid_of_prism_.end());
+    mesh.takes_one_size = true;
+    sort_faces();
+    add_skin(result_, head_of(specification_), options_.bodies,
+             [&](const std::vector<int> &corners) { return surface_of(corners); });
+    return std::move(result_);
+  }
+
+private:
+  std::array<int, 3> sheets_at(std::size_t brick) const
+  {
+    return {sheets_.of_brick[0][brick], sheets_.of_brick[1][brick], sheets_.of_brick[2][brick]};
+  }
+
+  /// Before they are made.
+  void judge_cells() const
+  {
+    std::set<std::array<int, 3>> counted;
+    double                       n = 0.;
+    for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
+      if (lattice_.solid[brick] >= 0 && lattice_.region[brick] < 0)
+        if (const auto [sheet, is_new] = counted.insert(sheets_at(brick)); is_new)
+        {
+          double of_block = 1.;
+          for (int d = 0; d < 3; ++d)
+            of_block *= double(limits_[d][(*sheet)[d]].size() - 1);
+          n += of_block;
+        }
+    require_cells(n, "swept plates have " + text(n) + " cells", options_);
+  }
+
+  /// The point at these coordinates in the solids' axes; blocks that share a face name the same numbers.
+  int point(const Vector3 &own)
+  {
+    const auto [entry, is_new] = point_at_.try_emplace(own, static_cast<int>(result_.mesh.points.size()));
+    if (is_new)
+    {
+      own_.push_back(own);
+      result_.mesh.points.push_back(own[0] * solids_.axes[0] + own[1] * solids_.axes[1] + own[2] * solids_.axes[2]);
+    }
+    return entry->second;
+  }
+
+  void add_block(const std::array<int, 3> &sheet, int solid)
+  {
+    const auto &x = limits_[0][sheet[0]], &y = limits_[1][sheet[1]], &z = limits_[2][sheet[2]];
+    for (std::size_t k = 0; k + 1 < z.size(); ++k)
+      for (std::size_t j = 0; j + 1 < y.size(); ++j)
+        for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        {
+          std::array<int, 8> cell;
+          for (std::size_t c = 0; c < 8; ++c) // around the lower face, then around the upper one
+            cell[c] = point({x[i + ((c + 1) / 2 % 2)], y[j + (c / 2 % 2)], z[k + c / 4]});
+          result_.mesh.hexahedra.push_back(cell);
+          result_.mesh.cell_solid.push_back(solid);
+        }
+  }
+
+  /// Levels at which the cells beside a region meet one of its sides, along it; all of its layers must agree.
+  std::vector<double> levels_beside(const SweptRegion &region, int across, bool at_end, int along) const
+  {
+    const int        d = region.direction;
+    std::set<double> found;
+    bool             any = false;
+    for (int k = region.from[d]; k < region.to[d]; ++k)
+    {
+      std::set<double> in_layer;
+      for (int i = region.from[along]; i < region.to[along]; ++i)
+      {
+        Index3 beside;
+        beside[d]      = k;
+        beside[along]  = i;
+        beside[across] = at_end ? region.to[across] : region.from[across] - 1;
+        if (lattice_.at(beside) < 0)
+          continue;
+        const int sheet = sheets_.of_brick[along][lattice_.index(beside)];
+        if (sheet < 0)
+          throw NotSwept("holes across each other lie too close together");
+        for (const double level : limits_[along][sheet])
+          if (level >= lattice_.planes[along][region.from[along]] && level <= lattice_.planes[along][region.to[along]])
+            in_layer.insert(level);
+      }
+      if (!in_layer.empty() && any && in_layer != found)
+        throw NotSwept("walls beside a hole are divided in two ways");
+      if (!in_layer.empty())
+        found = in_layer, any = true;
+    }
+    found.insert(lattice_.planes[along][region.from[along]]);
+    found.insert(lattice_.planes[along][region.to[along]]);
+    std::vector<double> levels(found.begin(), found.end());
+    return any ? levels : divided(levels.front(), levels.back());
+  }
+
+  /// Of a side with nothing beside it.
+  std::vector<double> divided(double from, double to) const
+  {
+    const int           n = std::max(2, static_cast<int>(std::ceil((to - from) / options_.size)));
+    std::vector<double> levels;
+    for (int i = 0; i < n; ++i)
+      levels.push_back(from + (to - from) * i / n);
+    levels.push_back(to);
+    return levels;
+  }
+
+  std::vector<Point2> outline(const SweptRegion &region) const
+  {
+    const int    d = region.direction, a = (d + 1) % 3, b = (d + 2) % 3;
+    const double a0 = lattice_.planes[a][region.from[a]], a1 = lattice_.planes[a][region.to[a]],
+                 b0 = lattice_.planes[b][region.from[b]], b1 = lattice_.planes[b][region.to[b]];
+    std::vector<Point2> points;
+    const auto          below = levels_beside(region, b, false, a), above = levels_beside(region, b, true, a),
+               left = levels_beside(region, a, false, b), right = levels_beside(region, a, true, b);
+    for (std::size_t i = 0; i + 1 < below.size(); ++i)
+      points.push_back({below[i], b0});
+    for (std::size_t i = 0; i + 1 < right.size(); ++i)
+      points.push_back({a1, right[i]});
+    for (std::size_t i = above.size() - 1; i > 0; --i)
+      points.push_back({above[i], b1});
+    for (std::size_t i = left.size() - 1; i > 0; --i)
+      points.push_back({a0, left[i]});
+    return points;
+  }
+
+  /// Sections of the holes of a region: those through several solids stand upon each other and are one.
+  std::vector<std::vector<Point2>> sections(const SweptRegion &region) const
+  {
+    const int                        d = region.direction;
+    std::vector<std::vector<Point2>> found;
+    std::vector<double>              length;
+    std::vector<Point2>              middle;
+    for (const int h : region.holes)
+    {
+      const PlateHole &hole = solids_.holes[h];
+      const Point2     at   = {0.5 * (hole.min[0] + hole.max[0]), 0.5 * (hole.min[1] + hole.max[1])};
+      const double     size = hole.max[0] - hole.min[0];
+      std::size_t      same = 0;
+      while (same < found.size() && std::hypot(at[0] - middle[same][0], at[1] - middle[same][1]) > 0.01 * size)
+        ++same;
+      if (same == found.size())
+      {
+        found.emplace_back();
+        for (const Side &side : hole.sides)
+          found.back().push_back(side[0]);
+        length.push_back(0.);
+        middle.push_back(at);
+      }
+      else if (found[same].size() != hole.sides.size() ||
+               std::abs(found[same].front()[0] - hole.sides.front()[0][0]) > 1e-6 * size)
+        throw NotSwept("a hole goes through several solids with different sections");
+      length[same] += hole.to - hole.from;
+    }
+    const double whole = lattice_.planes[d][region.to[d]] - lattice_.planes[d][region.from[d]];
+    for (const double l : length)
+      if (std::abs(l - whole) > 1e-6 * whole)
+        throw NotSwept("holes beside each other go through different thicknesses");
+    return found;
+  }
+
+  void add_region(const SweptRegion &region)
+  {
+    const int         d       = region.direction;
+    const SectionMesh section = section_mesh(outline(region), sections(region));
+    Index3            brick   = region.from;
+    int               last    = -1;
+    for (; brick[d] < region.to[d]; ++brick[d])
+    {
+      const int sheet = sheets_.of_brick[d][lattice_.index(brick)];
+      if (sheet == last)
+        continue;
+      last               = sheet;
+      const auto &limits = limits_[d][sheet];
+      for (std::size_t k = 0; k + 1 < limits.size(); ++k)
+        add_layer(section, d, {limits[k], limits[k + 1]}, lattice_.solid[lattice_.index(brick)]);
+    }
+  }
+
+  void add_layer(const SectionMesh &section, int d, const std::array<double, 2> &levels, int solid)
+  {
+    const auto at = [&](int i, int level)
+    {
+      Vector3 own;
+      own[d]           = levels[level];
+      own[(d + 1) % 3] = section.points[i][0];
+      own[(d + 2) % 3] = section.points[i][1];
+      return point(own);
+    };
+    for (const auto &[i, j, k, l] : section.quadrilaterals)
+    {
+      result_.mesh.hexahedra.push_back(
+          {at(i, 0), at(j, 0), at(k, 0), at(l, 0), at(i, 1), at(j, 1), at(k, 1), at(l, 1)});
+      result_.mesh.cell_solid.push_back(solid);
+    }
+    for (const auto &[i, j, k] : section.triangles)
+    {
+      result_.mesh.prisms.push_back({at(i, 0), at(j, 0), at(k, 0), at(i, 1), at(j, 1), at(k, 1)});
+      solid_of_prism_.push_back(solid);
+    }
+  }
+
+  void sort_faces()
+  {
+    for (std::size_t f = 0; f < solids_.faces.size(); ++f)
+    {
+      const PlateFace &face = solids_.faces[f];
+      on_plane_[{face.direction, lattice_.plane_at(face.direction, face.level)}].push_back(static_cast<int>(f));
+    }
+  }
+
+  int surface_of(const std::vector<int> &corners) const
+  {
+    Vector3 centre{}, low = own_[corners[0]], high = low;
+    for (const int corner : corners)
+      for (int d = 0; d < 3; ++d)
+      {
+        centre[d] += own_[corner][d] / double(corners.size());
+        low[d]  = std::min(low[d], own_[corner][d]);
+        high[d] = std::max(high[d], own_[corner][d]);
+      }
+    for (int d = 0; d < 3; ++d)
+      if (low[d] == high[d])
+        if (const auto on = on_plane_.find({d, lattice_.plane_at(d, low[d])}); on != on_plane_.end())
+          for (const int f : on->second)
+            if (PlateSolids::contains(solids_.faces[f], {centre[(d + 1) % 3], centre[(d + 2) % 3]}))
+              return solids_.faces[f].tag;
+    return wall_at(centre);
+  }
+
+  /// The wall of a hole of which the middle of a cell's side is the middle of a side of the section.
+  int wall_at(const Vector3 &centre) const
+  {
+    for (const PlateHole &hole : solids_.holes)
+    {
+      const int d = hole.direction, a = (d + 1) % 3, b = (d + 2) % 3;
+      if (centre[d] < hole.from || centre[d] > hole.to)
+        continue;
+      for (std::size_t i = 0; i < hole.sides.size(); ++i)
+      {
+        const auto &[p, q] = hole.sides[i];
+        if (std::hypot(0.5 * (p[0] + q[0]) - centre[a], 0.5 * (p[1] + q[1]) - centre[b]) <
+            1e-6 * std::hypot(p[0] - q[0], p[1] - q[1]))
+          return hole.wall[i];
+      }
+    }
+    return 0;
+  }
+
+  std::vector<int>                                solid_of_prism_;
+  const CadModel                                 &model_;
+  const FrameSpecification                       &specification_;
+  const MeshOptions                              &options_;
+  PlateSolids                                     solids_;
+  BrickLattice                                    lattice_;
+  Sheets                                          sheets_;
+  Limits                                          limits_;
+  ExtractedMesh                                   result_;
+  std::map<Vector3, int>                          point_at_;
+  std::vector<Vector3>                            own_;      // of each point its coordinates in the solids' axes
+  std::map<std::pair<int, int>, std::vector<int>> on_plane_; // faces by direction and plane
+};
+
+} // namespace
+
+ExtractedMesh swept_mesh(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
+                         const MeshOptions &options)
+{
+  return Sweeping(model, selection, specification, options).mesh();
+}
+
+} // namespace gestell::fem
